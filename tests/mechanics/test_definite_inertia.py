@@ -81,3 +81,24 @@ def test_the_upper_equilibrium_of_a_spring_pendulum_is_judged() -> None:
 def test_what_is_not_definite_is_not_called_so(T: str) -> None:
     [found] = equilibria(f"coordinates: [x, y]\n{HEAD}T: {T}\nV: k*x^2/2 + g*y^2\n")
     assert found["stable"] is not True
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "needed"),
+    [
+        ("L1", "L2", ["L1*L2", "M^2"]),  # Landau, Lifshitz, Pitaevskii, section 33
+        ("2*L1", "3*L2", ["6*L1*L2", "M^2"]),
+        ("L1 + L2", "3*L2", ["3*(L1 + L2)*L2", "M^2"]),
+    ],
+)
+def test_coupled_circuits_are_stable_where_their_energy_is_positive(first, second, needed):
+    """sum L_ij q_i' q_j'/2 + sum q_i²/(2 C_i): the inductances decide alone, at any C_i."""
+    text = f"""
+coordinates: [x, y]
+parameters: {{L1: POSITIVE, L2: POSITIVE, C: POSITIVE, D: POSITIVE, M: }}
+T: ({first})*x'^2/2 + ({second})*y'^2/2 + M*x'*y'
+V: x^2/(2*C) + y^2/(2*D)
+"""
+    [found] = equilibria(text.replace("POSITIVE", "{assume: positive}"))
+    assert found["spectrum"] == [" > ".join(needed)]
+    assert found["unstable"] == [" > ".join(needed[::-1])]

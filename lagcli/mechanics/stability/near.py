@@ -61,10 +61,15 @@ class Near:
         """What is positive there: by the conditions of existence, and the minors of M."""
         if not self._definite_where_regular:
             return tuple(self.linear.point.positive)
+        open_ = [m for m in self._minors if sign_of(m, ()) is None]
+        return (*self.linear.point.positive, *open_)
+
+    @cached_property
+    def _minors(self) -> list[Expr]:
+        """The leading minors of M, all positive just where it is definite."""
         M = self.linear.M
         minors = (determinant([row[:k] for row in M[:k]]) for k in range(1, len(M) + 1))
-        open_ = [m for m in minors if m is not None and sign_of(m, ()) is None]
-        return (*self.linear.point.positive, *open_)
+        return [m for m in minors if m is not None]
 
     @cached_property
     def _definite_where_regular(self) -> bool:
@@ -116,7 +121,16 @@ class Near:
         """
         if len(self.others) == 1:
             return []
+        if self.even and self._restored and len(self._minors) == len(self.linear.M):
+            return [m for m in self._minors if sign_of(m, ()) != 1]
         return real_and_distinct(self.linear) if self.even else hurwitz_conditions(self.others)
+
+    @property
+    def _restored(self) -> bool:
+        """Whether linear equations M x'' + K x = 0 have a definite K: M then decides alone."""
+        linear = self.linear
+        symmetric = linear.has_potential and not (linear.damped or linear.gyroscopic)
+        return linear.exact and symmetric and positive_definite(linear.K, self.positive)
 
     @cached_property
     def squares(self) -> list[Expr] | None:
