@@ -207,7 +207,10 @@ class Manner:
         return turned if node.function in EVEN else Negative(turned)
 
     def _power(self, node: Power) -> Expression:
+        """(−sin(a − b))² = sin²(a − b), sums in their right sign."""
         base = node.base
+        if isinstance(base, Negative) and parity(node.exponent) == 0:
+            return self._power(Power(base.operand, node.exponent))
         if isinstance(base, Sum) and parity(node.exponent) == 0:
             like = self._sums.like(base)
             if like is not None and abs(like[0]) == 1:

@@ -37,6 +37,8 @@ def manner():
         # differences as the file has them, in products, squares, functions and sums
         ("g/(a - R)", "-g/(R - a)"),
         ("(a - R)^2*m", "m*(R - a)^2"),
+        ("m + a*sin(phi - theta)^2", "m + a*sin(theta - phi)^2"),
+        ("g/(m + sin(phi - theta)^4)", "g/(m + sin(theta - phi)^4)"),
         ("m*(a - R)*(r - m)", "m*(m - r)*(R - a)"),
         ("g + m*(a - R)", "g - m*(R - a)"),
         ("cos(phi - theta)", "cos(theta - phi)"),
