@@ -1,47 +1,20 @@
 """What people write from the habit of a book or another program, and what it is here.
 
-Each table has one kind of habit; the reader looks into it before it searches for names that
-are spelled alike.
+Each table has one kind of habit, those of single words in `habits.json`; the reader looks into
+it before it searches for names that are spelled alike.
 """
 
 from __future__ import annotations
 
+import json
 import re
 import unicodedata
 from collections.abc import Collection
-from typing import get_args
+from functools import cache
+from pathlib import Path
+from typing import Any, get_args
 
 from lagcli.problem_data import Assumption
-
-#: Words for the keys of a problem -> the key.
-KEYS = {
-    "kinetic": "T", "kinetic_energy": "T", "potential": "V", "potential_energy": "V", "U": "V",
-    "lagrangian": "L", "Lagrangian": "L", "hamiltonian": "H", "Hamiltonian": "H",
-    "damping": "dissipation", "rayleigh": "dissipation",
-    "name": "title", "reference": "source", "variables": "coordinates", "coords": "coordinates",
-    **dict.fromkeys(
-        ("generalized_coordinates", "generalised_coordinates", "q", "dofs"), "coordinates"),
-    "K": "T", "KE": "T", "PE": "V", "bodies": "points",
-    **dict.fromkeys(("ics", "ic", "y0", "state", "start", "init"), "initial"),
-    **dict.fromkeys(("holonomic", "nonholonomic", "conditions"), "constraints"),
-    "drag": "dissipation", "to": "until", "weight": "mass",
-    **dict.fromkeys(("val", "default"), "value"),
-    **dict.fromkeys(("pos", "r", "at", "location", "coords"), "position"),
-    "constants": "parameters", "params": "parameters", "values": "parameters",
-    "initial_conditions": "initial", "initial_state": "initial", "Q": "forces", "m": "mass",
-    "lambda": "multiplier", "dof": "degrees_of_freedom", "solve": "where", "system": "title",
-    **dict.fromkeys(("e", "cor", "elasticity", "coefficient_of_restitution"), "restitution"),
-    "force": "forces", "external_forces": "forces", "particles": "points", "masses": "points",
-    "constraint": "constraints", "symmetry": "symmetries", "simulate": "simulation",
-    **dict.fromkeys(
-        ("time", "T", "t_end", "tend", "t_max", "tmax", "end", "duration", "tspan", "t_span",
-         "stop", "t1", "tf", "t_final"), "until"),
-    **dict.fromkeys(("tol", "tolerance", "rtol", "precision"), "accuracy"),
-    **dict.fromkeys(("solver", "integrator"), "method"),
-    **dict.fromkeys(("author", "book"), "source"),
-    **dict.fromkeys(("comment", "note", "notes"), "description"),
-    "run": "simulation", "questions": "find", "expected": "expect", "answers": "expect",
-}  # fmt: skip
 
 #: Keys whose value is a map or a list.
 MAPS = frozenset(
@@ -70,18 +43,6 @@ _WITH_UNIT = re.compile(
     r"(?P<unit>(?:[kmcµu]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa)|rad|deg|min|h|mol)(?:[ \^*/].*)?)"
 )
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
-#: Functions of other programs, by those of the format.
-_WRITTEN_OUT = {
-    "heaviside": "(1 + sign({}))/2",
-    "Heaviside": "(1 + sign({}))/2",
-    "step": "(1 + sign({}))/2",
-    "hypot": "sqrt({}^2 + {}^2)",
-    "cbrt": "{}^(1/3)",
-    "log10": "log({})/log(10)",
-    "log2": "log({})/log(2)",
-    "radians": "{}*pi/180",
-    "degrees": "{}*180/pi",
-}
 IN_FULL = {
     **dict.fromkeys(("integrate", "Integral", "int", "integral"), "write the antiderivative"),
     **dict.fromkeys(("sum", "Sum", "prod", "Product"), "write each term"),
@@ -90,13 +51,31 @@ IN_FULL = {
 _VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "⅛": "1/8"}
 
 
+@cache
+def habits() -> dict[str, Any]:
+    """The tables in `habits.json`: by what is meant, the words that are written for it."""
+    text = Path(__file__).with_name("habits.json").read_text("utf-8")
+    tables: dict[str, Any] = json.loads(text)
+    return tables
+
+
+@cache
+def meanings(table: str) -> dict[str, str]:
+    """What each word of a table means here."""
+    return {word: meant for meant, words in habits()[table].items() for word in words}
+
+
 def key_meant(word: str, known: tuple[str, ...]) -> str | None:
     """The key of a problem that a word stands for elsewhere, also with arguments: `V(x)`."""
     word = re.sub(r"\s*\(.*\)$", "", word)
     if word in known:
         return word
-    meant = KEYS.get(word) or KEYS.get(word.casefold().replace(" ", "_").replace("-", "_"))
-    return meant if meant in known else None
+    keys = habits()["keys"]
+    for written in (word, word.casefold().replace(" ", "_").replace("-", "_")):
+        for key in known:
+            if written in keys.get(key, ()):
+                return key
+    return None
 
 
 def same_key(word: str, known: tuple[str, ...]) -> str | None:
@@ -132,9 +111,10 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
         return "a state stands under initial, as in initial: {x: 1}"
     if "accelerations" in known and word.endswith("''"):
         return f"write accelerations: {{{word[:-2]}: {value.strip()}}}"
-    part = _PARTS.get(KEYS.get(word, word))
+    key = meanings("keys").get(word, word)
+    part = _PARTS.get(key)
     if part in known:
-        return f"write {part}: {{{KEYS.get(word, word)}: {value or '…'}}}"
+        return f"write {part}: {{{key}: {value or '…'}}}"
     if "parameters" in known and is_constant(word, value):
         return f"a constant stands under parameters: write parameters: {{{word}: {value.strip()}}}"
     return ""
@@ -227,8 +207,9 @@ def function_meant(name: str, arguments: list[str]) -> str:
         return CASE
     if name in IN_FULL:
         return IN_FULL[name]
-    if name in _WRITTEN_OUT and len(arguments) == _WRITTEN_OUT[name].count("{}"):
-        return "write " + _WRITTEN_OUT[name].format(*arguments)
+    written_out = habits()["written_out"].get(name, "")
+    if written_out and len(arguments) == written_out.count("{}"):
+        return f"write {written_out.format(*arguments)}"
     if name in {"max", "min"} and len(arguments) == 2:
         a, b = arguments
         return f"write ({a} + {b} {'+' if name == 'max' else '-'} abs({a} - {b}))/2"

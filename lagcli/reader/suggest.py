@@ -6,33 +6,10 @@ import unicodedata
 from typing import TYPE_CHECKING
 
 from lagcli.notation.greek import BY_LETTER
+from lagcli.reader.habits import meanings
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
-
-#: What other programs call the functions of the format.
-_ELSEWHERE = {
-    "ln": "log",
-    "fabs": "abs",
-    "Abs": "abs",
-    "sgn": "sign",
-    "Pi": "pi",
-    "PI": "pi",
-    "π": "pi",
-    "tg": "tan",
-    "arctg": "atan",
-    "ctg": "cot",
-    "cosec": "csc",
-    "sen": "sin",
-    "root": "sqrt",
-    "sh": "sinh",
-    "ch": "cosh",
-    "th": "tanh",
-    "signum": "sign",
-    **{f"arc{name}": f"a{name}" for name in ["sin", "cos", "tan"]},
-    **{f"ar{name}": f"a{name}" for name in ["sinh", "cosh", "tanh"]},
-    **{f"arc{name}": f"a{name}" for name in ["sinh", "cosh", "tanh"]},
-}
 
 #: Names longer than this, and more names than these, are not compared.
 _LONGEST, _MOST = 60, 300
@@ -57,8 +34,8 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
 def closest(name: str, known: Iterable[str]) -> str:
     """The known name nearest to `name`, or nothing."""
     names = list(known)
-    if _ELSEWHERE.get(name) in names:
-        return _ELSEWHERE[name]
+    if (usual := meanings("functions").get(name)) in names:
+        return usual
     for alike in names:
         if _folded(alike) == _folded(name):
             return alike

@@ -13,6 +13,7 @@ from lagcli.reader.habits import (
     COMMENT,
     fraction,
     latex_meant,
+    meanings,
     superscript,
     unit_behind,
 )
@@ -23,36 +24,6 @@ if TYPE_CHECKING:
 
 _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 _END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
-
-#: Characters that mean something elsewhere, and what to write here.
-_INSTEAD = {
-    **dict.fromkeys("·×∙⋅∗•", "write '*'"),
-    **dict.fromkeys("÷∕⁄", "write '/'"),
-    **dict.fromkeys("–—‐‑", "write '-'"),
-    **dict.fromkeys('"“”„', "a second derivative is written with two primes: x''"),
-    **dict.fromkeys("`´‘ʹ", "write the prime '"),
-    **dict.fromkeys("[]{}", "group with parentheses ( )"),
-    "√": "write sqrt(x)",
-    "∂": "write diff(expression, name)",
-    "∫": "write the antiderivative",
-    "∑": "write each term",
-    **dict.fromkeys("$~?@", "leave it out"),
-    "#": "a blank stands before the '#' of a comment",
-    "|": "write abs(x)",
-    ";": "leave out ';'",
-    "!": "there is no factorial",
-    "%": "there is no remainder",
-    "\\": "write names without a backslash; LaTeX goes into 'symbol'",
-    ".": "a number needs a digit before or after its point",
-    ":": "division is written with '/'",
-    "&": "write one condition",
-    "±": "write the number without its error",
-    "≠": "write an equation with '='",
-    "≈": "leave it out, or write '='",
-    "∞": "there is no infinity",
-    "\u0307": "a velocity is written with a prime: x'",
-    **dict.fromkeys("²³⁰ⁱ⁴⁵⁶⁷⁸⁹⁺⁻", "write a power with '^'"),
-}
 
 
 def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str) -> Diagnostic:
@@ -115,7 +86,7 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
         return Diagnostic("angles are in radians", span, f"write {number}*pi/180")
     if fraction(character):
         return Diagnostic(f"{shown} has no meaning", span, f"write {fraction(character)}")
-    hint = _meant(excerpt.value[at:], tokens) or _INSTEAD.get(character, "")
+    hint = _meant(excerpt.value[at:], tokens) or meanings("characters").get(character, "")
     return Diagnostic(f"{shown} has no meaning in an expression", span, hint)
 
 

@@ -6,54 +6,10 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.reader.habits import KEYS, MAPS, SIGNS, colon_advice
+from lagcli.reader.habits import MAPS, SIGNS, colon_advice, habits, meanings
 
 if TYPE_CHECKING:
     from lagcli.reader.text import SourceText
-
-#: A piece of the parser's own message; our sentence; our advice.
-_SENTENCES = (
-    ("'\\t' that cannot start", "a tab cannot indent", "indent with spaces"),
-    ("tab character", "a tab cannot indent", "indent with spaces"),
-    ("that cannot start any token",
-     "a value cannot begin with this character", "put the value in quotes"),
-    ("while scanning a quoted scalar", "this quote is never closed", "write the closing quote"),
-    ("unknown escape character",
-     "an unknown escape after '\\'", "in single quotes a backslash is only a backslash"),
-    ("did not find expected ',' or ']'", "a list '[' is never closed, or lacks a comma",
-     "',' stands between its items, ']' at its end"),
-    ("expected ',' or ']'", "a list '[' is never closed, or lacks a comma",
-     "',' stands between its items, ']' at its end"),
-    ("did not find expected ',' or '}'", "a map '{' is never closed, or lacks a comma",
-     "',' stands between its entries, '}' at its end"),
-    ("expected ',' or '}'", "a map '{' is never closed, or lacks a comma",
-     "',' stands between its entries, '}' at its end"),
-    ("could not find expected ':'", "a key without ': ' after it", ""),
-    ("did not find expected key",
-     "this is no key of the map around it", "is it indented like its neighbours?"),
-    ("expected <block end>",
-     "this does not belong to the map or list around it", "is it indented like its neighbours?"),
-    ("did not find expected '-' indicator",
-     "this is no item of the list around it", "is it indented like its neighbours?"),
-    ("block sequence entries are not allowed",
-     "a '-' with a blank after it begins a list, which cannot stand here",
-     "put the value in quotes"),
-    ("sequence entries are not allowed",
-     "a '-' with a blank after it begins a list, which cannot stand here",
-     "put the value in quotes"),
-    ("alphabetic or numeric", "an anchor '&' or alias '*' without a name",
-     "put a value that begins with '&' or '*' in quotes"),
-    ("anchor", "this anchor or alias is not well formed", ""),
-    ("alias", "this anchor or alias is not well formed", ""),
-    ("tag", "tags are not part of the format", "put a value that begins with '!' in quotes"),
-    ("did not find expected <document start>",
-     "the document has ended, nothing can follow here", "one problem, one file"),
-    ("expected the node content", "something is missing before this", "leave this out"),
-    ("did not find expected node content", "something is missing before this", "leave this out"),
-    ("block scalar", "the text after '|' or '>' is not well formed", ""),
-    ("directive", "'%' begins a directive, which is not part of the format",
-     "put the value in quotes"),
-)  # fmt: skip
 
 
 def explain(error: Exception, text: SourceText) -> Diagnostic:
@@ -112,7 +68,7 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
     if "<document start>" in said and first[:1] == " " != line[:1]:
         key = first.split(":")[0].strip()
         return Diagnostic(f"this line begins further left than '{key}'", span, "begin them alike")
-    for piece, sentence, hint in _SENTENCES:
+    for piece, sentence, hint in habits()["yaml"]:
         if piece in said:
             if (
                 not hint
@@ -157,7 +113,7 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
     if inner and inner[1] in MAPS:
         hint = f"write {inner[1]}: {{{inner[2]}}}"
         return Diagnostic("a map on the line of its key stands in braces", span, hint)
-    if word and word[1] in KEYS.values():
+    if word and word[1] in meanings("keys").values():
         return Diagnostic("two keys on one line", span, f"begin a new line with '{word[1]}:'")
     return Diagnostic("a second ':' in one value", span, "put the whole value in quotes")
 
