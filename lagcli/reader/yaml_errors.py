@@ -70,11 +70,7 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return Diagnostic(f"this line begins further left than '{key}'", span, "begin them alike")
     for piece, sentence, hint in habits()["yaml"]:
         if piece in said:
-            if (
-                not hint
-                and re.match(r"\s*([-+*^]|/(?![/*])|\w+[-+*/^(])", line)
-                and line is not first
-            ):
+            if not hint and _MIDDLE.match(line) and line is not first:
                 return Diagnostic(sentence, span, _CONTINUED)
             return Diagnostic(sentence, span, hint or colon_advice(line))
     return Diagnostic(f"this is not YAML: {problem}", span)
