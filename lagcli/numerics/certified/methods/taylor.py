@@ -3,16 +3,7 @@
 from __future__ import annotations
 
 from lagcli.numerics.certified.method_entry import MethodEntry
-from lagcli.numerics.certified.prepared import Prepared
-from lagcli.numerics.hybrid.modes import Modes
-from lagcli.numerics.hybrid.setup import Setup
-
-
-def _prepare(simulation: Setup, modes: Modes) -> Prepared | str:
-    from lagcli.numerics.certified.precise import prepared
-
-    return prepared(simulation, modes)
-
+from lagcli.numerics.certified.precise import prepared
 
 METHOD = MethodEntry(
     name="taylor",
@@ -20,5 +11,5 @@ METHOD = MethodEntry(
     order=None,
     properties=("explicit", "smooth", "any precision"),
     reason="power series with more digits than doubles: the accuracy lies within their rounding",
-    prepare=_prepare,
+    prepare=prepared,
 )
