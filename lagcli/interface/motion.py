@@ -13,7 +13,8 @@ if TYPE_CHECKING:
     from lagcli.expression import Expression
     from lagcli.interface.picture import Animation, Plot
     from lagcli.numerics.hybrid.events import Event
-    from lagcli.numerics.hybrid.request import Asked, Certificate, Result
+    from lagcli.numerics.hybrid.request import Asked
+    from lagcli.numerics.hybrid.result import Certificate, Result
     from lagcli.problem_data import Problem
 
 _USUAL_ACCURACY = 1e-9

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lagcli.pictures.run import short
 
 if TYPE_CHECKING:
-    from lagcli.numerics.hybrid.request import Result
+    from lagcli.numerics.hybrid.result import Result
 
 _SHOWN = 5  # rows at the beginning and at the end
 

@@ -14,7 +14,8 @@ from lagcli.expression import Expression
 from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.events import Event
-from lagcli.numerics.hybrid.request import Asked, Result
+from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.result import Result
 from lagcli.pictures.drawing import Axis, Band, Curve, Item, Marks, Piece, Rule, extent, words
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.turning import wrapped

@@ -13,7 +13,7 @@ from lagcli.numerics.certified.methods import METHODS
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import told
 from lagcli.numerics.hybrid.events import Event
-from lagcli.numerics.hybrid.request import Certificate, Result
+from lagcli.numerics.hybrid.result import Certificate, Result
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.steps import CannotGoOn

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from lagcli.numerics.certified.simulate import Simulation, simulate
-from lagcli.numerics.hybrid.request import Asked, Result
+from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.result import Result
 from lagcli.problem_data import Problem
 
 

@@ -24,7 +24,8 @@ from lagcli.numerics.certified.certificate import refusal_of
 from lagcli.numerics.certified.escalation import horizon_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.modes import Modes
-from lagcli.numerics.hybrid.request import Asked, Result
+from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.result import Result
 from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.steps import NotPossible
 from lagcli.record import replace

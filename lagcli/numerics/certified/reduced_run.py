@@ -12,7 +12,7 @@ from lagcli.graph.sharing import written_out
 from lagcli.numerics.equations.columns import Reading
 from lagcli.numerics.equations.reduced_model import CutEquations, Reduction, cut
 from lagcli.numerics.hybrid.modes import Modes
-from lagcli.numerics.hybrid.request import Cut, EliminatedCoordinate
+from lagcli.numerics.hybrid.result import Cut, EliminatedCoordinate
 from lagcli.numerics.hybrid.setup import Setup
 
 AnySetup = TypeVar("AnySetup", bound=Setup)

@@ -31,7 +31,8 @@ from lagcli.numerics.equations.refusal import Refusal, told
 from lagcli.numerics.equations.start import initial_state
 from lagcli.numerics.equations.surface import ROUNDING
 from lagcli.numerics.hybrid.modes import Modes
-from lagcli.numerics.hybrid.request import Asked, Result
+from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.result import Result
 from lagcli.numerics.hybrid.setup import Progress, Setup
 from lagcli.numerics.integrators.dop853 import dop853
 from lagcli.numerics.integrators.steps import NotPossible

@@ -13,7 +13,8 @@ from lagcli.numerics.equations.columns import Column, Reading
 from lagcli.numerics.equations.contact import one_sided, with_contacts
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked, Cut
+from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.result import Cut
 from lagcli.problem_data import Problem, charge_of
 
 #: The least number of intervals at which two runs are compared.

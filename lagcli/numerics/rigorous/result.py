@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from lagcli.numerics.hybrid.events import Event
-from lagcli.numerics.hybrid.request import Certificate, Result
+from lagcli.numerics.hybrid.result import Certificate, Result
 from lagcli.record import record
 
 Enclosure = tuple[Any, ...]

@@ -18,7 +18,7 @@ from array import array
 from collections.abc import Sequence
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from lagcli.numerics.hybrid.request import Result
+from lagcli.numerics.hybrid.result import Result
 from lagcli.numerics.tables.writing import document_of, to_text, with_column_certified
 
 Columns = Sequence[str]

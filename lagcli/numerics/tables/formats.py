@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from lagcli.numerics.hybrid.request import Result
+from lagcli.numerics.hybrid.result import Result
 from lagcli.numerics.tables.writing import to_csv, to_json, to_table
 
 

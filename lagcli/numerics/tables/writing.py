@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from lagcli.numerics.hybrid.events import Event
-from lagcli.numerics.hybrid.request import Cut, Result
+from lagcli.numerics.hybrid.result import Cut, Result
 
 #: Of many events this number is listed at the beginning and at the end.
 _LISTED = 5

@@ -16,7 +16,8 @@ from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.equations.jacobian import jacobian
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked, Result
+from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.result import Result
 from lagcli.numerics.rigorous import prove
 from lagcli.reader.columns import usual_columns
 from lagcli.record import record, replace

@@ -12,7 +12,8 @@ from lagcli.diagnostics import ProblemError
 from lagcli.expression import Name, signed
 from lagcli.numerics.certified.ensemble import Ensemble
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked, Result
+from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.result import Result
 
 if TYPE_CHECKING:
     from lagcli.problem_data import Problem
