@@ -11,11 +11,11 @@ from mpmath import mpf
 from sympy import Expr, Pow, Rational, S, Symbol
 
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.weights import NotAPower, Weights, weights
 from lagcli.record import record
 
 _DIGITS = 40
 _ZERO = mpf(10) ** -25
-_Weights = dict[Symbol, Rational]
 
 
 class _Open(Exception):
@@ -58,7 +58,7 @@ def in_one_ratio(expressions: Sequence[Expr], positive: Sequence[Expr] = ()) -> 
     """
     try:
         return _bounds(tuple(expressions), tuple(positive))
-    except _Open:
+    except (_Open, NotAPower):
         return None
 
 
@@ -75,11 +75,13 @@ def _bounds(expressions: tuple[Expr, ...], positive: tuple[Expr, ...]) -> list[E
 
 
 def _ratio_of(expressions: Sequence[Expr]) -> Ratio:
+    if any(e.has(sympy.Function) for e in expressions):
+        raise _Open
     if any(not s.is_positive for e in expressions for s in e.free_symbols):
         raise _Open
-    rows: list[_Weights] = []
+    rows: list[Weights] = []
     for expression in expressions:
-        _weights(expression, rows)
+        weights(expression, rows)
     rows = [{s: w for s, w in row.items() if w != 0} for row in rows]
     first = next((row for row in rows if row), None)
     if first is None or len(first) < 2:
@@ -94,45 +96,19 @@ def _ratio_of(expressions: Sequence[Expr]) -> Ratio:
 
 
 def _is_function_of(ratio: Ratio, expression: Expr) -> bool:
-    rows: list[_Weights] = []
+    rows: list[Weights] = []
+    if expression.has(sympy.Function):
+        return False
     try:
-        _weights(expression, rows)
-    except _Open:
+        weights(expression, rows)
+    except NotAPower:
         return False
     return all(_is_multiple(row, dict(ratio.weights), ratio.symbol) for row in rows)
 
 
-def _is_multiple(row: _Weights, unit: _Weights, symbol: Symbol) -> bool:
+def _is_multiple(row: Weights, unit: Weights, symbol: Symbol) -> bool:
     factor = row.get(symbol, S.Zero) / unit[symbol]
     return all(row.get(s, 0) == factor * unit.get(s, 0) for s in {*row, *unit})
-
-
-def _weights(expression: Expr, rows: list[_Weights]) -> _Weights:
-    """The powers of the parameters in a term; what terms of a sum differ by is put into `rows`."""
-    if isinstance(expression, Symbol):
-        return {expression: S.One}
-    if expression.is_number:
-        return {}
-    if not isinstance(expression, (sympy.Add, sympy.Mul, Pow)):
-        raise _Open
-    if isinstance(expression, Pow):
-        if not expression.exp.is_Rational:
-            raise _Open
-        return {s: w * expression.exp for s, w in _weights(expression.base, rows).items()}
-    each = [_weights(part, rows) for part in expression.args]
-    if isinstance(expression, sympy.Mul):
-        return _sum(each, S.One)
-    rows += [_sum([other, each[0]], S.NegativeOne) for other in each[1:]]
-    return each[0]
-
-
-def _sum(weights: Sequence[_Weights], sign: Expr) -> _Weights:
-    """The first one, with `sign` times the others."""
-    total = dict(weights[0])
-    for other in weights[1:]:
-        for s, w in other.items():
-            total[s] = total.get(s, S.Zero) + sign * w
-    return total
 
 
 # -- the range ---------------------------------------------------------------------------------

@@ -15,6 +15,7 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import is_decimal, solve_for
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
+from lagcli.algebra.weights import NotAPower, Weights, weights
 
 DIGITS = 90
 _REAL = mpf(10) ** -40
@@ -152,12 +153,15 @@ class SpecialValues:
         if not all(other.is_positive or other.is_negative for other in others):
             return False
         symbols = [*variables, *others]
-        rows: list[list[int]] = []
-        for function in functions:
-            rows += _weights(function, symbols)
+        rows: list[Weights] = []
+        try:
+            for function in functions:
+                weights(simplify(function), rows)
+        except NotAPower:
+            return False
         if not rows:
             return True
-        whole = sympy.Matrix(rows)
+        whole = sympy.Matrix([[row.get(s, 0) for s in symbols] for row in rows])
         return bool(whole.rank() == whole[:, : len(variables)].rank())
 
 
@@ -199,50 +203,3 @@ def _is_less(one: Expr, other: Expr, positive: Sequence[Expr]) -> bool:
     if signs == (-1, -1):
         return _sign(simplify(one**2 - other**2), positive) == 1
     return signs in {(-1, 1), (-1, 0), (0, 1)}
-
-
-def _weights(function: Expr, symbols: Sequence[Symbol]) -> list[list[int]]:
-    """What a vector of weights must be orthogonal to, for the function to be homogeneous."""
-    field = Field([function])
-    element, ring = field(function), field.ring
-    rows: list[list[int]] = []
-    for poly in (element.numerator, element.denominator):
-        exponents = []
-        for monomial, _ in ring.terms(poly):
-            powers = dict.fromkeys(symbols, 0)
-            for number, exponent in monomial:
-                generator = field.generators[number]
-                if generator.expression in powers:
-                    powers[generator.expression] += exponent
-                elif generator.argument is not None and generator.kind in ("cos", "sin"):
-                    rows += _of_argument(generator.argument, symbols)
-                else:
-                    inside = generator.expression.free_symbols
-                    rows += [[int(s is other) for other in symbols] for s in inside]
-            exponents.append([powers[s] for s in symbols])
-        first = exponents[0] if exponents else []
-        rows += [[a - b for a, b in zip(each, first, strict=True)] for each in exponents[1:]]
-    return rows
-
-
-def _of_argument(argument: Expr, symbols: Sequence[Symbol]) -> list[list[int]]:
-    """An angle has the weight 0."""
-    field = Field([argument])
-    element = field(argument)
-    if not element.denominator.is_constant() and len(element.denominator) > 1:
-        return [[int(s is other) for other in symbols] for s in argument.free_symbols]
-    below = _exponents(field, element.denominator, symbols)[0]
-    return [
-        [a - b for a, b in zip(above, below, strict=True)]
-        for above in _exponents(field, element.numerator, symbols)
-    ]
-
-
-def _exponents(field: Field, poly: object, symbols: Sequence[Symbol]) -> list[list[int]]:
-    found = []
-    for monomial, _ in field.ring.terms(poly):
-        powers = dict.fromkeys(symbols, 0)
-        for number, exponent in monomial:
-            powers[field.generators[number].expression] = exponent
-        found.append([powers.get(s, 0) for s in symbols])
-    return found
