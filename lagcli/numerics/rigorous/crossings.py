@@ -30,6 +30,7 @@ from lagcli.numerics.rigorous.enclosure import NotEnclosed
 from lagcli.numerics.rigorous.field import VectorField
 from lagcli.numerics.rigorous.piece import Piece
 from lagcli.numerics.rigorous.sets import LohnerSet
+from lagcli.numerics.rigorous.solution import around_zero, sizes
 from lagcli.record import record
 
 #: Intervals of a step that are a smaller part of its length are not halved.
@@ -193,7 +194,7 @@ def behind(
     after, back = _moved(new, times, struck, late)
     f = matrix(n, 1, new.rate(times, after))
     delayed = row / -rate  # dtau/dx
-    places = column * delayed + matrix(n, n, [int(i == j) for i in range(n) for j in range(n)])
+    places = column * delayed + matrix(n, n, 1)
     along = matrix(n + 1, n, [*delayed.entries(), *places.entries()])
     derivative = back * (restart.slope(times, box) * along - f * delayed) * flow
     delay = -watched.value(s, *before.middle)[0] / rate
@@ -212,11 +213,6 @@ def _moved(field: VectorField, times: Any, box: Sequence[Any], late: Any) -> tup
     if not all(y.contains(x) for x, y in zip(found, room, strict=True)):
         raise NotEnclosed(f"no enclosure was found at the event near t = {float(times):.6g}")
     slope = field.slope(times, room)
-    matrix, n, ball = type(slope), len(box), type(late)
-    sizes = matrix(n, n, [x.abs_upper() * late.abs_upper() for x in slope.entries()]).exp()
-    entries = [
-        int(i == j) + ball(0, (sizes[i, j] - int(i == j)).abs_upper())
-        for i in range(n)
-        for j in range(n)
-    ]
-    return room, matrix(n, n, entries)
+    identity = type(slope)(len(box), len(box), 1)
+    grown = (sizes(slope) * late.abs_upper()).exp()
+    return room, identity + around_zero(grown - identity)

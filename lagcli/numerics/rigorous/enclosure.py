@@ -45,7 +45,7 @@ from lagcli.numerics.integrators.taylor import log2_size
 from lagcli.numerics.rigorous.field import VectorField
 from lagcli.numerics.rigorous.piece import Piece, StepFlow
 from lagcli.numerics.rigorous.sets import LohnerSet
-from lagcli.numerics.rigorous.solution import convolved, horner, sizes
+from lagcli.numerics.rigorous.solution import around_zero, convolved, horner, sizes
 
 #: Of the length at which the last coefficients say that the remainder is small enough.
 _FIRST_TRY = 0.9
@@ -262,7 +262,7 @@ class Enclosures:
         """P from the middles of J_k; D from the defect A P - P'; None where D is no small part."""
         n, size, order = self.field.n, len(defect), self.flow_order
         middles = [m.mid() for m in slopes]
-        found = [self._matrix(size, size, [int(i == j) for i in range(size) for j in range(size)])]
+        found = [self._matrix(size, size, 1)]
         for k in range(order):
             found.append((self._rate(middles, found, k) / (k + 1)).mid())
         rest = [
@@ -282,18 +282,13 @@ class Enclosures:
         if not all(_largest(lost[k]) <= _LOST * _largest(kept[k]) + least for k in kinds):
             return None
         moved = grown * self._matrix(size, 1, list(defect))
-        return StepFlow(found, self._around_zero(error), self._around_zero(moved))
+        return StepFlow(found, around_zero(error), around_zero(moved))
 
     def _rate(self, slopes: Sequence[Any], flow: Sequence[Any], k: int) -> Any:
         """The k-th coefficient of A P: below what the velocities have, da/dx P."""
         size = flow[0].ncols()
         above = flow[k].entries()[size * size // 2 :] if k < len(flow) else [0] * (size * size // 2)
         return self._matrix(size, size, above + convolved(slopes, flow, k).entries())
-
-    def _around_zero(self, bound: Any) -> Any:
-        """A matrix of balls around 0."""
-        entries = [self._ball(0, x.abs_upper()) for x in bound.entries()]
-        return self._matrix(bound.nrows(), bound.ncols(), entries)
 
 
 def _largest(bounds: Sequence[Any]) -> Any:

@@ -131,7 +131,7 @@ def _solve(
         values = at(residual)
         step = inverse * arb_mat(n, 1, [values[i] for i, _ in pivots])
         state |= dict(zip(chosen, box, strict=True))
-        identity = arb_mat(n, n, [int(i == j) for i in range(n) for j in range(n)])
+        identity = arb_mat(n, n, 1)
         spread = (identity - inverse * square(at(slope))) * arb_mat(
             n, 1, [x - m for x, m in zip(box, middle, strict=True)]
         )

@@ -72,9 +72,8 @@ def around(state: Sequence[Any]) -> LohnerSet:
 
     n = len(state)
     points = [x.mid() for x in state]
-    identity = arb_mat(n, n, [int(i == j) for i in range(n) for j in range(n)])
     radii = arb_mat(n, 1, [x - m for x, m in zip(state, points, strict=True)])
-    return LohnerSet(points, identity, radii)
+    return LohnerSet(points, arb_mat(n, n, 1), radii)
 
 
 def _by_length(turned: Any, radii: Any) -> list[int]:

@@ -236,3 +236,9 @@ def sizes(matrix: Any) -> Any:
     """|M|, rounded up."""
     bounds = [x.abs_upper() for x in matrix.entries()]
     return type(matrix)(matrix.nrows(), matrix.ncols(), bounds)
+
+
+def around_zero(bound: Any) -> Any:
+    """A matrix of balls around 0."""
+    entries = [x.union(-x) for x in bound.entries()]
+    return type(bound)(bound.nrows(), bound.ncols(), entries)

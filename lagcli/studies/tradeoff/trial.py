@@ -95,10 +95,8 @@ def trial(given: Given) -> dict[str, Any]:
     ticked = until(given.limit)
     try:
         problem, asked = asked_of(given)
-        if given.method == PROOF:
-            return _proved(problem, asked, ticked)
         if given.tolerance is None:
-            return _certified(problem, asked, ticked)
+            return _claimed(problem, asked, ticked, proved=given.method == PROOF)
         return _single(problem, asked, given, ticked)
     except LimitReached:
         return {"why": f"takes more than {given.limit:g} s", "long": True}
@@ -199,40 +197,33 @@ def _residual(run: Run) -> float | None:
     return max((x for surface in surfaces for x in surface.residuals), default=None)
 
 
-def _proved(problem: Problem, asked: Asked, ticked: Callable[[float], None]) -> dict[str, Any]:
-    from lagcli.numerics.rigorous import prove
+def _claimed(
+    problem: Problem, asked: Asked, ticked: Callable[[float], None], *, proved: bool
+) -> dict[str, Any]:
+    """A run that states its accuracy: proved, or with a certificate."""
+    if proved:
+        from lagcli.numerics.rigorous import prove
 
-    proof = prove(problem, asked, ticked)
-    return {
-        "total": process_time(),
-        "integration": None,
-        "evaluations": None,
-        "steps": proof.steps,
-        "drift": None,
-        "residual": None,
-        "method": PROOF,
-        "reached": proof.reached,
-        "rows": [[_text(x) for x in row] for row in proof.rows],
-    }
+        proof = prove(problem, asked, ticked)
+        result, rows = proof.as_result(), proof.rows
+    else:
+        from lagcli.numerics.certified.simulate import simulate
 
-
-def _certified(problem: Problem, asked: Asked, ticked: Callable[[float], None]) -> dict[str, Any]:
-    from lagcli.numerics.certified.simulate import simulate
-
-    result = simulate(problem, asked, ticked)
+        result = simulate(problem, asked, ticked)
+        rows = result.rows
     total = process_time()
     held = result.certificate
     residuals = [x or 0.0 for pair in held.constraints.values() for x in pair]
     return {
         "total": total,
         "integration": None,
-        "evaluations": result.evaluations,
+        "evaluations": result.evaluations or None,
         "steps": result.steps,
         "drift": max(held.charges.values(), default=None),
         "residual": max(residuals, default=None),
         "method": result.method,
         "reached": held.reached,
-        "rows": [[_text(x) for x in row] for row in result.rows],
+        "rows": [[_text(x) for x in row] for row in rows],
     }
 
 
