@@ -91,8 +91,9 @@ def prove(
     bits = _BITS
     work, last = _WORK, 0.0
     while True:
-        with ctx.workprec(bits + _GUARD):
-            attempt = (attempts or Attempt)(setup, implied, bits, work, progress)
+        kind = attempts or Attempt
+        with ctx.workprec(bits + kind.guard):
+            attempt = kind(setup, implied, bits, work, progress)
             found = attempt.proof()
         best = found if best is None or found.holds_until >= best.holds_until else best
         work -= attempt.work
@@ -129,6 +130,8 @@ def _setup(problem: Problem, asked: Asked) -> tuple[Simulation, frozenset[int]]:
 
 class Attempt:
     """One proof at a given precision, with the order that suits it."""
+
+    guard = _GUARD
 
     def __init__(
         self,
@@ -176,7 +179,7 @@ class Attempt:
             accuracy=asked.accuracy,
             reached=reached,
             holds_until=holds,
-            bits=self.bits + _GUARD,
+            bits=self.bits + self.guard,
             kept=self.bits,
             order=self.order,
             steps=self.steps,
