@@ -17,6 +17,7 @@ from lagcli.expression import (
     Quotient,
     walk,
 )
+from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
 from lagcli.reader.habits import IN_FULL, function_meant, product_meant, velocity_meant
 from lagcli.reader.scope import CONSTANT, Role, Scope
@@ -227,8 +228,8 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     if what.startswith("the constraint") and name in {"lambda", "λ", "lam"}:
         return "a constraint is written without its multiplier"
     hint = did_you_mean(name, scope.usable(role))
-    if closest(name, scope.usable(role)) == "t" and name.endswith("t"):
-        hint = f"did you mean {name[:-1]}*t?"
+    if not hint and role.time and name[-1] == "t" and (len(name) == 2 or name[:-1] in GREEK):
+        return f"did you mean {name[:-1]}*t?"
     if re.fullmatch(r"_?\d+", name.removeprefix(closest(name, scope.usable(role)))):
         return UNDECLARED  # x0 beside x is another quantity
     if (not hint or name == "T") and name in {"T", "V", "L", "H"}:  # t is near to T

@@ -205,7 +205,7 @@ class Sections:
         """A formula whose names are all known and allowed in its role."""
         alone = node.value.strip() if isinstance(node, Scalar) else ""
         unit = unit_behind(alone)
-        if unit and (unit not in self.scope.kinds if role in _NUMERIC else self._is_unit(unit)):
+        if unit and (role in _NUMERIC or self._is_unit(unit)):
             self._misplaced_unit(node, what, unit)
             return UNREADABLE
         if (unit := unit_at_end(alone)) and self._is_unit(unit):
@@ -236,6 +236,8 @@ class Sections:
             hint = f"write {{value: {number}, unit: {unit}}}"
         if unit in {"deg", "°"}:
             hint = f"angles are in radians: write {number}*pi/180"
+        if unit in self.scope.kinds:
+            hint += f"; the product is {number}*{unit}"
         self.error(f"the unit '{unit}' cannot stand behind a number", node.span, hint)
 
     def equation(self, node: DocumentNode, what: str, role: Role) -> Equation:

@@ -48,6 +48,8 @@ def closest(name: str, known: Iterable[str]) -> str:
     if len(name) > _LONGEST:
         return ""
     spelled = {_spelled_out(known): known for known in reversed(names) if len(known) <= _LONGEST}
+    if len(name) > 1:  # m is not near to mu
+        spelled = {spelling: known for spelling, known in spelled.items() if len(spelling) > 1}
     if len(name) == 1:  # one letter is near to those that begin with it
         spelled = {spelling: known for spelling, known in spelled.items() if spelling[0] == name}
     near = get_close_matches(name, list(spelled)[-_MOST:], n=1, cutoff=0.6)

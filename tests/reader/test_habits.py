@@ -309,6 +309,12 @@ HABITS = [
     ("---\n", "write coordinates: [x]"),
     ("{}\n", "write coordinates: [x]"),
     # written by other hands, on another day
+    (text(parameters="{m: 1, k: 0.3 m}"), "write {value: 0.3, unit: m}; the product is 0.3*m"),
+    (text(initial="{x: 0.1 m}"), "write 0.1: numbers are in the units of the file"),
+    (text(coordinates="- x\n  - y"), "begin the list on a new line"),
+    (text(simulation="{final_time: 5}"), "the key is until"),
+    (text(forces="{x: -mu*k}"), "declare it under 'parameters'"),
+    (text(coords="[x]", coordinates=None), "the key is coordinates"),
     (text(coordinates="{x: [m]}"), "write {unit: m}"),
     (text(coordinates="{x: [0, 2*pi]}"), "a coordinate has no range"),
     (text(coordinates="[x; y]"), "write x, y"),
