@@ -22,7 +22,6 @@ from lagcli.studies.extremes.roles import (
 )
 from lagcli.studies.extremes.scene import ExtremeScene, Vector, number
 
-_RATIO = Fraction(10) ** 12
 _BESIDE = Fraction(1, 10**9)
 _CLOSE = Fraction(1, 10**12)
 _LONG = 100.0
