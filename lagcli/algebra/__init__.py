@@ -1,5 +1,6 @@
 """Normal forms and simplification made for mechanics, with no physics in it."""
 
+from lagcli.algebra.derivative import derivative
 from lagcli.algebra.entry import Field
 from lagcli.algebra.leaves import to_expression
 from lagcli.algebra.linear import LinearSolution, dot, left_nullspace, nullspace, rank, solve_linear
@@ -13,6 +14,7 @@ __all__ = [
     "LinearSolution",
     "Relations",
     "Shapes",
+    "derivative",
     "dot",
     "is_zero",
     "left_nullspace",

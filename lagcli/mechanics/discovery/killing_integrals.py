@@ -33,7 +33,7 @@ from itertools import combinations, combinations_with_replacement
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import dot, simplify
+from lagcli.algebra import derivative, dot, simplify
 from lagcli.mechanics.discovery.hidden import expanded, integral_of, potential
 from lagcli.mechanics.discovery.isometries import Vector
 from lagcli.mechanics.discovery.killing import KillingFrame
@@ -124,7 +124,8 @@ class KillingIntegrals:
         v, accelerations = self.equations.v, self.frame.accelerations
         if not accelerations:
             return sympy.S.Zero
-        return self.equations.convected(value) + dot([value.diff(x) for x in v], accelerations)
+        pushed = dot([derivative(value, x) for x in v], accelerations)
+        return self.equations.convected(value) + pushed
 
     def _moved(self, fields: Sequence[Vector]) -> tuple[Expr, Vector, list[Expr]]:
         """(A.p)(B.p)..., dQ/dp of it and what each f adds to its rate: -(A.grad f)(B.p)... - ..."""
@@ -137,7 +138,7 @@ class KillingIntegrals:
         return sympy.Mul(*p), slopes, pushed
 
     def _gradient(self, f: Expr) -> list[Expr]:
-        return [f.diff(x) for x in self.equations.q]
+        return [derivative(f, x) for x in self.equations.q]
 
     def _functions(self) -> list[Expr]:
         """Terms of V and of its slopes along the fields times monomials, the shortest first."""
@@ -160,11 +161,11 @@ class KillingIntegrals:
         if self.degree == 3:
             return [rate]
         pairs = combinations(zip(self.equations.q, self._slopes_of(rate), strict=True), 2)
-        return [f.diff(y) - g.diff(x) for (x, f), (y, g) in pairs]
+        return [derivative(f, y) - derivative(g, x) for (x, f), (y, g) in pairs]
 
     def _slopes_of(self, rate: Expr) -> list[Expr]:
         """-dS/dq by the rate in p = M q', M = w M0."""
-        return [rate.diff(v) / self.frame.factor for v in self.equations.v]
+        return [derivative(rate, v) / self.frame.factor for v in self.equations.v]
 
     def _products(self, known: Sequence[NoetherCharge]) -> list[Expr]:
         """Integrals of degree N, N - 2, ... that follow from the known ones, without their S."""
@@ -186,7 +187,7 @@ class KillingIntegrals:
         """Q for N > 2; else what vanishes for f(q) H, as S[w] H and H itself have it."""
         if self.degree > 2:
             return [Q]
-        slopes = [Q.diff(v) for v in self.equations.v]
+        slopes = [derivative(Q, v) for v in self.equations.v]
         pairs = combinations(zip(slopes, self._momenta, strict=True), 2)
         return [x * b - y * a for (x, a), (y, b) in pairs]
 

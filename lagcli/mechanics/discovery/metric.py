@@ -23,7 +23,7 @@ import sympy
 from mpmath import mpf
 from sympy import Expr, Symbol
 
-from lagcli.algebra import dot, simplify
+from lagcli.algebra import derivative, dot, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery.slots import SlotEquations
@@ -44,13 +44,14 @@ class Metric:
     @cached_property
     def inverse(self) -> list[list[Expr]]:
         """g^ij."""
-        inverse = sympy.Matrix([list(row) for row in self.g]).inv(method="ADJ")
-        return [[simplify(inverse[i, j]) for j in range(self.n)] for i in range(self.n)]
+        g = sympy.Matrix([list(row) for row in self.g])
+        above, below = g.adjugate(), g.det()
+        return [[simplify(above[i, j] / below) for j in range(self.n)] for i in range(self.n)]
 
     def first_kind(self, j: int, k: int, m: int) -> Expr:
         """[jk, m]."""
-        g, q = self.g, self.q
-        return (g[j][m].diff(q[k]) + g[k][m].diff(q[j]) - g[j][k].diff(q[m])) / 2
+        g, q, D = self.g, self.q, derivative
+        return (D(g[j][m], q[k]) + D(g[k][m], q[j]) - D(g[j][k], q[m])) / 2
 
     @cached_property
     def christoffel(self) -> list[list[list[Expr]]]:
@@ -69,15 +70,15 @@ class Metric:
 
     def gradient(self, X: Expr) -> tuple[Expr, ...]:
         """g^ij X,j."""
-        slopes = [X.diff(x) for x in self.q]
+        slopes = [derivative(X, x) for x in self.q]
         return tuple(simplify(dot(row, slopes)) for row in self.inverse)
 
     def riemann(self, i: int, j: int, k: int, m: int) -> Expr:
         """R_ijkm."""
-        g, q = self.g, self.q
+        g, q, D = self.g, self.q, derivative
         second = (
-            g[i][m].diff(q[j], q[k]) + g[j][k].diff(q[i], q[m])
-            - g[i][k].diff(q[j], q[m]) - g[j][m].diff(q[i], q[k])
+            D(D(g[i][m], q[j]), q[k]) + D(D(g[j][k], q[i]), q[m])
+            - D(D(g[i][k], q[j]), q[m]) - D(D(g[j][m], q[i]), q[k])
         ) / 2  # fmt: skip
         products = [
             self.inverse[a][b]

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import sympy
 from sympy import Expr
 
+from lagcli.algebra import derivative
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo
@@ -191,4 +192,4 @@ def _formulas(equations: SlotEquations) -> list[Expr]:
 def _jets(g: Expr, equations: SlotEquations) -> list[Expr]:
     """g, its gradient, Dg and D^2 g."""
     rate = equations.convected(g)
-    return [g, *(g.diff(x) for x in equations.q), rate, equations.convected(rate)]
+    return [g, *(derivative(g, x) for x in equations.q), rate, equations.convected(rate)]

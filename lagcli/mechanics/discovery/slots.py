@@ -40,7 +40,7 @@ from dataclasses import dataclass
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import dot
+from lagcli.algebra import derivative, dot
 
 #: (index of the jet of f, expression): jets are f, f,q_1 … f,q_n, Df, D^2 f.
 Condition = list[tuple[int, Expr]]
@@ -58,12 +58,8 @@ class SlotEquations:
 
     def convected(self, expression: Expr) -> Expr:
         """D = d/dt + sum v d/dq."""
-        present = expression.free_symbols
-        terms = [expression.diff(self.t)] if self.t in present else []
-        terms += [
-            v * expression.diff(q) for q, v in zip(self.q, self.v, strict=True) if q in present
-        ]
-        return sympy.Add(*terms)
+        slopes = [derivative(expression, q) for q in self.q]
+        return derivative(expression, self.t) + dot(self.v, slopes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,18 +83,19 @@ class Slot:
         n = len(q)
         rate, second = n + 1, n + 2  # Df and D^2 f among the jets
         a, b = self.a(equations), self.b(equations)
-        by_v = [[a[k].diff(v[i]) for i in range(n)] for k in range(n)]  # a_k,v_i
-        b_v = [b.diff(x) for x in v]
+        by_v = [[derivative(a[k], v[i]) for i in range(n)] for k in range(n)]  # a_k,v_i
+        b_v = [derivative(b, x) for x in v]
         Da = [D(x) for x in a]
         conditions: list[Condition] = [
             [(0, by_v[i][k] - by_v[k][i])] for i in range(n) for k in range(i)
         ]
         for i in range(n):
             for k in range(i + 1):
-                inner = a[i].diff(q[k]) + a[k].diff(q[i]) + D(by_v[k][i]) - b_v[i].diff(v[k])
+                inner = derivative(a[i], q[k]) + derivative(a[k], q[i])
+                inner += D(by_v[k][i]) - derivative(b_v[i], v[k])
                 conditions.append([(0, inner), (1 + k, a[i]), (1 + i, a[k]), (rate, by_v[k][i])])
         for i in range(n):
-            inner = D(b_v[i]) - D(Da[i]) - b.diff(q[i])
+            inner = D(b_v[i]) - D(Da[i]) - derivative(b, q[i])
             conditions.append(
                 [(0, inner), (rate, b_v[i] - 2 * Da[i]), (second, -a[i]), (1 + i, -b)]
             )
