@@ -139,7 +139,7 @@ class Writer:
         """sqrt(a)*sqrt(b)/sqrt(c) as sqrt(a*b/c)."""
         half = Fraction(1, 2)
         roots = [(b, e) for b, e in pairs if abs(e) == half]
-        if len(roots) < 2:
+        if len(roots) < 2 and not any(isinstance(base, Number) for base, _ in roots):
             return coefficient, pairs
         rest = [(b, e) for b, e in pairs if abs(e) != half]
         number = Fraction(1)
@@ -176,6 +176,8 @@ class Writer:
         if exponent == 1:
             return base
         if exponent == Fraction(1, 2):
+            if isinstance(base, Negative) and isinstance(base.operand, Sum):
+                base = self.negative_sum(base.operand)  # sqrt(a - b), not sqrt(-(b - a))
             return Call("sqrt", (base,))
         if exponent.denominator == 1:
             return Power(base, Number(exponent))

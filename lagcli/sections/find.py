@@ -67,6 +67,8 @@ def _unanswered(question: Question, why: str) -> Answer:
 
 def blocks(section: FindSection, _: Answers) -> Iterator[Block]:
     """Say each question of the file with its answer."""
+    if not section.answers:
+        yield Paragraph(("The file asks none (under find).",))
     for name, answer in section.answers.items():
         yield Heading(name, 2)
         match answer:

@@ -10,6 +10,7 @@ from sympy import Expr, S
 
 from lagcli.algebra import shape, terms
 from lagcli.algebra.build import symbol
+from lagcli.algebra.conjugate_roots import written_alike
 from lagcli.algebra.equations import written
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
@@ -179,7 +180,7 @@ class _Statement:
             coordinate=motion.q.name,
             constant=motion.E.name,
             energy=writer.sum([kinetic, potential]),
-            turning_points=None if points is None else tuple(written(x, order) for x in points),
+            turning_points=None if points is None else tuple(written_alike(points, order)),
             rate=shape(motion.rate, order),
             periods=found,
             positive=bool(motion.q.is_positive),

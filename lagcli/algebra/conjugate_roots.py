@@ -1,0 +1,59 @@
+"""Roots a + b sqrt(c) and a - b sqrt(c) written alike, to be read as a ± b sqrt(c)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra.equations import written
+from lagcli.algebra.simplification import shape, simplify
+from lagcli.expression import Expression, Name, Sum, opposite, walk
+from lagcli.rewriting import rebuilt
+
+_ROOT = "sqrt"  # the place of the root; no name of a file, since it is a function's
+
+
+def written_alike(roots: Sequence[Expr], order: Sequence[str]) -> list[Expression]:
+    """The readable shapes of roots, those of one quadratic equation with one outline."""
+    found: list[Expression | None] = [None] * len(roots)
+    for k, first in enumerate(roots):
+        for j in range(k + 1, len(roots)):
+            if found[k] is None and found[j] is None:
+                found[k], found[j] = _pair(first, roots[j], order) or (None, None)
+    return [
+        written(x, order) if tree is None else tree for x, tree in zip(roots, found, strict=True)
+    ]
+
+
+def _pair(first: Expr, second: Expr, order: Sequence[str]) -> tuple[Expression, Expression] | None:
+    middle, half = simplify((first + second) / 2), simplify((first - second) / 2)
+    roots = [f for f in sympy.Mul.make_args(half) if f.is_Pow and abs(f.exp) == sympy.S.Half]
+    root = sympy.Mul(*roots)
+    if middle == 0 or not roots or not simplify(half / root).is_rational_function():
+        return None
+    if any(middle.has(f) for f in roots):
+        return None
+    place, mark = Name(_ROOT), Symbol(_ROOT, real=True)
+    tree, whole = shape(middle + half / root * mark, order), shape(root, order)
+    if sum(node == place for node in walk(tree)) != 1:
+        return None
+    return _put(tree, place, whole), _put(_turned(tree, place), place, whole)
+
+
+def _put(node: Expression, place: Name, root: Expression) -> Expression:
+    return root if node == place else rebuilt(node, lambda part: _put(part, place, root))
+
+
+def _turned(node: Expression, place: Name) -> Expression:
+    """The same with the opposite sign of the term in which the root stands."""
+
+    def within(part: Expression) -> bool:
+        return any(each == place for each in walk(part))
+
+    if isinstance(node, Sum) and not any(
+        isinstance(p, Sum) and within(p) for p in walk(node) if p is not node
+    ):
+        return Sum(tuple(opposite(term) if within(term) else term for term in node.terms))
+    return rebuilt(node, lambda part: _turned(part, place))
