@@ -256,9 +256,18 @@ def _beside_root(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | 
         root = field.generators[g].expression
         first, second = sign(a, given), sign(b, given)
         if first and second and (root.is_real or sign(root**2, given) == 1):
-            larger = 1 if first == second else sign(a**2 - b**2 * root**2, given)
+            rest = sympy.expand(a**2 - b**2 * root**2)
+            if first != second and _roots(rest) >= _roots(field.polynomial_to_sympy(factor)):
+                continue  # no simpler
+            larger = 1 if first == second else sign(rest, given)
             return None if larger is None else first * larger
     return None
+
+
+def _roots(expression: Expr) -> int:
+    return sum(not e.exp.is_Integer for e in expression.atoms(sympy.Pow)) + len(
+        expression.atoms(sympy.Abs)
+    )
 
 
 def _of_known_factors(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | None:

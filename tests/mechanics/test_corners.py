@@ -48,3 +48,36 @@ def test_a_corner_is_judged_by_both_sides(seed: int) -> None:
         rises = [V(place + step) - V(place) for step in (NEAR, -NEAR)]
         if 0 not in rises:
             assert each.verdict.stable is (min(rises) > 0), (text, place)
+
+
+@pytest.mark.parametrize(
+    ("potential", "edge"),
+    [
+        ("sqrt(x^2 + y^2)", True),
+        ("sqrt(2*(x - y)^2 + y^2) + y/10", True),
+        ("acos(cos(x)) + y^2", True),
+        ("(sqrt(x^2 + y^2) - 1)^2", False),
+        ("-1/sqrt(1 + x^2) + y^2", False),
+    ],
+)
+def test_no_rest_is_denied_where_V_has_no_derivative(potential: str, *, edge: bool) -> None:
+    problem = loads(f"coordinates: [x, y]\nT: x'^2 + y'^2\nV: {potential}\n")
+    section = state(derive(problem), Request(sections=("equilibria",))).sections["equilibria"]
+    assert (section.equilibria is None or not section.complete) is edge
+
+
+@pytest.mark.parametrize(
+    ("potential", "name"),
+    [
+        ("abs(sin(x))", "modes"),
+        ("x^2*asin(sin(x))", "equilibria"),
+        ("abs(x - 1)", "steady_motions"),
+        ("(x^2 + y^2)^(3/2) - x^2 - y^2", "steady_motions"),
+    ],
+)
+def test_a_corner_breaks_no_section(potential: str, name: str) -> None:
+    polar = "x'^2 + x^2*y'^2" if name == "steady_motions" else "x'^2 + y'^2"
+    problem = loads(f"coordinates: [x, y]\nT: {polar}\nV: {potential}\n")
+    answers = state(derive(problem), Request(sections=(name,)))
+    assert name in answers.sections
+    assert "bug of lagcli" not in str(answers.warnings)

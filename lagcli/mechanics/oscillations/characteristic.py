@@ -67,7 +67,7 @@ class Characteristic:
     def squares(self) -> list[tuple[list[Expr] | None, int, int]] | None:
         """By irreducible factor: the roots W (None: no closed form), multiplicity, degree."""
         powers = self.in_square
-        if powers is None:
+        if powers is None or len(powers) == 1:  # no displacement is free
             return None
         W = Symbol("#W", real=True)
         polynomial = sum((c * W**k for k, c in enumerate(powers)), S.Zero)

@@ -19,7 +19,7 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, SystemSolution, divisors, solve_system
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
-from lagcli.mechanics.oscillations.kinks import at_kinks
+from lagcli.mechanics.oscillations.kinks import at_cusps, at_kinks
 from lagcli.mechanics.oscillations.rest_conditions import RestConditions
 from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.record import record
@@ -31,7 +31,7 @@ NO_VALUE_AT_REST = "a force has no value at rest, as v/|v| has none"
 _NO_CLOSED_SOLUTION = "no closed solution of the conditions of equilibrium was found"
 #: Why nothing is solved for that is constant.
 TIMED = "the equations depend explicitly on the time"
-_AT_A_KINK = "a force jumps where its sign changes, and rest at such a kink is not decided"
+_AT_A_KINK = "a force jumps at a kink of the potential, and rest there is not decided"
 #: Digits to which decimals are worked out.
 _DIGITS = 40
 _AT_AN_EDGE = (
@@ -87,13 +87,14 @@ class RestPoints(RestConditions):
         if self.has_no_value:
             self.reason, self.complete = NO_VALUE_AT_REST, False
             return None
-        equations = self.at_all_times
+        equations, still = self.at_all_times, dict.fromkeys(self.system.qdot, S.Zero)
         found, lost = self._found(equations)
         if not (found or self.complete or self.depends_on_time) and self.sums:
             self.complete = True
             return ()
-        kinks = not (self.depends_on_time or self._kinks_apart) and at_kinks(
-            self.forces_at_rest, equations, self.system.q, found
+        kinks = not (self.depends_on_time or self._kinks_apart) and (
+            at_kinks(self.forces_at_rest, equations, self.system.q, found)
+            or at_cusps(-self.system.L.xreplace(still), self.system.q)
         )
         self.complete &= not lost and not kinks
         if not self.complete:
@@ -123,6 +124,9 @@ class RestPoints(RestConditions):
         self.complete = solved.complete
         found, lost = [], False
         for each in solved.solutions:
+            if any(e.has(S.NaN, S.ComplexInfinity) for e in each.positive):
+                lost = True  # a force has no value there, as that of asin(sin(x)) at pi/2
+                continue
             if -1 in map(weak_sign, each.positive):
                 continue
             solution = replace(each, values=self._to_the_last_digit(each.values))

@@ -17,6 +17,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero
+from lagcli.algebra.build import free_of
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import divisors, solve_system
 
@@ -52,6 +53,27 @@ def at_kinks(
     jumps = {jump.args[0] for force in forces for jump in force.atoms(sympy.sign)}
     moving = [u for u in jumps if u.free_symbols & {*coordinates}]
     return any(_may_rest(u, equations, coordinates, known) for u in sorted(moving, key=str))
+
+
+def at_cusps(potential: Expr, coordinates: Sequence[Symbol]) -> bool:
+    """Whether V may have a minimum where a root or an arc in it has no derivative.
+
+    Such as sqrt(x² + y²), and acos(cos(x)).  None is where V falls on all sides of it, as
+    (sqrt(x² + y²) - l)² does.
+    """
+    return any(
+        not free_of(node, coordinates) and _rises_from_an_edge(potential, node)
+        for node in potential.atoms(sympy.Pow, sympy.asin, sympy.acos)
+    )
+
+
+def _rises_from_an_edge(potential: Expr, node: Expr) -> bool:
+    inside = node.args[0] if node.is_Pow else 1 - node.args[0] ** 2
+    if (node.is_Pow and node.exp != sympy.S.Half) or sign(inside) == 1:
+        return False
+    size = sympy.Dummy("size", positive=True)
+    slope = potential.xreplace({node: size}).diff(size)
+    return not node.is_Pow or sign(slope.xreplace({size: sympy.S.Zero})) != -1
 
 
 def _may_rest(

@@ -95,7 +95,7 @@ def modes(dynamics: Dynamics) -> ModesSection:
     found = [mode for place in chosen for mode in oscillations.modes(place)]
     if not found and all(not place.linear.M and not place.held.firmly for place in places):
         return ModesSection(modes=(), reason=EXCLUDED)
-    if not found and all(place.held.firmly and not place.linear.M for place in places):
+    if not found and all(place.held.firmly and not place.linear.M for place in chosen):
         return ModesSection(modes=(), reason=_HELD)
     if oscillations.rest.depends_on_time:
         return ModesSection(modes=(), reason=TIMED)

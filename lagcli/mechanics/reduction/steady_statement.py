@@ -123,8 +123,8 @@ class _SteadyStatement:
                 linear = Linearization(self.steady.rest, self.steady.point(motion))
                 judged = judge(linear)
                 if not (linear.drifts or not linear.smooth or self.steady.contacts.grazes(motion)):
-                    matrices = (linear.M, linear.C, linear.K)
                     squares, turning = squares_of(linear), held_by_gyroscopic_terms(linear)
+                    matrices = (linear.M, linear.C, linear.K)
                 if motion.family is not None:
                     squares, matrices = self._on_all(motion.family, squares, matrices)
             else:
