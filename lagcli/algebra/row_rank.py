@@ -22,18 +22,18 @@ def independent_rows(rows: Sequence[Sequence[mpf]], tolerance: mpf) -> Eliminati
     """Take each row, in order, that is not a combination of those before it.
 
     Modified Gram-Schmidt: a row is dependent when what is left of it is below
-    `tolerance` times its length.
+    `tolerance` times its length.  Entries may be complex: a root of what is negative.
     """
     basis: list[list[mpf]] = []
     independent, dependent = [], []
     for index, row in enumerate(rows):
         rest = list(row)
-        length = mpmath.sqrt(sum(x * x for x in rest))
+        length = mpmath.sqrt(sum(abs(x) ** 2 for x in rest))
         for _ in range(2):  # twice is enough (Kahan, Parlett)
             for unit in basis:
-                along = sum(x * y for x, y in zip(rest, unit, strict=True))
+                along = sum(x * y.conjugate() for x, y in zip(rest, unit, strict=True))
                 rest = [x - along * y for x, y in zip(rest, unit, strict=True)]
-        left = mpmath.sqrt(sum(x * x for x in rest))
+        left = mpmath.sqrt(sum(abs(x) ** 2 for x in rest))
         if length == 0 or left <= tolerance * length:
             dependent.append(index)
         else:

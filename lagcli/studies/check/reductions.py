@@ -29,6 +29,7 @@ from lagcli.statements.motions import (
     Verdict,
 )
 from lagcli.studies.check.findings import Judged
+from lagcli.studies.check.regions import same_region
 
 if TYPE_CHECKING:
     from lagcli.studies.check.expectations import Expectations
@@ -183,6 +184,8 @@ def _same_conditions(
         if len(derived) == len(wanted) and all(
             any(_same_sign(a, b) for b in derived) for a in wanted
         ):
+            return True
+        if derived and same_region(derived, wanted):
             return True
     return False
 
