@@ -21,8 +21,6 @@ MAPS = frozenset(
     "coordinates parameters functions definitions points forces constraints contacts symmetries "
     "initial find simulation expect".split()
 )
-#: Words for the equations of motion, which no key takes.
-_EQUATIONS = frozenset("equations equations_of_motion equation ode odes eom eoms newton".split())
 DERIVED = "the equations of motion are derived: give T and V, or L"
 #: An assumption by the relation to zero that it is.
 SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegative",
@@ -88,22 +86,9 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
     """What to write instead of an unknown key with its value; nothing where that is unclear."""
     if word in get_args(Assumption) and "assume" in known:
         return f"write assume: {word}"
-    if word == "friction" and "dissipation" in known:
-        return "a friction force -c*x' is written dissipation: c*x'^2/2"
-    if word in {"dt", "h", "step", "steps", "timestep"} and "accuracy" in known:
-        return "the steps follow from the accuracy: write accuracy: 1e-9"
-    if word in {"samples", "rows", "frames", "fps"} and "accuracy" in known:
-        return "an option, not a key: lagcli simulate FILE --samples 100"
-    if word in {"plot", "animate", "export", "sweep", "explain", "check"} and "T" in known:
-        return f"a command, not a key: lagcli {word} FILE"
-    if word in {"momenta", "momentum"} and "T" in known:
-        return "leave out the key: momenta are named p_x"
-    if word in {"unit", "units"} and "parameters" in known:
-        return "each name has its own: write parameters: {m: {unit: kg}}"
-    if word in _EQUATIONS and "T" in known:
-        return DERIVED
-    if word in {"from", "start", "t0"} and "until" in known:
-        return "a motion begins at t = 0: leave it out"
+    for neighbour, words, advice in habits()["advice"]:
+        if word in words and neighbour in known:
+            return str(advice.format(word=word))
     start = re.fullmatch(r"(q|r|x|y|z|theta|phi)_?0", word)
     if start and "initial" in known:
         return f"write initial: {{{start[1]}: {value.strip()}}}"

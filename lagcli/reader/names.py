@@ -19,7 +19,7 @@ from lagcli.expression import (
 )
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
-from lagcli.reader.habits import IN_FULL, function_meant, product_meant, velocity_meant
+from lagcli.reader.habits import IN_FULL, function_meant, meanings, product_meant, velocity_meant
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.undeclared import UNDECLARED
@@ -240,18 +240,14 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return f"the velocities are {velocities}" if coordinates[1:] else one
     if not hint and primes and role.order > 0:
         return "declare it under 'coordinates'"
-    if not hint and name in {"e", "E"}:
-        return "the exponential function is exp(…)"
     if not hint and what.startswith("the value of") and name in _NO_VALUE:
         return "a parameter without a value is written without ':', or as [m, k]"
-    if not hint and name in {"int", "integer"}:
-        return "write {integer: yes}"
+    if not hint and name in (usual := meanings("names")):
+        return usual[name]
     if not hint and name in get_args(Assumption):
         return f"an assumption is written {{assume: {name}}}"
     if not hint and name in {"I", "i", "j"}:
         return f"every quantity is real; {UNDECLARED}"
-    if not hint and name.casefold() in {"none", "null", "no", "nothing", "nil", "zero"}:
-        return "write 0"
     return hint or UNDECLARED + (", or its formula under 'definitions'" if role.definitions else "")
 
 

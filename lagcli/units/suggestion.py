@@ -45,25 +45,7 @@ def _apart(name: str) -> str:
     return ""
 
 
-_SYMBOLS = (
-    "kg",
-    "g",
-    "m",
-    "cm",
-    "mm",
-    "km",
-    "s",
-    "N",
-    "J",
-    "W",
-    "C",
-    "V",
-    "A",
-    "T",
-    "rad",
-    "K",
-    "Pa",
-)
+_SYMBOLS = "kg g m cm mm km s N J W C V A T rad K Pa".split()
 
 
 def _other_case(name: str) -> str:
