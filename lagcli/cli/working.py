@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, Generic, NamedTuple, Protocol, TypeVar
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from lagcli.formatters import Options
 from lagcli.formatters.explaining import FORMATS
@@ -12,20 +12,12 @@ from lagcli.formatters.registry import UnknownFormatter, find_formatter
 from lagcli.mechanics.derivation import Derivation
 from lagcli.pipeline import Request, explain, render, state
 from lagcli.reader.suggest import did_you_mean
+from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration
+from lagcli.statements.explanation import Explanation
 from lagcli.statements.registry import in_order, told_in_order
 
-
-class Complete(Protocol):
-    """A result that knows whether everything asked for is in it."""
-
-    @property
-    def complete(self) -> bool:
-        """False: exit status 1."""
-        ...
-
-
-Result = TypeVar("Result", bound=Complete)
+Result = TypeVar("Result", Answers, Explanation)
 
 
 class CommandWork(NamedTuple, Generic[Result]):

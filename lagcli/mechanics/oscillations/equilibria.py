@@ -92,8 +92,9 @@ class RestPoints(RestConditions):
         if not (found or self.complete or self.depends_on_time) and self.sums:
             self.complete = True
             return ()
+        places = [place.values for place in found]
         kinks = not (self.depends_on_time or self._kinks_apart) and (
-            at_kinks(self.forces_at_rest, equations, self.system.q, found)
+            at_kinks(self.forces_at_rest, equations, self.system.q, places)
             or at_cusps(-self.system.L.xreplace(still), self.system.q)
         )
         self.complete &= not lost and not kinks

@@ -11,7 +11,6 @@ Clarke, *Optimization and Nonsmooth Analysis*, section 2.3.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Protocol
 
 import sympy
 from sympy import Expr, Symbol
@@ -22,20 +21,11 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import divisors, solve_system
 
 
-class KinkPlace(Protocol):
-    """A known equilibrium."""
-
-    @property
-    def values(self) -> Mapping[Symbol, Expr]:
-        """Of the coordinates."""
-        ...
-
-
 def at_kinks(
     forces: Sequence[Expr],
     equations: Sequence[Expr],
     coordinates: Sequence[Symbol],
-    known: Sequence[KinkPlace],
+    known: Sequence[Mapping[Symbol, Expr]],
 ) -> bool:
     """Whether there may be equilibria where a force jumps, beside the known ones.
 
@@ -77,9 +67,12 @@ def _rises_from_an_edge(potential: Expr, node: Expr) -> bool:
 
 
 def _may_rest(
-    u: Expr, equations: Sequence[Expr], coordinates: Sequence[Symbol], known: Sequence[KinkPlace]
+    u: Expr,
+    equations: Sequence[Expr],
+    coordinates: Sequence[Symbol],
+    known: Sequence[Mapping[Symbol, Expr]],
 ) -> bool:
-    if any(is_zero(u.xreplace(dict(place.values))) is True for place in known):
+    if any(is_zero(u.xreplace(dict(values))) is True for values in known):
         return False
     if any({u, -u} & divisors(e) for e in equations):  # no value where u = 0
         return False

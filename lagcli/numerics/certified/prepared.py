@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from typing import Any, Protocol
+from typing import Any
 
 from lagcli.numerics.certified.accuracy import CHANCE, LONGEST, Controller, Outcome
 from lagcli.numerics.certified.perturbed_twin import (
@@ -34,13 +34,9 @@ ROUNDED = 10.0
 _CHANCE = 8.0
 
 
-class OneRun(Protocol):
-    """Makes a run: of the problem, or of one a rounding beside it (`moved`)."""
-
-    def __call__(
-        self, bound: Tolerance, every: int, progress: Progress | None, *, moved: bool
-    ) -> Run:
-        """One run."""
+#: (bound: Tolerance, every: int, progress, *, moved: bool) -> run: of the problem, or of one a
+#: rounding beside it (`moved`).
+OneRun = Callable[..., Run]
 
 
 @record(kw_only=True)
