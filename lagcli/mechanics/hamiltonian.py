@@ -88,12 +88,22 @@ class Hamiltonian:
 
         Where it is 0 two branches of the Legendre transform meet.
         """
-        whole = determinant([list(row) for row in self.dynamics.lagrange.mass_matrix])
-        if whole is None:
-            return None
-        rest = deciding(simplify(whole))
-        depends = not free_of(rest, self.system.qdot)
-        return rest if depends and _takes_both_signs(rest, self.system.qdot) else None
+        whole = self._decisive
+        opposed = [] if whole is None else _at_rest_against_far(whole, self.system.qdot)
+        return whole if -1 in map(sign, opposed) else None
+
+    @property
+    def folds_below(self) -> Expr | None:
+        """What has no known sign, and where it is negative there are several branches."""
+        whole = None if self.legendre.is_quadratic else self._decisive
+        opposed = [] if whole is None else _at_rest_against_far(whole, self.system.qdot)
+        return next((deciding(x) for x in opposed if sign(x) is None), None)
+
+    @cached_property
+    def _decisive(self) -> Expr | None:
+        whole = determinant(self.dynamics.lagrange.mass_matrix)
+        rest = None if whole is None else deciding(simplify(whole))
+        return None if rest is None or free_of(rest, self.system.qdot) else rest
 
     @cached_property
     def canonical_equations(self) -> tuple[tuple[Expr, Expr], ...] | None:
@@ -126,6 +136,7 @@ class GivenHamiltonian:
 
     reason = ""
     fold: Expr | None = None
+    folds_below: Expr | None = None
 
     def __init__(self, system: System, constraints: Sequence[ConstraintEquation]) -> None:
         assert system.H is not None
@@ -158,14 +169,13 @@ def _force(system: System, constraints: Sequence[ConstraintEquation], j: int) ->
     return system.applied_forces[j] + sympy.Add(*(e.multiplier * e.row[j] for e in constraints))
 
 
-def _takes_both_signs(expression: Expr, velocities: Sequence[Symbol]) -> bool:
-    """Whether a polynomial in the velocities is of one sign at rest and of the other far away."""
+def _at_rest_against_far(expression: Expr, velocities: Sequence[Symbol]) -> list[Expr]:
+    """Its value at rest times its sign far away along a velocity: it takes both signs below 0."""
     still = expression.xreplace(dict.fromkeys(velocities, sympy.S.Zero))
+    found = []
     for v in velocities:
         alone = expression.xreplace({u: sympy.S.Zero for u in velocities if u != v})
-        if not alone.is_polynomial(v) or free_of(alone, [v]):
-            continue
-        leading = sympy.Poly(alone, v).LC()
-        if {sign(still), sign(leading)} == {1, -1}:
-            return True
-    return False
+        if alone.is_polynomial(v) and not free_of(alone, [v]):
+            far = sign(sympy.Poly(alone, v).LC())
+            found += [far * still] if far else []
+    return found

@@ -431,3 +431,30 @@ def test_a_top_on_a_floor_does_not_spin_below_it():
     motions = state(derive(text), asked).sections["steady_motions"].motions
     assert len(motions) == 2
     assert "pi" not in {to_grammar(x) for each in motions for x in each.at.values()}
+
+
+@pytest.mark.parametrize(
+    ("power", "verdict"),
+    [(3, (False, False)), (4, (True, True)), (5, (False, False)), (6, (True, True))],
+)
+def test_damped_rest_in_a_flat_potential(power, verdict):
+    """V = k x^n: asymptotically stable for even n (Merkin, section 3.3), its roots 0 and -c/m."""
+    text = (
+        "{coordinates: [x], parameters: {m: {assume: positive}, k: {assume: positive}, "
+        f"c: {{assume: positive}}}}, T: m*x'^2/2, V: k*x^{power}, dissipation: c*x'^2/2}}"
+    )
+    [rest] = equilibria(derive(text).dynamics).equilibria
+    assert (rest.verdict.stable, rest.verdict.asymptotic) == verdict
+    assert "Its roots are 0 and" in said(text, "Small oscillations", "modes")
+
+
+@pytest.mark.parametrize(("a", "said_there"), [("U(x)", "Where"), ("a", ""), ("-3", "no Hamil")])
+def test_where_the_momenta_do_not_determine_the_velocities(a, said_there):
+    """p = v^3 + a v grows with v for a >= 0 only: below there are three velocities for some p."""
+    text = (
+        "{coordinates: [x], parameters: {a: {assume: positive}}, functions: {U: [x]}, "
+        f"L: x'^4/4 + ({a})*x'^2/2 - x^2/2}}"
+    )
+    words = said(text, "Canonical equations", "canonical_equations")
+    assert ("several branches" in words) is bool(said_there)
+    assert said_there in words

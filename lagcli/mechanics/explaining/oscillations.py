@@ -172,6 +172,10 @@ def _one(teller: Teller, M: Expr, C: Expr, K: Expr) -> Iterator[Block]:
     free, write = teller.letters.free, teller.readable.as_written
     s, omega, delta = free("s"), free("omega"), free("delta")
     rate, square = simplify(C / (2 * M)), simplify(K / M)
+    if square == 0:
+        yield says("Its roots are 0 and")
+        yield shows(s, write(-2 * rate))
+        return
     yield says("Its roots are ", s, " = −", delta, " ± i ", omega, " with")
     yield Equations(
         (

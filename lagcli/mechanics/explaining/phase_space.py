@@ -43,6 +43,10 @@ def canonical_equations(teller: Teller, section: Section) -> Iterator[Block]:
         ", they give",
     )
     yield shows(H, teller.readable.as_written(function))
+    below = derivation.hamiltonian.folds_below
+    if below is not None:
+        yield says("Where ", teller.readable.as_written(below), " < 0, the Legendre transform has "
+                   "several branches: the momenta do not determine the velocities.")  # fmt: skip
     yield says("The velocities are its derivatives with respect to the momenta,")
     yield equations_of((Name(q, 1), pair.q) for q, pair in found.equations.items())
     yield says(*_momentum_rates(teller))

@@ -89,6 +89,11 @@ def by_higher_order(near: Near) -> Stability | None:
     """Of one coordinate whose V has no second derivative there; None: not known."""
     derivatives = potential_derivatives(near.linear)
     found = by_derivatives(derivatives, near.hypotheses, near.positive) if derivatives else None
+    if found is not None and found.stable and near.complete:
+        damped = found.reason.replace(
+            f" ({LAGRANGE_DIRICHLET.name})", ", and all motions are damped"
+        )
+        return replace(_stable(damped, KELVIN_TAIT_CHETAEV), asymptotic=True)
     return None if found is None or found.is_open else found
 
 
@@ -113,7 +118,7 @@ def _minimum(near: Near, neutral: int) -> Stability:
     if neutral == 0:
         return at_strict_minimum(near)
     if neutral == len(near.restoring.M):
-        return undecided(_FLAT if near.linear.gyroscopic else NO_FORCE)
+        return by_higher_order(near) or undecided(_FLAT if near.linear.gyroscopic else NO_FORCE)
     if neutral > near.dimension_released:
         return undecided(NEUTRAL)
     if not near.is_even:
