@@ -43,7 +43,7 @@ class Hamiltonian:
     @property
     def velocities(self) -> tuple[Expr, ...] | None:
         """q'(q, p, t), verified by substitution of p = dL/dq'; None where not inverted."""
-        return self.legendre.inverted
+        return self.legendre.inverted if self.fold is None else None
 
     @cached_property
     def function(self) -> Expr | None:
@@ -95,12 +95,14 @@ class Hamiltonian:
     @property
     def folds_below(self) -> Expr | None:
         """What has no known sign, and where it is negative there are several branches."""
-        whole = None if self.legendre.is_quadratic else self._decisive
+        whole = self._decisive
         opposed = [] if whole is None else _at_rest_against_far(whole, self.system.qdot)
         return next((deciding(x) for x in opposed if sign(x) is None), None)
 
     @cached_property
     def _decisive(self) -> Expr | None:
+        if self.legendre.is_quadratic:
+            return None
         whole = determinant(self.dynamics.lagrange.mass_matrix)
         rest = None if whole is None else deciding(simplify(whole))
         return None if rest is None or free_of(rest, self.system.qdot) else rest
