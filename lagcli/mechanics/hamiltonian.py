@@ -101,11 +101,13 @@ class Hamiltonian:
 
     @cached_property
     def _decisive(self) -> Expr | None:
+        """det M without factors of known sign, a polynomial in the velocities; None of others."""
         if self.legendre.is_quadratic:
             return None
         whole = determinant(self.dynamics.lagrange.mass_matrix)
-        rest = None if whole is None else deciding(simplify(whole))
-        return None if rest is None or free_of(rest, self.system.qdot) else rest
+        rest = sympy.S.One if whole is None else simplify(whole)
+        bends = rest.is_polynomial(*self.system.qdot) and not free_of(rest, self.system.qdot)
+        return deciding(rest) if bends else None
 
     @cached_property
     def canonical_equations(self) -> tuple[tuple[Expr, Expr], ...] | None:
