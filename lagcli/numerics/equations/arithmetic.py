@@ -83,9 +83,9 @@ class Balls:
             return (e + one / e) * half
 
         def tanh(x: Any) -> Any:
-            # with exp in one place only, a wide ball far from 0 stays next to 1 or -1
+            # with one exp, which decays, a wide ball far from 0 stays next to 1 or -1
             side = -1 if self._constant(x).mid() < 0 else 1
-            return side * (one - 2 / ((2 * side * x).exp() + one))
+            return side * (2 / ((-2 * side * x).exp() + one) - one)
 
         found: dict[str, Callable[..., Any]] = {
             name: method(name) for name in "sqrt exp log sin cos tan asin acos atan".split()
