@@ -105,6 +105,8 @@ LIOUVILLE = (
     ("x^2", "y^4", "x^6", "y^2"),
     ("exp(a*x)", "y^2", "k*x", "b*y^4"),
     ("a + x^2", "b*sin(y)", "k/x^2", "cos(y)"),
+    ("cosh(x)^2", "-cos(y)^2", "a*x^4", "b*y^6"),  # the plane in elliptic coordinates
+    ("exp(2*x)", "exp(2*y)", "a*x", "b*y^2"),
 )
 
 

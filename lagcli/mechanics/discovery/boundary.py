@@ -13,11 +13,11 @@ from itertools import combinations_with_replacement
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import dot, is_zero, simplify
+from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import NoPoint
-from lagcli.mechanics.discovery.relation import Relation
+from lagcli.mechanics.discovery.relation import with_gradient
 from lagcli.mechanics.discovery.tree import Tree
 from lagcli.mechanics.system import System
 from lagcli.mechanics.total_derivative import boundary_term
@@ -49,11 +49,9 @@ def gauge_of(
     candidates += [T * X for T in sorted(times, key=str) for X in (*lengths, *products)]
     allowed.spend(_OF_DERIVATIVE * (1 + len(q)) * len(candidates))
     if 0 < len(candidates) <= _MOST_CANDIDATES:
-        vectors = [[c.diff(x) for x in (t, *q)] for c in candidates]
-        whole = [-by_t, *(-x for x in by_q)]
-        values = Relation([*vectors, whole], [t, *q], allowed).of_last()
-        if values is not None:
-            return simplify(dot(candidates, values))
+        found = with_gradient([by_t, *by_q], candidates, (t, *q), allowed)
+        if found is not None:
+            return simplify(found)
     if any(not free_of(f, [t]) for f in change.atoms(*_OF_TIME)):
         return None
     return boundary_term(simplify(change), system)

@@ -25,6 +25,7 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr
 
+from lagcli.algebra import derivative
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.dynamics import Dynamics
@@ -90,9 +91,9 @@ class Brackets:
         q, v = system.q, system.qdot
         momenta = dynamics.lagrange.momenta
         expressions: list[Expr] = list(self.charges)
-        expressions += [Q.diff(x) for Q in self.charges for x in (*q, *v)]
+        expressions += [derivative(Q, x) for Q in self.charges for x in (*q, *v)]
         expressions += [m for row in dynamics.lagrange.mass_matrix for m in row]
-        expressions += [p.diff(x) for p in momenta for x in q]
+        expressions += [derivative(p, x) for p in momenta for x in q]
         self._evaluate = Evaluator(expressions, _DIGITS)
         self._samples: list[Sample] = []
         self._source = self._states()

@@ -26,7 +26,7 @@ from lagcli.mechanics.discovery.ansatz import ordered, quadratic, quadratic_unkn
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import independent
-from lagcli.mechanics.discovery.relation import Relation
+from lagcli.mechanics.discovery.relation import with_gradient
 from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.search import Search, SlotSolution
 from lagcli.mechanics.discovery.slots import (
@@ -204,11 +204,8 @@ def potential(
     q = system.q
     if all(f == 0 for f in force):
         return sympy.S.Zero
-    vectors = [[c.diff(x) for x in q] for c in candidates]
-    values = Relation([*vectors, [-f for f in force]], q, allowed).of_last()
-    if values is not None:
-        return dot(candidates, values)
-    return boundary_term(simplify(dot(force, system.qdot)), system)
+    found = with_gradient(force, candidates, q, allowed)
+    return boundary_term(simplify(dot(force, system.qdot)), system) if found is None else found
 
 
 def integral_of(noether: Noether, eta: Vector, whole: Expr, gauge: Expr) -> NoetherCharge | None:

@@ -229,6 +229,7 @@ class KillingIntegrals:
         """Terms of f times monomials in X."""
         q = self.equations.q
         made = [a * b for a in bare_terms(f, q) if a != 1 for b in (*self._monomials, *q)]
+        made += [sympy.fraction(a)[0] for a in bare_terms(f, q)]  # Liouville's f(u) + g(v)
         terms = {term for each in (*made, *self._monomials) for term in bare_terms(each, q)}
         return sorted((m for m in terms if m != 1), key=sympy.default_sort_key)
 

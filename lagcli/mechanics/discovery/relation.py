@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 import sympy
 from sympy import Expr, Symbol
 
+from lagcli.algebra import derivative, dot
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import (
@@ -85,3 +86,15 @@ class Relation:
         if not known or known[last] == 0:
             return None
         return [known.get(i, sympy.S.Zero) / known[last] for i in range(last)]
+
+
+def with_gradient(
+    slopes: Sequence[Expr],
+    candidates: Sequence[Expr],
+    variables: Sequence[Symbol],
+    allowed: Allowance,
+) -> Expr | None:
+    """The combination of the candidates with these derivatives by the variables, if any."""
+    columns = [[derivative(c, x) for x in variables] for c in candidates]
+    values = Relation([*columns, [-f for f in slopes]], variables, allowed).of_last()
+    return None if values is None else dot(candidates, values)

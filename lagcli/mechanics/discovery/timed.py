@@ -24,7 +24,7 @@ from lagcli.mechanics.discovery.boundary import gauge_of
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.relation import Relation
+from lagcli.mechanics.discovery.relation import with_gradient
 from lagcli.mechanics.discovery.slots import SlotEquations, point_slots
 from lagcli.mechanics.noether import Noether, NoetherCharge
 
@@ -78,10 +78,7 @@ class TimedIntegrals(QuadraticIntegrals):
         if len(candidates) > _MOST_CANDIDATES:
             return None
         gradient, rate = self._slopes(eta)
-        vectors = [[c.diff(x) for x in (t, *q)] for c in candidates]
-        whole = [-rate, *(-x for x in gradient)]
-        values = Relation([*vectors, whole], [t, *q], self.allowed).of_last()
-        return None if values is None else dot(candidates, values)
+        return with_gradient([rate, *gradient], candidates, (t, *q), self.allowed)
 
     def _times_of(self, functions: Slots) -> list[Expr]:
         """The functions of time of an integral, and those with the same arguments."""
