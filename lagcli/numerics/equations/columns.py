@@ -146,7 +146,7 @@ class Values:
             return None
 
 
-class Rows:
+class ColumnRows:
     """Nodes in order, each None where it is not defined.
 
     Parameters

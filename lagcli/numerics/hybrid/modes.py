@@ -12,7 +12,7 @@ from typing import Any
 
 from lagcli.graph.nodes import Node, Symbol
 from lagcli.numerics.equations.arithmetic import Arithmetic
-from lagcli.numerics.equations.columns import Rows, Values
+from lagcli.numerics.equations.columns import ColumnRows, Values
 from lagcli.numerics.equations.motion import Function, Motion
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.charges import Sizes, conserved_charges
@@ -139,11 +139,11 @@ class Mode:
         return Sizes(e, charges, self.modes.constants)
 
     @cached_property
-    def tabulate(self) -> Rows:
+    def tabulate(self) -> ColumnRows:
         """The columns and then the charges at a state."""
         simulation = self.modes.simulation
         nodes = [*simulation.nodes, *simulation.charges.values()]
-        return Rows(self.motion, simulation.reading, nodes)
+        return ColumnRows(self.motion, simulation.reading, nodes)
 
 
 class Modes:

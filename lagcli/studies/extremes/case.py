@@ -76,7 +76,7 @@ class Loss:
 
 
 @record(kw_only=True)
-class Trial:
+class CaseTrial:
     """What came of a case.
 
     Attributes

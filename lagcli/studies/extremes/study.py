@@ -8,7 +8,7 @@ from fnmatch import fnmatchcase
 from lagcli.problem_data import Problem
 from lagcli.record import record
 from lagcli.sparing import spare_sympy
-from lagcli.studies.extremes.case import BAD, KINDS, Case, CaseFormula, Trial
+from lagcli.studies.extremes.case import BAD, KINDS, Case, CaseFormula, CaseTrial
 from lagcli.studies.extremes.cases import cases_of
 from lagcli.studies.extremes.scene import ExtremeScene, with_all_values
 from lagcli.studies.extremes.trial import Wanted
@@ -32,7 +32,7 @@ class ExtremesStudy:
         Of the problem.
     formulas
         Those that `solve` prints.
-    trials : tuple of (Case, Trial)
+    trials : tuple of (Case, CaseTrial)
         In the order of the cases.
     wanted
         What was asked of each.
@@ -42,7 +42,7 @@ class ExtremesStudy:
 
     name: str
     formulas: tuple[CaseFormula, ...]
-    trials: tuple[tuple[Case, Trial], ...]
+    trials: tuple[tuple[Case, CaseTrial], ...]
     wanted: Wanted
     notes: tuple[str, ...] = ()
 
@@ -95,7 +95,7 @@ def study(
     cases = chosen(cases_of(scene), words)
     spare_sympy()
     pool = Pool(answer, 1)
-    trials: list[tuple[Case, Trial]] = []
+    trials: list[tuple[Case, CaseTrial]] = []
     try:
         formulas, why = formulas_in(pool, problem, _SOLVING)
         if why:

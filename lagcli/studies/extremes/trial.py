@@ -21,7 +21,7 @@ from lagcli.numerics.hybrid.result import Result
 from lagcli.numerics.rigorous import prove
 from lagcli.reader.columns import usual_columns
 from lagcli.record import record, replace
-from lagcli.studies.extremes.case import Case, CaseFormula, Trial, Verdict
+from lagcli.studies.extremes.case import Case, CaseFormula, CaseTrial, Verdict
 from lagcli.studies.extremes.condition import mass_condition
 from lagcli.studies.extremes.digits import digits_between, losses
 from lagcli.studies.extremes.roles import angles_of
@@ -60,7 +60,7 @@ class Wanted:
     limit: float
 
 
-def trial(case: Case, formulas: Sequence[CaseFormula], wanted: Wanted) -> Trial:
+def trial(case: Case, formulas: Sequence[CaseFormula], wanted: Wanted) -> CaseTrial:
     """Everything that is to be known of a case.
 
     Parameters
@@ -76,8 +76,8 @@ def trial(case: Case, formulas: Sequence[CaseFormula], wanted: Wanted) -> Trial:
     try:
         scene = ExtremeScene(case.problem)
     except Refusal as refusal:
-        return Trial(verdict="refused", reason=str(refusal))
-    measured = Trial(
+        return CaseTrial(verdict="refused", reason=str(refusal))
+    measured = CaseTrial(
         verdict="undecided",
         losses=losses(formulas, _values(scene)),
         run_loss=_run_loss(scene),
@@ -155,7 +155,7 @@ def _rates(scene: ExtremeScene, state: Sequence[float]) -> Iterator[float]:
 # -- the run -------------------------------------------------------------------------------------
 
 
-def _moved(case: Case, measured: Trial, end: float, wanted: Wanted) -> Trial:
+def _moved(case: Case, measured: CaseTrial, end: float, wanted: Wanted) -> CaseTrial:
     """The same with what came of a certified run, over a shorter span where it takes too long."""
     assert measured.until is not None
     asked = Asked(
@@ -179,7 +179,7 @@ def _moved(case: Case, measured: Trial, end: float, wanted: Wanted) -> Trial:
     return replace(measured, reason=told)
 
 
-def _run(case: Case, asked: Asked, measured: Trial, end: float, wanted: Wanted) -> Trial:
+def _run(case: Case, asked: Asked, measured: CaseTrial, end: float, wanted: Wanted) -> CaseTrial:
     try:
         result = simulate(case.problem, asked, until(end))
     except Refusal as refusal:

@@ -7,7 +7,7 @@ from typing import Any
 
 from lagcli.platform.failures import describe
 from lagcli.problem_data import Problem
-from lagcli.studies.extremes.case import Case, CaseFormula, Trial
+from lagcli.studies.extremes.case import Case, CaseFormula, CaseTrial
 from lagcli.studies.extremes.formulas import printed_formulas
 from lagcli.studies.extremes.trial import Wanted, trial
 from lagcli.studies.worker import NoAnswer, Pool
@@ -24,11 +24,11 @@ def formulas_in(pool: Pool, problem: Problem, limit: float) -> tuple[tuple[CaseF
 
 def trials_in(
     pool: Pool, cases: Sequence[Case], formulas: Sequence[CaseFormula], wanted: Wanted
-) -> Iterator[Trial]:
+) -> Iterator[CaseTrial]:
     """What came of each case, in their order."""
     tasks = [("trial", (case, formulas, wanted)) for case in cases]
     for found in _answers(pool, tasks, wanted.limit):
-        yield Trial(verdict="undecided", reason=found) if isinstance(found, str) else found
+        yield CaseTrial(verdict="undecided", reason=found) if isinstance(found, str) else found
 
 
 def _answers(pool: Pool, tasks: Sequence[tuple[Any, ...]], limit: float) -> Iterator[Any]:

@@ -11,7 +11,7 @@ from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.json_values import fields_of, plain
 from lagcli.numerics.tables.writing import records_as_csv
 from lagcli.record import record
-from lagcli.studies.extremes.case import GROUPS, KINDS, Case, CaseFormula, Group, Loss, Trial
+from lagcli.studies.extremes.case import GROUPS, KINDS, Case, CaseFormula, CaseTrial, Group, Loss
 from lagcli.studies.extremes.study import ExtremesStudy
 
 _WIDTH = 80
@@ -43,7 +43,7 @@ class Gain:
         return (self.loss.printed or 0.0) - (self.loss.rewritten or 0.0)
 
 
-def worst(trial: Trial, group: Group) -> tuple[float, float] | None:
+def worst(trial: CaseTrial, group: Group) -> tuple[float, float] | None:
     """The most digits that a formula of the group loses, as printed and rewritten."""
     found = [x for x in trial.losses if x.group == group and x.printed is not None]
     if not found:
@@ -102,7 +102,7 @@ def _row(cells: Sequence[str]) -> str:
     return " ".join([*first, last])
 
 
-def _case(case: Case, trial: Trial) -> Iterator[str]:
+def _case(case: Case, trial: CaseTrial) -> Iterator[str]:
     name = f"  {case.name}"
     if len(name) > _NAME:
         yield name
@@ -186,7 +186,7 @@ def to_json(study: ExtremesStudy) -> str:
     return json.dumps(document, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _document(case: Case, trial: Trial) -> dict[str, Any]:
+def _document(case: Case, trial: CaseTrial) -> dict[str, Any]:
     return {
         **fields_of(case, "kind name parameters"),
         "initial": {str(name): to_grammar(x) for name, x in case.initial.items()},
@@ -207,7 +207,7 @@ def to_csv(study: ExtremesStudy) -> str:
     return records_as_csv(_COLUMNS, (_record(case, trial) for case, trial in study.trials))
 
 
-def _record(case: Case, trial: Trial) -> dict[str, Any]:
+def _record(case: Case, trial: CaseTrial) -> dict[str, Any]:
     found: dict[str, Any] = {name: getattr(trial, name, None) for name in _COLUMNS}
     found |= {"kind": case.kind, "case": case.name, "outcome": trial.verdict}
     found["accelerations_in_a_run"] = trial.run_loss
