@@ -3,12 +3,13 @@
 import math
 from types import SimpleNamespace
 
+import mpmath
 import pytest
 
 from lagcli.numerics.certified.accuracy import Controller
 from lagcli.numerics.hybrid.mark import Mark
 
-from .running import last, simulated
+from .running import column, last, simulated
 
 ACCURACY, ROUNDED = 1e-9, 2e-15
 
@@ -57,3 +58,18 @@ def test_what_grows_is_as_fine_at_first_as_a_tolerance_says():
         "twice the difference of two runs with local tolerances 1e-11 and 1e-13"
     )
     assert last(result, "x") == pytest.approx(math.cosh(100), rel=1e-9)
+
+
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-6, 1e-9])
+def test_two_runs_take_other_steps_in_a_short_phase(accuracy):
+    """x' = t/2 comes to sin(t), friction holds it there until cos(t) = -1/2, and it is braked."""
+    text = "{coordinates: [x], T: x'^2/2, forces: {x: \"-sign(x' - sin(t))/2\"}, initial: {x: 0}}"
+    result = simulated(text, 10, accuracy, samples=3)
+    held = mpmath.findroot(lambda t: t / 2 - mpmath.sin(t), 1.9)
+    free = 2 * mpmath.pi / 3
+    place = held**2 / 4 + mpmath.cos(held) - mpmath.cos(free)
+    after = 5 - free
+    true = place + mpmath.sin(free) * after - after**2 / 4
+    scale = result.certificate.scales[1]
+    error = abs(column(result, "x")[1] - true) / scale
+    assert error <= result.certificate.global_error["x"] + 2.0**-52

@@ -21,6 +21,8 @@ _SHORTEST = 4e-16
 _LEAST_FLOOR, _ROUNDING = 1e-6, 1e-16
 
 
+#: The change in a first step, beside the value, and its exponent of the tolerance: an order of 8.
+_SMALL, _BY_TOLERANCE = 0.1, 0.125
 #: Why steps become shorter and shorter where the coordinates fail.
 SINGULAR_MASS = (
     "it comes to where the mass matrix is singular, as with Euler angles upright: "
@@ -195,9 +197,11 @@ class Tolerance:
         q, v, until, begin = stretch
         self.see(q, v, [0.0] * (2 * self.n))
         h = self.longest
+        # were it the same at all tolerances, so would be the steps of two runs that grow from it
+        small = _SMALL * self.value**_BY_TOLERANCE
         for x, dx in (*zip(q, v, strict=True), *zip(v, rate, strict=True)):
             if dx and x:
-                h = min(h, 0.05 * abs(x / dx))
+                h = min(h, small * abs(x / dx))
         return min(max(h, least * self.longest), until - begin)
 
     def rejected(self, errors: Sequence[float]) -> None:
