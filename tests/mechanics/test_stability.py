@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import mpmath
 import pytest
+import sympy
 from sympy import Rational
 
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
+from lagcli.mechanics.reduction.readable import opposites
 from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
 
 from .derived import derive
@@ -157,3 +159,11 @@ def test_a_pendulum_under_a_constant_torque_is_unstable_above_the_horizontal():
         ).dynamics
     )
     assert [each.verdict.stable for each in section.equilibria or ()] == [True, False]
+
+
+def test_the_opposite_keeps_a_square_that_may_be_0_together_with_others():
+    """k (a + b)² > 0 and c (a + b)² > 0: for a + b = 0 neither is negative, whatever k and c."""
+    a, b, k, c = sympy.symbols("a b k c", real=True)
+    found = opposites([k * (a + b) ** 2, c * (a + b) ** 2], ["a", "b", "c", "k"])
+    assert {to_grammar(each.right) for each in found} == {"(a + b)^2*k", "(a + b)^2*c"}
+    assert {to_grammar(each.left) for each in found} == {"0"}

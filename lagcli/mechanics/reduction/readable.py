@@ -182,7 +182,7 @@ def opposites(
     """The opposite inequalities of `conditions`, those that can hold."""
     solved = _in_ratios(expressions, positive)
     plain = [_without_zeros(each, solved) for each in solved]
-    kept = _without_implied(plain, order, positive)
+    kept = _without_implied(plain, order, positive, squares=True)
     possible = [each for each, rest in kept if weak_sign(rest, positive) != 1]
     return tuple(dict.fromkeys(Above(each.right, each.left) for each in possible))
 
@@ -208,9 +208,10 @@ def _without_zeros(expression: Expr, all_: Sequence[Expr]) -> Expr:
 
 
 def _without_implied(
-    expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr]
-) -> list[tuple[Above, Expr]]:
-    """Each inequality with what must be positive for it."""
+    expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr], *,
+    squares: bool = False,
+) -> list[tuple[Above, Expr]]:  # fmt: skip
+    """Each with what must be positive for it; `squares` stay that may be 0 with the others."""
     known = list(positive)
     found: list[tuple[Above, Expr]] = []
     for expression in expressions:
@@ -226,6 +227,8 @@ def _without_implied(
         for inequality, rest in tuple(found):
             k = found.index((inequality, rest))
             others = [*positive, *(e for _, e in found[:k] + found[k + 1 :])]
+            if squares and any(p > 0 and p % 2 == 0 for _, p in _with_sines(rest)):
+                others = list(positive)
             shorter = above(rest, order, others)
             found[k : k + 1] = [] if shorter is None else [(shorter, deciding(rest, others))]
     return found
