@@ -88,16 +88,17 @@ class Hamiltonian:
 
         Where it is 0 two branches of the Legendre transform meet.
         """
-        whole = self._decisive
-        opposed = [] if whole is None else _at_rest_against_far(whole, self.system.qdot)
-        return whole if -1 in map(sign, opposed) else None
+        return self._decisive if -1 in map(sign, self._opposed) else None
 
     @property
     def folds_below(self) -> Expr | None:
         """What has no known sign, and where it is negative there are several branches."""
+        return next((deciding(x) for x in self._opposed if sign(x) is None), None)
+
+    @property
+    def _opposed(self) -> list[Expr]:
         whole = self._decisive
-        opposed = [] if whole is None else _at_rest_against_far(whole, self.system.qdot)
-        return next((deciding(x) for x in opposed if sign(x) is None), None)
+        return [] if whole is None else _at_rest_against_far(whole, self.system.qdot)
 
     @cached_property
     def _decisive(self) -> Expr | None:

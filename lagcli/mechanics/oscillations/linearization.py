@@ -139,22 +139,16 @@ class Linearization:
             [self._here(entry.xreplace(still)) if entry else S.Zero for entry in row]
             for row in matrix
         ]
-        return [
-            [
-                simplify(
-                    sympy.Add(
-                        *(
-                            u[i] * values[i][j] * v[j]
-                            for i in range(len(u))
-                            for j in range(len(v))
-                            if u[i] and v[j] and values[i][j]
-                        )
-                    )
-                )
-                for v in self.basis
-            ]
-            for u in self.basis
-        ]
+
+        def form(u: Sequence[Expr], v: Sequence[Expr]) -> Expr:
+            terms = (
+                (x, a, y)
+                for x, row in zip(u, values, strict=True)
+                for a, y in zip(row, v, strict=True)
+            )
+            return simplify(sympy.Add(*(x * a * y for x, a, y in terms if x and a and y)))
+
+        return [[form(u, v) for v in self.basis] for u in self.basis]
 
     # -- its kind --------------------------------------------------------------------------------
 

@@ -225,17 +225,14 @@ class RestConditions:
 
         It is none where the equations have no value.
         """
+        decimals = [q for q, value in values.items() if is_decimal(value)]
         try:
-            return self._balanced(values, positive)
+            if decimals and not self.dynamics.constraints.equations:
+                return all(nearly_vanishes(f, values, decimals) for f in self.forces_at_rest)
+            residuals = (where_positive(each, positive) for each in self._residuals(values))
+            return all(is_zero(each) is True or vanishes(each) for each in residuals)
         except ZeroDivisionError:
             return False
-
-    def _balanced(self, values: Mapping[Symbol, Expr], positive: Sequence[Expr]) -> bool:
-        rounded = [q for q, value in values.items() if is_decimal(value)]
-        if rounded and not self.dynamics.constraints.equations:
-            return all(nearly_vanishes(f, values, rounded) for f in self.forces_at_rest)
-        residuals = (where_positive(each, positive) for each in self._residuals(values))
-        return all(is_zero(each) is True or vanishes(each) for each in residuals)
 
     def _residuals(self, values: Mapping[Symbol, Expr]) -> list[Expr]:
         constraints = self.dynamics.constraints
