@@ -22,12 +22,10 @@ def derivative(f: Expr, x: Symbol) -> Expr:
     if f.is_Add:
         return sympy.Add(*(derivative(a, x) for a in f.args))
     if f.is_Mul:
-        return sympy.Add(*(_by_factor(f, k, x) for k in range(len(f.args))))
+        a = f.args
+        return sympy.Add(
+            *(sympy.Mul(*a[:k], derivative(a[k], x), *a[k + 1 :]) for k in range(len(a)))
+        )
     if f.is_Pow and f.exp.is_Number:
         return f.exp * f.base ** (f.exp - 1) * derivative(f.base, x)
     return f.diff(x)
-
-
-def _by_factor(f: Expr, k: int, x: Symbol) -> Expr:
-    """The term of the product rule that differentiates the factor k."""
-    return sympy.Mul(*f.args[:k], derivative(f.args[k], x), *f.args[k + 1 :])

@@ -201,13 +201,10 @@ def _times(times: TimeFunctions, slot: Slot, g: Expr, *, all_powers: bool) -> li
 
 
 def quadratic_unknowns(
-    pairs: Sequence[int],
-    linear: Sequence[int],
-    spaces: Sequence[Expr],
-    times: Sequence[Expr] = (sympy.S.One,),
+    slots: Sequence[int], spaces: Sequence[Expr], times: Sequence[Expr] = (sympy.S.One,)
 ) -> list[SlotUnknown]:
     """T(t) g(q) for the components of a Killing tensor and of the linear part."""
-    return ordered([SlotUnknown(k, T, g) for k in (*pairs, *linear) for g in spaces for T in times])
+    return ordered([SlotUnknown(k, T, g) for k in slots for g in spaces for T in times])
 
 
 def ordered(unknowns: list[SlotUnknown]) -> list[SlotUnknown]:

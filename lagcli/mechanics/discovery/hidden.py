@@ -90,14 +90,12 @@ class QuadraticIntegrals:
 
     def search(self, products: Sequence[tuple[Expr, ...]]) -> Search:
         """The linear system, in a field where the products are known."""
-        first, second = len(self.pairs), len(self.pairs) + len(self.linear)
-        unknowns = ordered([
-            *quadratic_unknowns(range(first), (), self.functions, self.times),
-            *quadratic_unknowns(
-                (), range(first, second), [*self.functions, *self.of_field], self.times
-            ),
-        ])  # fmt: skip
         slots = [*self.pairs, *self.linear]
+        pairs, linear = range(len(self.pairs)), range(len(self.pairs), len(slots))
+        unknowns = ordered([
+            *quadratic_unknowns(pairs, self.functions, self.times),
+            *quadratic_unknowns(linear, [*self.functions, *self.of_field], self.times),
+        ])  # fmt: skip
         vectors = [slot.vector for slot in slots]
         more = [e for v in (*vectors, *products) for e in v]
         return Search(self.equations, slots, unknowns, self.allowed, more)

@@ -76,7 +76,7 @@ class KillingFrame:
         still = dict.fromkeys(v, sympy.S.Zero)
         alone = replace(equations, forcing=tuple(f - f.xreplace(still) for f in equations.forcing))
         slots = point_slots(alone)[1:]
-        unknowns = quadratic_unknowns((), range(len(q)), affine(kinds))
+        unknowns = quadratic_unknowns(range(len(q)), affine(kinds))
         search = Search(alone, slots, unknowns, allowed)
         fields = [combined(search.combination(s), len(q)) for s in search.solutions()]
         if len(fields) < len(q):

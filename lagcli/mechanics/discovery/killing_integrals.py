@@ -124,8 +124,8 @@ class KillingIntegrals:
         v, accelerations = self.equations.v, self.frame.accelerations
         if not accelerations:
             return sympy.S.Zero
-        pushed = dot([derivative(value, x) for x in v], accelerations)
-        return self.equations.convected(value) + pushed
+        slopes = [derivative(value, x) for x in v]
+        return self.equations.convected(value) + dot(slopes, accelerations)
 
     def _moved(self, fields: Sequence[Vector]) -> tuple[Expr, Vector, list[Expr]]:
         """(A.p)(B.p)..., dQ/dp of it and what each f adds to its rate: -(A.grad f)(B.p)... - ..."""
@@ -170,7 +170,8 @@ class KillingIntegrals:
     def _products(self, known: Sequence[NoetherCharge]) -> list[Expr]:
         """Integrals of degree N, N - 2, ... that follow from the known ones, without their S."""
         fixed = [c.charge for c in known if self.equations.t not in c.charge.free_symbols]
-        degrees = {Q: self._degree_of(Q) for Q in fixed}
+        v = self.equations.v
+        degrees = {Q: sympy.Poly(Q, *v).total_degree() for Q in fixed}
         made = [
             sympy.Mul(*chosen)
             for count in range(1, self.degree + 1)
@@ -178,10 +179,6 @@ class KillingIntegrals:
             if sum(map(degrees.__getitem__, chosen)) in (self.degree, self.degree - 2)
         ]
         return [Q - Q.xreplace(self._still) for Q in made]
-
-    def _degree_of(self, charge: Expr) -> int:
-        """In the velocities."""
-        return int(sympy.Poly(charge, *self.equations.v).total_degree())
 
     def _compared(self, Q: Expr) -> list[Expr]:
         """Q for N > 2; else what vanishes for f(q) H, as S[w] H and H itself have it."""

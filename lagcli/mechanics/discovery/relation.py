@@ -18,6 +18,8 @@ from lagcli.mechanics.discovery.modular import (
 )
 from lagcli.mechanics.discovery.tree import Tree
 
+Vector = Sequence[Expr]
+
 
 class Relation:
     """Vectors of functions of some variables over the field of the constants.
@@ -89,10 +91,7 @@ class Relation:
 
 
 def with_gradient(
-    slopes: Sequence[Expr],
-    candidates: Sequence[Expr],
-    variables: Sequence[Symbol],
-    allowed: Allowance,
+    slopes: Vector, candidates: Vector, variables: Sequence[Symbol], allowed: Allowance
 ) -> Expr | None:
     """The combination of the candidates with these derivatives by the variables, if any."""
     columns = [[derivative(c, x) for x in variables] for c in candidates]

@@ -65,8 +65,7 @@ class TimedIntegrals(QuadraticIntegrals):
         if found is not None:
             return found
         system = self.noether.system
-        left = self.noether.dynamics.lagrange.left_sides
-        along = dot(eta, left)
+        along = dot(eta, self.noether.dynamics.lagrange.left_sides)
         change = simplify(along - system.total_derivative(moving))
         return gauge_of(change, system, self.allowed)
 
