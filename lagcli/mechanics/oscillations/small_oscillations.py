@@ -46,12 +46,13 @@ from lagcli.mechanics.stability.judge import (
 from lagcli.mechanics.stability.lagrange_dirichlet import by_routh
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.mechanics.stability.verdict import Stability, undecided
+from lagcli.mechanics.theorems import LAGRANGE_DIRICHLET
 from lagcli.record import replace
 from lagcli.statements.answers import EquilibriaSection, Equilibrium, ModesOfFrequency, ModesSection
 
 _STICKS = "static friction holds it with force to spare"
 _LIMIT = "a force is at its limit there"
-_KINK = "{V} has a strict minimum there, at a kink"
+_KINK = f"{{V}} has a strict minimum there ({LAGRANGE_DIRICHLET.name})"
 _PRESSED = "it is pressed against what it touches"
 _HELD = "contacts, static friction or kinks of the potential hold what is at rest"
 _SINGULAR = "the coordinates are singular at the equilibria"
