@@ -136,12 +136,19 @@ class Writer:
     def _joined_roots(
         self, coefficient: Fraction, pairs: list[Factor]
     ) -> tuple[Fraction, list[Factor]]:
-        """sqrt(a)*sqrt(b)/sqrt(c) as sqrt(a*b/c)."""
+        """sqrt(a)*sqrt(b)/sqrt(c) as sqrt(a*b/c), sqrt(k)*r^(3/2) as r*sqrt(k*r)."""
         half = Fraction(1, 2)
-        roots = [(b, e) for b, e in pairs if abs(e) == half]
+        pairs = self._joined_higher_roots(pairs)
+        roots = [(b, e) for b, e in pairs if abs(e) == half or _is_half_power(b, e)]
         if len(roots) < 2 and not any(isinstance(base, Number) for base, _ in roots):
             return coefficient, pairs
-        rest = [(b, e) for b, e in pairs if abs(e) != half]
+        rest = [pair for pair in pairs if pair not in roots]
+        above = any(e > 0 for _, e in roots)  # else 1/(r sqrt(k r)), not 1/sqrt(k r^3)
+        for place, (base, exponent) in enumerate(roots):
+            if abs(exponent) > half and (exponent > 0 or not above):
+                root = half if exponent > 0 else -half
+                rest.append((base, exponent - root))
+                roots[place] = base, root
         number = Fraction(1)
         inside: list[Factor] = []
         for base, exponent in roots:
@@ -159,6 +166,18 @@ class Writer:
         if isinstance(radicand, Quotient) and radicand.numerator == ONE:
             return coefficient, [*rest, (radicand.denominator, -half)]
         return coefficient, [*rest, (radicand, half)]
+
+    def _joined_higher_roots(self, pairs: list[Factor]) -> list[Factor]:
+        """a^(1/4)/(m^(1/4)*sqrt(w)) as (a/(m*w^2))^(1/4)."""
+        for index in sorted({e.denominator for _, e in pairs if e.denominator > 2}, reverse=True):
+            roots = [p for p in pairs if p[1].denominator > 1 and _is_in_root(index, *p)]
+            if len(roots) > 1:
+                whole = self.product(Fraction(1), [_raised(base, e * index) for base, e in roots])
+                rest = [pair for pair in pairs if pair not in roots]
+                if isinstance(whole, Quotient) and whole.numerator == ONE:
+                    return [*rest, (whole.denominator, Fraction(-1, index))]
+                return [*rest, (whole, Fraction(1, index))]
+        return pairs
 
     def _turned(self, coefficient: Fraction, pairs: list[Factor]) -> tuple[Fraction, list[Factor]]:
         """m*(x'' - a - b) for -m*(-x'' + a + b): no minus before a bracket that has one first."""
@@ -218,6 +237,23 @@ class Writer:
     def negative_sum(self, node: Sum) -> Expression:
         """The sum of the terms with their signs changed."""
         return self.sum(map(opposite, node.terms))
+
+
+def _is_half_power(base: Expression, exponent: Fraction) -> bool:
+    """Whether it is r^(3/2) of a letter."""
+    return isinstance(base, Name) and exponent.denominator == 2
+
+
+def _is_in_root(index: int, base: Expression, exponent: Fraction) -> bool:
+    """Whether base^exponent may stand under a common root of this index."""
+    plain = isinstance(base, (Name, Number)) or (isinstance(base, Call) and base.function == "abs")
+    return plain and abs(exponent) < 1 and index % exponent.denominator == 0
+
+
+def _raised(base: Expression, exponent: Fraction) -> Factor:
+    """|p|^2 as p^2."""
+    even = isinstance(base, Call) and exponent % 2 == 0
+    return (base.arguments[0], exponent) if even else (base, exponent)  # type: ignore[attr-defined]
 
 
 def _is_exponential(node: Expression) -> bool:

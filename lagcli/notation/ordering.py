@@ -108,7 +108,7 @@ class Ordering:
 
     def arranged(self, factors: Iterable[Factor]) -> Iterator[Factor]:
         """The factors of a product, (base, exponent), as they follow each other."""
-        ranked = sorted(factors, key=lambda pair: self.rank(pair[0]))
+        ranked = sorted(factors, key=self._rank_of_power)
         letters = [self._place(base) for base, _ in ranked if isinstance(base, Name)]
         first = min(letters, default=_AFTER_NUMBERS)
         # (m1 + m2) g l, but m g (R + h) and m2 (J + m1 r²)
@@ -116,6 +116,14 @@ class Ordering:
         yield from (pair for pair in ranked if isinstance(pair[0], Number))
         yield from leading
         yield from (p for p in ranked if p not in leading and not isinstance(p[0], Number))
+
+    def _rank_of_power(self, factor: Factor) -> Flat:
+        """A root behind the last of its letters: m1 m2 sqrt(m1 m2), but sqrt(k/m) x."""
+        base, exponent = factor
+        letters = [part for part in walk(base) if isinstance(part, Name)]
+        if exponent.denominator == 1 or isinstance(base, (Name, Sum)) or not letters:
+            return self.rank(base)
+        return _flat((1, max(map(self._is_fast, letters)), max(map(self._place, letters)), "~"))
 
     def _leads(self, node: Expression, first: int) -> bool:
         """Whether it is a sum of parameters that begins before the first letter.
