@@ -64,6 +64,11 @@ BOOK = [
         "T: J*(u'^2 + v'^2)/2\nV: 0",
         {"energy": "J*(u'^2 + v'^2)/2"},
     ),
+    (
+        "[theta, phi, psi]", "A C",  # Goldstein, 3rd ed., equation 5.53
+        "T: A*(theta'^2 + phi'^2*sin(theta)^2)/2 + C*(psi' + phi'*cos(theta))^2/2",
+        {"momenta.phi": "(A*sin(theta)^2 + C*cos(theta)^2)*phi' + C*psi'*cos(theta)"},
+    ),
 ]  # fmt: skip
 
 
