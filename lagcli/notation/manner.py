@@ -49,7 +49,6 @@ from lagcli.rewriting import rebuilt
 
 #: Terms of a sum of products of masses that is multiplied out.
 _MULTIPLIED = 4
-_CO = {"sin": "cos", "cos": "sin"}
 
 
 class Manner:
@@ -118,9 +117,7 @@ class Manner:
                 return angle
             case Sum():
                 like = self._sums.like(node)
-                if like is not None and like[0] == 1:
-                    return like[1]
-                return _sine_and_cosine_squared(node) or self._sum(node)
+                return self._sum(node) if like is None or like[0] != 1 else like[1]
             case Call(function="sqrt", arguments=(Quotient(numerator=above) as inner,)):
                 # sqrt(1/x) = 1/sqrt(x)
                 return node if above != ONE else Quotient(ONE, Call("sqrt", (inner.denominator,)))
@@ -371,33 +368,6 @@ def _with_versines(terms: Sequence[Expression]) -> list[Expression]:
             found[found.index(other)] = joined if minus else Negative(joined)
             found.remove(term)
     return found
-
-
-def _sine_and_cosine_squared(node: Sum) -> Expression | None:
-    """A sin² x + C cos² x for A + (C − A) cos² x, and A sin² x for A − A cos² x."""
-    one, last = node.terms[0], node.terms[-1]
-    minus, above, below = parts_of(last)
-    squares = [f for f in above if isinstance(f, Power) and whole_power(f)[1] == 2]
-    squares = [f for f in squares if isinstance(f.base, Call) and f.base.function in _CO]
-    if len(node.terms) != 2 or len(squares) != 1:
-        return None
-    (square,) = squares
-    assert isinstance(square.base, Call)
-    rest = quotient_of([f for f in above if f is not square] or [ONE], below)
-    terms = [opposite(term) if minus else term for term in terms_of(rest)]
-    other = Power(Call(_CO[square.base.function], square.base.arguments), square.exponent)
-    left = [term for term in terms if term != opposite(one)]
-    if len(left) != len(terms) - 1 or len(terms) > 2 or any(isinstance(t, Negative) for t in left):
-        return None
-    squared = [_times(one, other), *(_times(term, square) for term in left)]
-    ordered = [*reversed(squared)] if _CO[square.base.function] == "cos" else squared
-    return Sum(tuple(ordered)) if left else squared[0]
-
-
-def _times(node: Expression, factor: Expression) -> Expression:
-    minus, above, below = parts_of(node)
-    whole = quotient_of([*(f for f in above if f != ONE), factor], below)
-    return Negative(whole) if minus else whole
 
 
 def _difference_of_angles(one: Expression, other: Expression) -> Expression | None:
