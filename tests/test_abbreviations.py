@@ -20,6 +20,7 @@ def answers(file, **request):
     return state(derive(load(file)), Request(sections=SECTIONS, **request))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "file", ["problems/chains/triple-pendulum.yaml", "problems/chains/slider-crank.yaml"]
 )
@@ -31,6 +32,7 @@ def test_what_is_written_out_again_is_what_was_abbreviated(file):
     assert written_out(short).sections == plain.sections
 
 
+@pytest.mark.long
 def test_each_name_uses_only_earlier_ones_and_is_used():
     short = answers("problems/chains/slider-crank.yaml", abbreviate=True)
     known: set[str] = set()
@@ -42,6 +44,7 @@ def test_each_name_uses_only_earlier_ones_and_is_used():
     assert all("Delta" in {p.name for p in walk(a) if isinstance(p, Name)} for a in accelerations)
 
 
+@pytest.mark.long
 def test_names_of_the_file_are_not_taken():
     plain = answers("problems/chains/slider-crank.yaml")
     short = abbreviated(plain, ("Delta", "k1"))

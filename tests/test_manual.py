@@ -157,6 +157,7 @@ def plug_in(tmp_path):
     return run
 
 
+@pytest.mark.long
 def test_the_formatter_of_another_package_is_listed_and_used(plug_in):
     listed = plug_in("formats").stdout.splitlines()
     assert "charges   The names of the conserved charges. (from lagcli-charges)" in listed

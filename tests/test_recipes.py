@@ -46,6 +46,7 @@ def test_pandoc_makes_a_page_of_word_with_every_formula(tmp_path, monkeypatch):
     assert "$" not in re.sub(r"<[^>]*>", "", text)
 
 
+@pytest.mark.long
 @pytest.mark.skipif(pandoc() is None, reason="pandoc is missing")
 @pytest.mark.parametrize("name", ["hoop", "double-pendulum", "rolling-hoop", "lagrange-points"])
 def test_pandoc_reads_every_formula_of_markdown(name, tmp_path, monkeypatch):
@@ -76,6 +77,7 @@ def test_the_cells_of_the_quarto_document_run_and_show_mathematics():
     assert document.startswith("---\ntitle: ")
 
 
+@pytest.mark.long
 def test_the_gallery_has_a_page_of_each_problem_and_a_list(tmp_path):
     from tests.gallery import main
 

@@ -64,6 +64,7 @@ def test_a_wrong_word_is_an_error(words, message, shown):
     assert shown("solve", "swing.yaml", "--latex", "labels")[0] == 2
 
 
+@pytest.mark.long
 @pytest.mark.latex
 @pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex is missing")
 @pytest.mark.parametrize("words", ["align", "labels", "equation", "labels,equation,vartheta"])

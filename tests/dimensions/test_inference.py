@@ -153,6 +153,7 @@ def test_nothing_is_loaded_without_units_and_no_algebra_with_them():
     subprocess.run([sys.executable, "-c", code], check=True)
 
 
+@pytest.mark.long
 def test_many_wrong_terms_are_answered_quickly_and_not_all():
     terms = " + ".join(f"m*g*x^{2 + i % 5}" for i in range(5000))
     text = (
@@ -185,6 +186,7 @@ PIECES = [
 ]
 
 
+@pytest.mark.long
 @settings(max_examples=300, deadline=2000)
 @given(
     st.lists(

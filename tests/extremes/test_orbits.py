@@ -134,6 +134,7 @@ def test_three_bodies_on_the_eight(simulate):
 PYTHAGOREAN = "{x1: 1, y1: 3, x2: -2, y2: -1, x3: 1, y3: -1}"
 
 
+@pytest.mark.long
 def test_the_pythagorean_problem_in_doubles_says_until_when(simulate):
     """Its closest encounter, of 4e-4 at t = 15.83, is passed; the end at 65 is not claimed."""
     run = simulate(

@@ -91,6 +91,7 @@ def test_the_book_s_form_is_printed(row):
     assert {name: to_grammar(printed[name]) for name in wanted} == wanted
 
 
+@pytest.mark.long
 def test_abbreviations_reach_an_explanation_and_the_reduction():
     file = (
         "[x, a, b]", "M m1 m2 l1 l2 g",

@@ -134,6 +134,7 @@ def test_where_the_rank_is_another_the_answers_do_not_hold(seed):
     assert "the constraints have rank 1, not 2: the answers do not hold there" in told
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("power", mostly_long([2, 3, 4], 2))
 def test_beside_another_constraint_a_power_is_refused_too(power):
     text = FREE + 'T: m*(x\'^2 + y\'^2)/2\nconstraints: {c1: "x = k", c2: "(x - y)^%d = 0"}'

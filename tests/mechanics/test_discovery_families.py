@@ -200,6 +200,7 @@ def test_lane_and_emden_have_special_indices():
     assert cases == {"0": 5, "1": 5, "5": 1}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("Q", ["1 + t^2", "2 + 2*t + t^2", "1 + 3*t^2"])
 @pytest.mark.parametrize(("more", "number"), [("", 5), (" - k/(2*x^2)", 3)])
 def test_an_oscillator_that_fades_as_a_square_of_second_degree(Q, more, number):

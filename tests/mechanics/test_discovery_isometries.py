@@ -25,6 +25,7 @@ PLANES = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", mostly_long(PLANES, "parabolic", "logarithmic"))
 def test_a_flat_plane_has_the_eight_of_a_free_particle(name):
     coordinates, rates, _ = PLANES[name]
@@ -33,6 +34,7 @@ def test_a_flat_plane_has_the_eight_of_a_free_particle(name):
     assert found.name.startswith("Schrödinger sch(2)")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", mostly_long(PLANES, "parabolic", "logarithmic"))
 def test_kepler_keeps_its_runge_lenz_vector(name):
     coordinates, rates, inverse = PLANES[name]
@@ -50,12 +52,14 @@ def test_kepler_keeps_its_runge_lenz_vector(name):
 CYLINDER = (f"{{r: {POS}, phi: {{}}, z: {{}}}}", "r'^2 + r^2*phi'^2 + z'^2")
 
 
+@pytest.mark.long
 def test_space_in_cylindrical_coordinates_has_twelve():
     found = summary(derive(problem(f"m*({CYLINDER[1]})/2", CYLINDER[0], "m")).discovery)
     assert (found.dimension, found.independent) == (12, 6)
     assert found.name.startswith("Schrödinger sch(3)")
 
 
+@pytest.mark.long
 def test_a_magnetic_field_along_the_axis_has_no_galilei_algebra():
     field = problem(f"m*({CYLINDER[1]})/2 + B*r^2*phi'/2", CYLINDER[0], "m B")
     found = summary(derive(field).discovery)
@@ -101,6 +105,7 @@ def test_spaces_of_constant_curvature_have_six(L, name):
     assert (found.dimension, found.name, found.independent) == (7, name, 5)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("L", [
     "m*((R + a*cos(theta))^2*phi'^2 + a^2*theta'^2)/2", "m*cosh(theta)^2*(theta'^2 + phi'^2)/2",
     "m*((1 + theta^2)*phi'^2 + theta'^2)/2", "m*(exp(theta^2)*phi'^2 + theta'^2)/2",

@@ -42,6 +42,7 @@ def test_a_root_of_r_and_x_leaves_two_integrals_of_second_degree(L):
     assert min(digits_of(derivation).values()) > 20
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("x", "name", "algebra"),
     [("x y", "L_z", "sl(2,R) + R"), ("x y z", "L_x L_y L_z", "so(3) + sl(2,R)")],
@@ -57,6 +58,7 @@ def test_an_inverse_square_leaves_the_oscillators_conformal_integrals(x, name, a
     assert summary(derivation.discovery).name == algebra
 
 
+@pytest.mark.long
 def test_a_cone_over_the_plane_is_a_direct_sum():
     found = summary(derive(problem("m*z^2*(x'^2 + y'^2)/2 + m*z'^2/2",
                                    f"{{x: {{}}, y: {{}}, z: {POS}}}", "m")).discovery)  # fmt: skip
@@ -129,6 +131,7 @@ def test_a_dilation_of_momentum_and_energy_by_different_powers_is_no_poincare_al
     assert (found.dimension, found.name) == (3, None)
 
 
+@pytest.mark.long
 def test_three_cyclic_charges_beside_rotations_are_no_euclidean_algebra():
     """so(3) + R^3 has the dimension and Killing's form of e(3)."""
     sphere = "r^2*(theta'^2 + sin(theta)^2*phi'^2)"

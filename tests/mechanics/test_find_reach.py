@@ -24,6 +24,7 @@ find:
 """
 
 
+@pytest.mark.long
 def test_a_ladder_leaves_the_wall_at_two_thirds_of_its_height():
     """Morin, exercise 8.24 (method): sin(theta) = 2 sin(theta0)/3, on the side x > 0."""
     assert roots(LADDER.replace("FIRST", "POSITIVE")) == formulas("asin(2*sin(theta0)/3)")

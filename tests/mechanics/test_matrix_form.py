@@ -206,6 +206,7 @@ def test_a_small_system_is_not_large_and_a_chain_of_eight_is():
     assert large_form(problem(chain(8, "points"))) is not None
 
 
+@pytest.mark.long
 def test_contradictory_constraints_are_left_to_the_algebra_which_names_them():
     text = cartesian(14).replace("  rod1:", "  other: x1^2 + y1^2 = 2*l1^2\n  rod1:")
     assert large_form(problem(text)) is None
@@ -260,6 +261,7 @@ def test_usual_sections_of_a_large_system_are_null_where_not_found_and_say_so():
     assert len(shown["equations"]) == 40
 
 
+@pytest.mark.long
 def test_matrix_form_of_a_large_system_needs_no_sympy(tmp_path):
     path = tmp_path / "chain.yaml"
     path.write_text(chain(12, "points"))

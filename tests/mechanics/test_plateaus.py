@@ -15,6 +15,7 @@ def sign(x: float) -> int:
     return (x > 0) - (x < 0)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(6))
 def test_rest_is_where_the_slopes_cancel(seed: int) -> None:
     """V = c k (|x - a| + |x + b|): its slope is c k (sign(x - a) + sign(x + b))."""

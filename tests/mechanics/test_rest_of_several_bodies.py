@@ -17,6 +17,7 @@ def equilibria(text):
     return answer(text)["equilibria"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(3))
 def test_inner_forces_cannot_hold_what_falls(seed):
     """The sum of all forces is the outer one (Newton's third law): none, or none unless g = 0."""
@@ -103,6 +104,7 @@ V: -{hill}*x^2/2 + g*y^2/2
     assert all(name in condition for name in factors)
 
 
+@pytest.mark.long
 def test_an_angle_of_rest_is_an_arc_sine_or_its_supplement():
     """R x (M + m) g sin(alpha) = -m g b sin(phi) of a wheel with a load on an incline."""
     found = equilibria("""

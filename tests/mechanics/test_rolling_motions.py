@@ -77,6 +77,7 @@ def test_a_hoop_rolls_in_a_circle_and_its_oscillation(hoop):
         assert found == pytest.approx(square(theta, (phi, psi)), rel=1e-8)
 
 
+@pytest.mark.long
 def test_upright_it_rolls_on_where_it_is_fast_enough(hoop):
     straight = next(m for m in hoop.motions if {n: to_grammar(v) for n, v in m.at.items()}
                     == {"theta": "pi/2"})  # fmt: skip

@@ -77,6 +77,7 @@ def test_no_modes_are_given_where_a_contact_may_open():
 # -- what is neutral ------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(4))
 def test_a_blade_across_the_slope_is_not_without_a_force(seed):
     """m s'' = m g sin(alpha) cos(phi) along it: a turn about pi/2 lets it slide, as t^2."""
@@ -138,6 +139,7 @@ def test_equal_weights_balance(seed):
 # -- forces on points that are guided -------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("axis", [0, 1])
 def test_a_force_across_the_path_of_a_guided_point_is_not_called_0(axis):
     """The rod of a pendulum pushes its support down, too, which the rail bears."""

@@ -34,6 +34,7 @@ def said(text, title, *also):
 # -- conditions -----------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", SEEDS)
 def test_no_condition_contradicts_where_it_exists(seed):
     """Of x (A x + B y² + …): conditions of any sign, all of which some values fulfil."""
@@ -125,6 +126,7 @@ def test_a_potential_without_a_second_derivative(order, factor, stable):
     assert state.verdict.stable is stable
 
 
+@pytest.mark.long
 def test_the_sleeping_top_is_stable_at_its_critical_spin():
     """Landau and Lifshitz, section 35, problem 2; U_eff is of fourth order at equality."""
     [_, upright, _] = steady_motions(
@@ -242,6 +244,7 @@ def test_alternatives_of_which_one_always_holds_are_no_condition():
     assert not one_is_negative([pair[0], 5 * m * k - gamma**2])
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("rate", ["x'*sin(a) - y'*cos(a) = 0", "x' - y*y' = 0"])
 def test_rest_everywhere_is_called_equilibrium(rate):
     text = (
@@ -328,6 +331,7 @@ def test_causes_are_enumerated_with_one_and(count):
     assert all(word in text for word in words)
 
 
+@pytest.mark.long
 def test_the_linear_part_of_a_drive_given_by_points_is_found():
     """r'' = w² r: five symmetries, with exp(w t) and exp(-w t), though T is that of a point."""
     text = """

@@ -25,6 +25,7 @@ def cone(power: int, sign: str) -> str:
     )
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("sign", ["", "-"])
 def test_nothing_is_claimed_of_the_apex_of_a_cone(sign):
     text = cone(2, sign)

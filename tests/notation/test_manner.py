@@ -88,6 +88,7 @@ def _deeper(parts):
     )
 
 
+@pytest.mark.long
 @given(st.recursive(LEAVES, _deeper, max_leaves=12))
 def test_the_value_stays(formula):
     graph = Graph()
@@ -142,6 +143,7 @@ def test_numbers_beside_a_sum_of_the_file_cancel(kinetic, hamiltonian):
     assert to_grammar(found.sections["hamiltonian"].hamiltonian) == hamiltonian
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("section", ["hamiltonian", "hamilton_jacobi"])
 def test_a_potential_keeps_the_terms_of_the_file(section):
     text = (

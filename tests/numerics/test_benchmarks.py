@@ -64,6 +64,7 @@ def test_andrews_angles_are_those_of_the_test_set_to_ten_digits():
         assert last(result, name) == pytest.approx(known[name], rel=1e-10, abs=1e-10)
 
 
+@pytest.mark.long
 def test_the_force_of_a_spring_between_moving_points_is_read_as_one_force():
     """(r - L0)(xr - xb)/r with the end (xb, yb) of the spring on a circle."""
     problem = load(FOLDER / "car-axis.yaml")

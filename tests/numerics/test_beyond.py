@@ -33,6 +33,7 @@ def test_the_certified_rows_are_those_without_it(lost):
     assert all(x == pytest.approx(math.exp(-k * t), abs=1e-9) for t, x in result.rows)
 
 
+@pytest.mark.long
 def test_the_rows_beyond_end_with_the_span(lost):
     k, _, result = lost
     times = [row[0] for row in result.beyond]

@@ -31,6 +31,7 @@ def claims_hold(file, until, place, speed):
         assert result.certificate.reached
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("potential", ["abs(x)", "sqrt(x^2)"])
 @pytest.mark.parametrize("seed", range(2))
 def test_well_with_a_corner(seed, potential):
@@ -117,6 +118,7 @@ def test_a_ball_that_bounces_many_times(seed):
     claims_hold(BALL.format(g=g, x=x, v=v), until, speed * s - a * s * s / 2, speed - a * s)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", mostly_long(range(2), 0))
 def test_a_particle_between_walls(seed):
     draw = random.Random(seed)

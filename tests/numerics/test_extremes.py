@@ -30,6 +30,7 @@ def test_at_rest_on_top_it_stays():
     assert last(simulated(PENDULUM % "0", 100), "th") == 0
 
 
+@pytest.mark.long
 def test_pi_as_a_decimal_falls_with_more_digits_and_is_refused_in_doubles():
     """d = pi - 3.141592653589793 = 2.4e-16 grows as d cosh(t)."""
     text = PENDULUM % "3.141592653589793"

@@ -163,6 +163,7 @@ def test_a_row_that_follows_from_others_has_no_such_answer(weights):
     assert regular_motion(mass, [1.0, 2.0, 3.0], [one, two, third], [0.0, 0.0, 0.0]) is None
 
 
+@pytest.mark.long
 def test_three_parallel_rods_of_which_one_is_redundant_on_the_motion_only():
     """The platform does not turn: it moves as one pendulum; its angle is nothing but rounding."""
     platform = """

@@ -105,6 +105,7 @@ HILLS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("text", mostly_long(HILLS, "{h}*(x - {c})^2/((x - {c})^2 + {w}^2)"))
 def test_a_hill_is_not_stepped_over(text):
     h, c, w = drawn(text)

@@ -83,6 +83,7 @@ def test_damping_and_a_column_lie_in_theirs():
             assert contains(row[2], -2 * mpmath.exp(-2 * t))
 
 
+@pytest.mark.long
 def test_kepler_comes_back_to_its_beginning():
     """After one period 2 pi a^(3/2) the state is the first one; a = 1 from x = 1/2."""
     problem = lagcli.loads(

@@ -142,6 +142,7 @@ def test_without_matplotlib_the_extra_is_named(plot, monkeypatch):
     assert plot(PENDULUM, "--until", 1)[0] == 0
 
 
+@pytest.mark.long
 def test_a_title_is_never_a_formula(plot, tmp_path):
     text = 'title: "costs $5 and $6_x, 摆, \\u001b[31m"\ncoordinates: [x]\nT: x\'^2\nV: x^2\n'
     (tmp_path / "a.yaml").write_text(text, "utf-8")

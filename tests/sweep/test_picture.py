@@ -84,6 +84,7 @@ def test_what_cannot_be_drawn_is_said(pendulum, given, said):
         ensemble(pendulum, given)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("ending", BEGINNING)
 def test_the_ending_of_the_output_draws(tmp_path, ending):
     path = tmp_path / f"map{ending}"

@@ -254,6 +254,7 @@ constraints: {rolling: "%s"}
 """
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("rolling", ["x = R*phi", "phi = x/R", "2*x - 2*R*phi = 0", "x' = R*phi'"])
 def test_the_momentum_of_a_coordinate_that_rolls_is_that_of_the_reduced_lagrangian(rolling):
     """p = dL/dphi' + R dL/dx' after x = R phi; half of it, or that of L alone, is refuted."""
@@ -285,6 +286,7 @@ def test_a_defective_frequency_has_one_shape() -> None:
     assert (mode.multiplicity, mode.shape["y"]) == (2, parse_text("0"))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["classics/spherical-pendulum", "steady/sleeping-top"])
 def test_frequencies_and_verdicts_at_a_pole_are_examined(name: str) -> None:
     problem, answers = derived(name, ("steady_motions",))

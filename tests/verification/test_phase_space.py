@@ -88,6 +88,7 @@ def test_each_unit_is_examined() -> None:
             assert not verified(problem, sheet).complete, (group, name, length)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "change",
     [{"dimension": 4}, {"independent": 3}, {"name": "so(3)"}, {"in_involution": 1}],
