@@ -52,6 +52,7 @@ def test_names_of_the_file_are_not_taken():
     assert written_out(short).sections == plain.sections
 
 
+@pytest.mark.long
 def test_a_short_answer_has_no_abbreviations():
     assert not answers("problems/pendulums/double-pendulum.yaml", abbreviate=True).where
 

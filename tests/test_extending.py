@@ -57,6 +57,7 @@ def test_a_diagnostic(call):
     assert "the point 'b' is where another one is" in done.stderr
 
 
+@pytest.mark.long
 def test_a_simplification_rule(call):
     problem = "coordinates: [x]\nT: x'^2/2\nV: asinh(sinh(x))^2/2\n"
     done = call("algebra/build.py", problem, "solve", "-f", "json")
@@ -64,6 +65,7 @@ def test_a_simplification_rule(call):
     assert '"accelerations": {\n    "x": "-x"\n  }' in done.stdout
 
 
+@pytest.mark.long
 def test_a_kind_of_constraint(call):
     problem = (
         "coordinates: [x, y]\nparameters: [v]\nT: (x'^2 + y'^2)/2\n"
@@ -98,6 +100,7 @@ def with_module(tmp_path):
     return added
 
 
+@pytest.mark.long
 def test_a_built_in_formatter(with_module):
     call = with_module("lagcli/formatters/built_in/charges.py", "coordinates: [x]\nT: x'^2/2\n")
     done = call("solve", "p.yaml", "-f", "charges", "--show", "charges")
@@ -106,6 +109,7 @@ def test_a_built_in_formatter(with_module):
     assert "charges   The names of the conserved charges.\n" in call("formats").stdout
 
 
+@pytest.mark.long
 def test_a_method(with_module):
     call = with_module(
         "lagcli/numerics/certified/methods/verlet2.py",

@@ -113,6 +113,7 @@ def test_the_shape_reads_back_as_something_equal(expression: Expr) -> None:
         assert close(before, after)
 
 
+@pytest.mark.long
 @quick
 @given(expressions)
 def test_what_expands_to_nothing_is_zero(expression: Expr) -> None:

@@ -72,6 +72,7 @@ def entries(here):
     return [path for path in (here / "cache").rglob("*") if path.is_file()]
 
 
+@pytest.mark.long
 def test_the_second_run_prints_the_same_and_loads_nothing(solve, here):
     first, loaded = solve("free.yaml")
     assert first[0] == 0

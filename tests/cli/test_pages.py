@@ -101,6 +101,7 @@ def test_html_in_a_file_is_a_whole_page_and_in_a_pipe_a_fragment(shown, tmp_path
     assert fragment in whole
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("command", ["solve", "explain"])
 def test_a_page_with_motion_has_plot_and_animation_and_no_address(command, shown, tmp_path):
     files = ("swing.yaml", "free.yaml")

@@ -37,6 +37,7 @@ def until(process, words):
     raise AssertionError(words)
 
 
+@pytest.mark.long
 def test_the_answer_comes_again_and_mistakes_are_watched_on(watched):
     file, process = watched
     assert until(process, "ẍ =") == "ẍ = −k x/m"

@@ -49,6 +49,7 @@ def test_exactly_on_top_it_stays(simulate):
     assert abs(run.last["th - pi"]) < 1e-9
 
 
+@pytest.mark.long
 def test_on_top_as_a_double_it_falls(simulate):
     """d = pi - th0 grows as d cosh(t): at a right angle where tan(th/4) says so."""
     start = "3.141592653589793115997963468544185161590576171875"

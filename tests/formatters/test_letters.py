@@ -58,6 +58,7 @@ def test_a_length_called_L_does_not_name_the_lagrangian_in_an_explanation():
     assert "&" not in repr(told.steps)
 
 
+@pytest.mark.long
 def test_letters_that_are_free_stay():
     answers = state(derive(clashing("k")), Request(sections=SECTIONS))
     text = render([answers], "text", Options(width=80, unicode=False))

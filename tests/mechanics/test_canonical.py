@@ -52,6 +52,7 @@ def test_sign_convention():
     assert poisson(y, p, d.system) == 0
 
 
+@pytest.mark.long
 def test_jacobi_leibniz_and_antisymmetry():
     d = derive(PLANE + "T: m*(x'^2 + y'^2)/2")
     f, g, h = built(d, "x^2*p_y + sin(y)*t", "exp(x)*p_x*p_y", "p_x^2/(1 + y^2) + x*y")

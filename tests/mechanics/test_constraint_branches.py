@@ -118,6 +118,7 @@ def test_only_what_is_proved_is_called_a_contradiction(first, second, proved):
     assert "no state was found" in mistake.hint
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(6))
 def test_where_the_rank_is_another_the_answers_do_not_hold(seed):
     """(x - a z) y = 0 and (x - a z) (z - k) = 0: rank 1 on x = a z, 2 on y = 0, z = k."""

@@ -57,6 +57,7 @@ def test_a_body_that_rocks_is_stable_below(T: str, V: str) -> None:
     assert below["stable"] is True
 
 
+@pytest.mark.long
 def test_the_arms_of_a_governor_are_stable_where_they_stand_out() -> None:
     """M = 2 a² (m₁ + 2 m₂ sin² θ) (J. C. Maxwell, Proc. R. Soc. 16 (1868) 270)."""
     text = (

@@ -130,6 +130,7 @@ constraints: {wheel: x = a}
     assert (found.in_involution, found.integrable) == (2, True)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("rod", "squared"),
     [

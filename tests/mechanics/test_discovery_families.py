@@ -192,6 +192,7 @@ def test_linear_equations_whose_coefficients_change_have_five(L):
     assert summary(derive(one_coordinate(L)).discovery).name.startswith("Schrödinger sch(1)")
 
 
+@pytest.mark.long
 def test_lane_and_emden_have_special_indices():
     """Chandrasekhar, *Stellar Structure*, chapter IV: 0, 1 and 5 in closed form."""
     text = (f"{{parameters: {{n: {{}}}}, coordinates: {{x: {POS}}}, "

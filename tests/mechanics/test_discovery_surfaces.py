@@ -48,6 +48,7 @@ def test_it_stays_on_an_independent_motion(surface):
     assert min(digits.values()) > 20
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("surface", ["a*z = x^3 - x*y^2 + y", "x^4 + y^4 + z^4 = a^4"])
 def test_other_surfaces_have_the_energy_alone(surface):
     found = summary(derive(on(surface)).discovery)

@@ -323,6 +323,7 @@ def test_the_action_is_told_with_its_cases():
     assert to_grammar(pairs[Name("p_phi", 1)]) == "0"
 
 
+@pytest.mark.long
 def test_the_reduction_ends_at_the_effective_potential():
     """Goldstein, section 3.2, and Landau and Lifshitz, section 14."""
     explanation = also("reduction/kepler-radial-motion", "reduction")
@@ -367,6 +368,7 @@ def test_a_system_of_more_than_a_page_stays_in_matrix_form():
     assert not explanation.complete
 
 
+@pytest.mark.long
 def test_a_large_system_is_solved_by_elimination_with_its_steps_named():
     explanation = chain(6)
     assert "six degrees of freedom" in words(explanation)

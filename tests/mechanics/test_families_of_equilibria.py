@@ -162,6 +162,7 @@ def test_stiffness_on_a_ring_holds_on_both_branches(potential, ring, place, slop
         ) == pytest.approx(slope, rel=1e-9)
 
 
+@pytest.mark.long
 def test_a_point_of_a_family_of_steady_motions_is_not_told_beside_it():
     text = _SPACE.replace("z'^2)", "(x^2 + y^2)*z'^2)") + "V: k*(x^2 + y^2 - a^2)^2/4"
     section, _ = steady_motions(derivation(text))
@@ -193,6 +194,7 @@ def test_a_pole_of_a_sphere_is_not_judged_apart_from_all_other_places_of_rest():
     assert all(motion.rates is not None for motion in section.motions)
 
 
+@pytest.mark.long
 def test_an_equilibrium_in_decimals_is_kept_where_one_is_worked_out_of_another():
     """One of three, all found in Cartesian coordinates: x = u + v²/2 in a turning trap."""
     found = states(

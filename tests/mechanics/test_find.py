@@ -337,6 +337,7 @@ find:
     assert value(text) == formula("(4/3)^2*(w^2 + 18*g*(a - z)/29)")
 
 
+@pytest.mark.long
 def test_a_state_that_is_allowed_for_the_values_of_the_file_only_is_told():
     found = answers(CONTRADICTION.replace("STATE", "x: 0.6, y: 0.8"))["asked"]
     assert "values of the file only" in found.note

@@ -113,6 +113,7 @@ def test_a_gauge_that_is_not_elementary_is_an_integral(g):
             assert found.conserved is False
 
 
+@pytest.mark.long
 def test_a_closed_form_in_two_variables_without_antiderivative_is_integrated_along_a_path():
     """K = d/dt of the integral of exp(-s^2) U(s) from 0 to x + y."""
     g = "exp(-(x + y)^2)*U(x + y)"

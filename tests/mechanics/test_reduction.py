@@ -122,6 +122,7 @@ def test_a_momentum_that_does_not_give_the_velocity():
     assert missing
 
 
+@pytest.mark.long
 def test_a_relativistic_reduction():
     """Landau and Lifshitz, *The Classical Theory of Fields*, section 39: p_phi = gamma m r² phi'."""
     section, _ = reduced("""
@@ -153,6 +154,7 @@ V: a*(x^2/2 + E*x^4)
     assert [p.amplitude for p in motion.periods] == ["A"]
 
 
+@pytest.mark.long
 def test_what_the_assumptions_rule_out_is_not_listed():
     """A charge about a field line: one radius for each sign of q B p, no negative ones."""
     section, missing = reduced("""

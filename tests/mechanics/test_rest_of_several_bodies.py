@@ -35,6 +35,7 @@ V: {inner} + m*g*(y1 + y2)
         assert not found["warnings"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("power", [1, 2, 3])
 @pytest.mark.parametrize("part", [1, 2])
 def test_where_the_potential_is_infinite_nothing_rests(power, part):

@@ -363,6 +363,7 @@ def test_no_average_is_claimed_of_other_forces(potential):
     assert averaged(derive(text).dynamics) is None
 
 
+@pytest.mark.long
 def test_a_body_slips_before_it_leaves():
     """F = m g sin(theta)/3 and N = m (g cos(theta) - (R + a) theta'^2): |F|/N has no bound."""
     text = (

@@ -63,6 +63,7 @@ def test_the_sign_assumed_of_an_eliminated_coordinate_excludes_a_minimum():
     assert one_freedom(rod.format(assume="assume: nonnegative")).periods == ()
 
 
+@pytest.mark.long
 def test_no_modes_are_given_where_a_contact_may_open():
     text = (
         "{coordinates: [x, y, th], parameters: {m: {assume: positive}, g: {assume: positive}, "

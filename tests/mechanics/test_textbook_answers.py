@@ -96,6 +96,7 @@ def test_the_turning_points_of_an_exponential_well():
         assert period.order == 4
 
 
+@pytest.mark.long
 def test_a_period_that_is_the_same_for_all_amplitudes_says_so():
     """Huygens: the cycloid's, here 4 pi sqrt(a/g)."""
     motion = one_freedom(

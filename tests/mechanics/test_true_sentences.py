@@ -144,6 +144,7 @@ V: k*cos(theta)
 # -- what acts ------------------------------------------------------------------------------------
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", SEEDS)
 def test_steady_motions_under_a_drive_are_those_without_the_driven_coordinate(seed):
     source = random.Random(seed)

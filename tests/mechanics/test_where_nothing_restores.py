@@ -60,6 +60,7 @@ def test_all_forces_on_a_quadric_are_along_its_gradient(seed):
     assert {e.verdict.stable for e in found.equilibria or ()} == {True, False}
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("velocity", ["phi' = w", "phi' - w = 0", "2*phi' = 2*w"])
 def test_a_driven_hoop_has_the_verdict_of_the_hoop_with_its_angle_put_in(velocity):
     parameters = f"parameters: {{{_POINT}, w: {{assume: positive}}}}"

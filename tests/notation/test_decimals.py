@@ -37,6 +37,7 @@ def test_with_decimals(written, decimal):
     assert to_grammar(with_decimals(parse_text(written))) == decimal
 
 
+@pytest.mark.long
 @given(st.fractions(max_denominator=10**6).filter(lambda x: x >= 0))
 def test_a_decimal_is_near_and_reads_back(value):
     node = with_decimals(Number(value))

@@ -42,6 +42,7 @@ def test_the_known_motion_is_met(name):
     assert [found for found in findings if found is not None] == []
 
 
+@pytest.mark.long
 def test_the_row_of_four_bars_is_the_pendulum_that_its_cranks_are():
     """T = 3 psi'^2/2, V = 7 g sin(psi)/2; flat at t = 0.49, where loops could fold."""
     minimal = "{coordinates: [psi], parameters: {g: 9.81}, L: 3*psi'^2/2 - 7*g*sin(psi)/2, "

@@ -194,6 +194,7 @@ initial: {x: 1, y: 1, x': -1, y': -1}
     assert result.rows[-1][1:] == pytest.approx((2, 1, 1, 0.5), abs=1e-9)
 
 
+@pytest.mark.long
 def test_a_rod_falls_flat_and_rests_on_both_ends():
     text = """
 coordinates: [y, th]
@@ -297,6 +298,7 @@ initial: {x': -1}
     assert result.rows[-1][1:] == pytest.approx((-0.5 / slowing, 0, 0), abs=1e-9)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(6))
 def test_what_sticks_ends_the_steps_of_every_method(seed):
     """Blocks pushed up an incline; abs and sign have no series, so `taylor` is dop853 as well."""

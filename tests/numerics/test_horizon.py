@@ -73,6 +73,7 @@ def test_chaos_holds_no_shorter_over_a_longer_span(seed):
     assert all(b >= a * (1 - 1e-12) for a, b in pairwise(holds))
 
 
+@pytest.mark.long
 def test_the_rows_stay_where_they_were_asked_for():
     times = (0.0, 3.0, 4.5, 20.0, 70.0)
     text = PENDULUMS % (2.0, 2.5)

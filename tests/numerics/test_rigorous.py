@@ -257,6 +257,7 @@ def test_a_low_wall_is_passed_and_a_high_one_turns_back(w):
         assert contains(found.rows[-1][2], speed)
 
 
+@pytest.mark.long
 def test_the_cut_of_an_angle_is_passed():
     """atan2(sin t, cos t) is t up to pi, and t - 2 pi from there on."""
     problem = lagcli.loads(

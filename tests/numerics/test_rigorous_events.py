@@ -103,6 +103,7 @@ def test_two_bodies_that_rub_move_together_in_the_end():
         assert all(contains(x, mpmath.mpf(1) / 3) for x in found.rows[-1][3:5])
 
 
+@pytest.mark.long
 def test_impacts_that_accumulate_end_the_proof():
     found = proof(lagcli.load("bouncing-ball"), 4.0, samples=41)
     assert not found.reached

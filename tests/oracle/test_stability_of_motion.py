@@ -36,6 +36,7 @@ def examined(found: list[Claim]) -> list[str]:
     return [f"{dict(claim.state)}: {what}" for claim in found if (what := contradiction(claim))]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(SAMPLE))
 def test_what_is_called_stable_stays_and_what_is_called_unstable_leaves(seed: int) -> None:
     assert not examined(claimed(system(seed)))
@@ -63,6 +64,7 @@ def test_the_library(path: Path) -> None:
     assert not examined(list(claims(derivation)))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [0, 1, 3])
 def test_a_wrong_verdict_is_found(seed: int) -> None:
     """Of a claim and its opposite, the motion contradicts one."""

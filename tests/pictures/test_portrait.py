@@ -48,6 +48,7 @@ def marks(picture, role):
     ]  # fmt: skip
 
 
+@pytest.mark.long
 def test_the_separatrix_of_the_pendulum():
     picture, _ = portrait(problem_of(PENDULUM), STATES)
     [separatrix] = curves(picture, "separatrix")
@@ -59,12 +60,14 @@ def test_the_separatrix_of_the_pendulum():
     assert max(abs(rate) for _, rate in points) == pytest.approx(2 * omega, abs=1e-3)
 
 
+@pytest.mark.long
 def test_the_equilibria_of_the_pendulum_with_their_kinds():
     picture, _ = portrait(problem_of(PENDULUM), STATES)
     assert marks(picture, "stable") == pytest.approx([0], abs=1e-12)
     assert marks(picture, "unstable") == pytest.approx([-pi, pi], abs=1e-12)
 
 
+@pytest.mark.long
 def test_every_corner_of_a_level_has_the_energy_of_the_level():
     problem = problem_of(PENDULUM)
     energy = RemainingFreedom(problem).energy
@@ -76,6 +79,7 @@ def test_every_corner_of_a_level_has_the_energy_of_the_level():
         assert max(values) - min(values) < 1e-9 * 30
 
 
+@pytest.mark.long
 def test_a_bead_on_a_fast_hoop_has_two_minima_and_two_separatrices():
     picture, _ = portrait(problem_of(HOOP), MOTION)
     theta = acos(9.81 / 16)  # Goldstein, exercise 2.18
@@ -85,6 +89,7 @@ def test_a_bead_on_a_fast_hoop_has_two_minima_and_two_separatrices():
     assert len(curves(picture, "motion")) == 1
 
 
+@pytest.mark.long
 def test_the_motion_of_a_pendulum_that_turns_stays_within_one_turn():
     turning = PENDULUM.replace("theta': 0", "theta': 9")
     picture, _ = portrait(problem_of(turning), MOTION)
@@ -103,6 +108,7 @@ def test_the_turning_points_of_keplers_effective_potential():
     assert picture.notes == ("For the constant momenta of the initial state: p_φ = 1.2.",)
 
 
+@pytest.mark.long
 def test_a_constraint_leaves_one_degree_of_freedom():
     on_rod = """
 coordinates: [r, theta]

@@ -381,6 +381,7 @@ def test_a_charge_that_moves_is_not_called_constant() -> None:
     assert not found.complete
 
 
+@pytest.mark.long
 def test_a_steady_motion_that_is_left_out_is_found() -> None:
     """Of the bead on the hoop, which has no cyclic coordinate."""
     problem, answers = derived("steady/bead-on-rotating-hoop", ("steady_motions",))
@@ -429,6 +430,7 @@ def test_frequencies_that_are_real_for_some_ratios_are_not_called_real_always() 
     assert not found.complete
 
 
+@pytest.mark.long
 def test_the_hamiltonian_of_an_equation_that_was_not_separated_is_examined() -> None:
     problem, answers = derived("hamilton-jacobi/anisotropic-oscillator", ("hamilton_jacobi",))
     section = answers.sections["hamilton_jacobi"]

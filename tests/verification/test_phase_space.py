@@ -26,6 +26,7 @@ SECTIONS = {
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "name", mostly_long(SECTIONS, *(n for n in SECTIONS if "angular-momentum" not in n))
 )
