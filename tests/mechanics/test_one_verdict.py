@@ -62,3 +62,10 @@ def test_a_condition_is_short_where_another_one_holds():
     [rest] = equilibria(derive(text).dynamics).equilibria or ()
     [opposite] = rest.verdict.unstable
     assert (to_grammar(opposite.left), to_grammar(opposite.right)) == ("4*m*k", "q^2*B^2")
+
+
+@pytest.mark.parametrize("V", ["abs(x*y)", "abs(x^2 - y^2)", "2*abs(x*y) + x^2*y^2"])
+def test_nothing_is_called_stable_along_lines_that_cross(V):
+    """Motion along x = 0 comes to where V restores nothing across it, and may leave along y = 0."""
+    found = equilibria(derive(f"coordinates: [x, y]\nT: (x'^2 + y'^2)/2\nV: \"{V}\"").dynamics)
+    assert all(each.verdict.stable is not True for each in found.equilibria or ())

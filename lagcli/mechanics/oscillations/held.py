@@ -22,12 +22,13 @@ from collections.abc import Mapping, Sequence
 from itertools import combinations
 
 import sympy
-from sympy import Expr, S
+from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, shape, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
+from lagcli.algebra.systems import solve_system
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.derivation import Derivation
@@ -240,10 +241,17 @@ def _kinks(dynamics: Dynamics) -> dict[str, Friction]:
             not plain
             or sign(slope) != 1
             or any(f.has(sympy.sign(u)) for f in system.applied_forces)
+            or _crosses_itself(u, system.q)
         ):
             return {}
         found[f"#kink{k}"] = Friction(u, slope)
     return found
+
+
+def _crosses_itself(u: Expr, q: Sequence[Symbol]) -> bool:
+    """Whether u = 0 may have a point without a tangent, as x y = 0 has: what moves along leaves."""
+    found = solve_system([u, *(u.diff(x) for x in q)], q)
+    return bool(found.solutions) or not found.complete
 
 
 def _friction(dynamics: Dynamics) -> list[Friction]:
