@@ -12,6 +12,7 @@ from lagcli.reader.habits import (
     CASES,
     COMMENT,
     fraction,
+    function_meant,
     latex_meant,
     meanings,
     superscript,
@@ -148,9 +149,13 @@ def _missing_product(
 ) -> Diagnostic:
     span = excerpt.span(left.start_pos, right.end_pos)
     apart = left.end_pos < right.start_pos
-    if left.type == "NAME" and str(left) in FUNCTIONS:
+    # th may as well be an angle
+    known = str(left) if len(left) == 2 and left != "ln" else meanings("functions").get(left, left)
+    if left.type == "NAME" and known in FUNCTIONS:
         message = f"the argument of {left} stands in parentheses"
-        return Diagnostic(message, span, f"did you mean {left}({right})?")
+        return Diagnostic(message, span, f"did you mean {known}({right})?")
+    if left.type == right.type == "NAME" and str(left) == "dt":  # d/dt x
+        return Diagnostic("a rate is written with a prime", span, function_meant("dt", [right]))
     if str(right) == "and":
         return Diagnostic("two statements in one", span, "write each by itself, under its own name")
     if "where" in {left, right} and "=" in excerpt.value:
