@@ -24,6 +24,11 @@ def rebuilt(node: Expression, rewrite: Callable[[Expression], Expression]) -> Ex
     return cast(Expression, _with_fields(node, rewrite))
 
 
+def put_in(node: Expression, whole: Mapping[Expression, Expression]) -> Expression:
+    """The tree with other trees for some of its parts."""
+    return whole[node] if node in whole else rebuilt(node, lambda part: put_in(part, whole))
+
+
 def _rewritten(value: Any, rewrite: Callable[[Expression], Expression]) -> Any:
     match value:
         case Expression():

@@ -10,7 +10,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra.equations import written
 from lagcli.algebra.simplification import shape, simplify
 from lagcli.expression import Expression, Name, Sum, opposite, walk
-from lagcli.rewriting import rebuilt
+from lagcli.rewriting import put_in, rebuilt
 
 _ROOT = "sqrt"  # the place of the root; no name of a file, since it is a function's
 
@@ -39,11 +39,7 @@ def _pair(first: Expr, second: Expr, order: Sequence[str]) -> tuple[Expression, 
     tree, whole = shape(middle + half / root * mark, order), shape(root, order)
     if sum(node == place for node in walk(tree)) != 1:
         return None
-    return _put(tree, place, whole), _put(_turned(tree, place), place, whole)
-
-
-def _put(node: Expression, place: Name, root: Expression) -> Expression:
-    return root if node == place else rebuilt(node, lambda part: _put(part, place, root))
+    return put_in(tree, {place: whole}), put_in(_turned(tree, place), {place: whole})
 
 
 def _turned(node: Expression, place: Name) -> Expression:

@@ -28,7 +28,7 @@ from lagcli.expression import (
 from lagcli.mechanics.hamiltonian import GivenHamiltonian, Hamiltonian
 from lagcli.mechanics.legendre import coupled
 from lagcli.mechanics.readable import Readable
-from lagcli.rewriting import rebuilt
+from lagcli.rewriting import put_in
 
 #: How many times the operations of one bracket over all the energies apart may take: 1.6 for
 #: a block on a movable wedge, the most that was worth it in 52 systems of textbooks.
@@ -77,12 +77,9 @@ def _apart(hamiltonian: Hamiltonian, readable: Readable) -> Iterator[Expression]
         if b != 0
     }
 
-    def put(node: Expression) -> Expression:
-        return differences[node] if node in differences else rebuilt(node, put)
-
     kinetic = list(_kinetic(system.momenta, flow, readable))
     for shape in kinetic:
-        yield writer.sum([put(shape), rest])
+        yield writer.sum([put_in(shape, differences), rest])
     assert hamiltonian.function is not None
     without = hamiltonian.function.xreplace(dict.fromkeys(system.momenta, sympy.S.Zero))
     if not differences or not free_of(without, system.momenta):

@@ -17,7 +17,7 @@ from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.root_integrals import ROOT
 from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.statement import Missing
-from lagcli.rewriting import rebuilt
+from lagcli.rewriting import put_in
 from lagcli.statements.motions import ActionPart, HamiltonJacobiSection
 
 
@@ -131,12 +131,8 @@ class _Writing:
     def function(self, form: ElementaryAction) -> Expression:
         """W with its root written as a sum by the constants, the same in each term."""
         root = Call("sqrt", (self.sum(form.radicand),))
-
-        def put_back(node: Expression) -> Expression:
-            return root if node == Name(ROOT.name) else rebuilt(node, put_back)
-
         shaped = [shape(term, self.order) for term in form.terms]
-        return Writer(self.order).sum([put_back(term) for term in shaped])
+        return Writer(self.order).sum([put_in(term, {Name(ROOT.name): root}) for term in shaped])
 
     def derivative(self, expression: Expr) -> Expression:
         """A root with its radicand by terms."""
