@@ -39,10 +39,11 @@ class Expansions:
         by_rest = self._by_rest(poly)
         choices: list[list[Terms]] = []
         for rest, inner in by_rest:
-            swapped = self._swapped(self.field.ring.build(inner))
-            forms = [self.atoms.terms(swapped)] * 2
-            if len(swapped) == len(inner):  # else 1 - cos² is sin²: I1 sin² + I3 cos²
-                forms[0] = self.atoms.terms(self.field.ring.build(inner))
+            own = self.field.ring.build(inner)
+            swapped = self._swapped(own)
+            if len(swapped) < len(own):  # 1 - cos² is sin²: I1 sin² + I3 cos²
+                own = swapped
+            forms = [self.atoms.terms(own), self.atoms.terms(swapped)]
             rewritten = self.trigonometry.rewritten(inner, squared=below)
             forms.extend(rewritten or [forms[0], forms[0]])
             forms.append(min(forms, key=self._weight))

@@ -432,7 +432,7 @@ class Shaper:
         best: PlannedProduct | PlannedSum | None = None
         lowest, doubled = 0, False
         forms = self.expansions.of(poly, below=below)
-        plain, fewest = self.atoms.terms(poly), min(map(len, forms))
+        fewest = min(map(len, forms))
         for terms in forms:
             plan = self.grouper.group(terms)
             if isinstance(plan, PlannedSum):
@@ -444,7 +444,8 @@ class Shaper:
                     )
             else:  # its sign goes to the whole product, as that of a sum does
                 score = plan.score - OPERATION * (plan.coefficient < 0)
-            if terms == plain and len(terms) > fewest:  # I1 + (I3 - I1) cos²: I1 sin² + I3 cos²
+            # I1 + (I3 - I1) cos², which is I1 sin² + I3 cos²
+            if len(terms) > fewest and terms == self.atoms.terms(poly):
                 score += _UNEVEN * OPERATION
             multiple = self.atoms.has_double_angle(terms)
             if below and multiple:

@@ -123,7 +123,8 @@ class SteadyFamilies:
 
     def _others(self, conditions: list[Expr]) -> Sequence[SystemSolution] | None:
         """The other conditions solved for all coordinates, or for as many, the rest given."""
-        for chosen in (self.system.q, *combinations(self.system.q, len(conditions))):
+        q = self.system.q
+        for chosen in dict.fromkeys((q, *combinations(q, len(conditions)))):
             solved = solve_system(conditions, chosen)
             if solved.complete and solved.solutions:
                 return solved.solutions
