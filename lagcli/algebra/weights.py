@@ -11,7 +11,7 @@ Weights = dict[Symbol, Rational]
 
 
 class NotAPower(Exception):
-    """An exponent that is no number."""
+    """An exponent has symbols in it."""
 
 
 def weights(expression: Expr, rows: list[Weights]) -> Weights:

@@ -126,7 +126,7 @@ class Examination:
             return None
 
     def rank_is_possible(self) -> bool:
-        """Whether the constraints have the rank of the answers at a state, as far as it is seen."""
+        """Whether the constraints may have the rank of the answers at a state."""
         if self.reference.of_phase_space or self.reference.large:
             return True
         found = {self._rank_at(state) for state in self.states()}

@@ -26,7 +26,7 @@ Holds = Callable[[mpf], bool]
 
 
 def same_region(found: Sequence[Expr], expected: Sequence[Expr]) -> bool:
-    """Whether all of the first are positive where all of the second are, as far as it is seen.
+    """Whether all of the first are positive where all of the second are, along random lines.
 
     False where they were seen nowhere to begin or to end.
     """

@@ -32,7 +32,7 @@ def trials_in(
 
 
 def _answers(pool: Pool, tasks: Sequence[tuple[Any, ...]], limit: float) -> Iterator[Any]:
-    """The answers; a sentence for each that there is not."""
+    """The answers, each missing one as a sentence."""
     for found in pool.answers(tasks, _PATIENCE * limit):
         if not isinstance(found, NoAnswer):
             yield found
