@@ -72,13 +72,14 @@ def _by_state(
 
 
 _NO_OSCILLATION = {True: "negative: no oscillation", False: "an oscillation where this is positive"}
+_WHERE_REAL = "an oscillation where this is real and positive"
 
 
 def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
     note = f"{mode.multiplicity} times" if mode.multiplicity > 1 else ""
     omega = own("omega")
     if mode.frequency is not None:
-        yield Row(omega, mode.frequency, note)
+        yield Row(omega, mode.frequency, _WHERE_REAL if mode.open_sign else note)
     elif mode.frequency_squared is not None:
         squared = Power(omega, Number(Fraction(2)))
         yield Row(squared, mode.frequency_squared, note or _NO_OSCILLATION[mode.negative])

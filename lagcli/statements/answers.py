@@ -273,7 +273,8 @@ class ModesOfFrequency:
     `frequency` is None where it is not real, and the square is `negative` or may be positive for
     some values; both are None where they have no closed form, or are `damped`.  The displacements
     of one frequency are the combinations of `shape` and of `more_shapes`.  One-sided contacts in
-    `open` do not act; `kinked`: a kink of V holds the others.
+    `open` do not act; `kinked`: a kink of V holds the others.  `open_sign`: `frequency` is real for
+    some values of the parameters only.
     """
 
     at: Mapping[str, Expression]
@@ -287,6 +288,7 @@ class ModesOfFrequency:
     damped: bool = False
     open: tuple[str, ...] = ()
     kinked: bool = False
+    open_sign: bool = False
 
 
 @record(kw_only=True)

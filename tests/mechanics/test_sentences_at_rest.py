@@ -461,3 +461,23 @@ def test_where_the_momenta_do_not_determine_the_velocities(a, said_there):
     words = said(text, "Canonical equations", "canonical_equations")
     assert ("several branches" in words) is bool(said_there)
     assert said_there in words
+
+
+@pytest.mark.parametrize("potential", ["(x^2 + y^2)^(n/2)", "(x^2 + y^2 + x*y)^n", "(x^2)^n + y^2"])
+def test_rest_is_not_denied_at_0_to_an_open_power(potential):
+    """grad V is 0 at 0 for large n, and has no value there for others."""
+    text = f"{{coordinates: [x, y], parameters: [n], T: (x'^2 + y'^2)/2, V: '{potential}'}}"
+    assert "there is no equ" not in said(text, "Equilibria", "equilibria")
+    assert "there is no st" not in said(text, "Steady motions", "steady_motions")
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_frequency_that_may_not_be_real_is_said_to_be_one_only_where_it_is(seed):
+    """Of the two of V = a x^2/2 + b y^2/2 those whose factor has no known sign."""
+    signs = [("positive", "real"), ("real", "positive"), ("real", "real")][seed]
+    text = (
+        f"{{coordinates: [x, y], parameters: {{a: {{assume: {signs[0]}}}, b: {{assume: {signs[1]}}}"
+        "}, T: (x'^2 + 3*y'^2)/2, V: a*x^2/2 + b*y^2/2}"
+    )
+    told = said(text, "Small oscillations", "modes")
+    assert told.count("oscillates only where this is real") == signs.count("real")

@@ -330,3 +330,17 @@ V: -M*g*(l - r)*cos(theta)
     assert normal(rate) ** 2 == formula("M*g/(m*r)")
     squares = {normal(each) for each in below.frequencies_squared}
     assert squares == {formula("g/(l - r)"), formula("3*M*g/((m + M)*r)")}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(3))
+def test_a_body_that_spins_about_its_axis_at_a_crest_of_the_potential(seed):
+    """V = k sin(theta): at pi/2 the axis rests at any spin p, and I1 w^2 = p^2/I1 - k there."""
+    I1, I3 = [("1", "2"), ("3", "1"), ("2", "5")][seed]
+    text = TOP.replace("k*cos(theta)", "k*sin(theta)")
+    text = text.replace("I1: POSITIVE, I3: POSITIVE, ", "").replace("I1", I1).replace("I3", I3)
+    text = text.replace("[phi, theta, psi]", "{phi: {}, theta: POSITIVE, psi: {}}")
+    spinning = [each for each in motions(text) if to_grammar(each.rates["phi"]) == "0"]
+    assert [to_grammar(each.at["theta"]) for each in spinning] == ["pi/2"]
+    [square] = spinning[0].frequencies_squared
+    assert normal(square) == formula(f"p_psi^2/{I1}^2 - k/{I1}")

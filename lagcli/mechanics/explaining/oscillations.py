@@ -115,7 +115,7 @@ def _mode(mode: ModesOfFrequency, omega: Name, place: Place) -> Iterator[Block]:
         yield _amplitudes(each)
     if mode.negative:
         yield says("This is negative: the displacement does not oscillate, it grows exponentially.")
-    elif mode.frequency is None:
+    elif mode.frequency is None or mode.open_sign:
         yield says("It oscillates only where this is real and positive.")
     if value == ZERO:
         yield says(_without_oscillation(mode, len(shapes), place))

@@ -31,7 +31,11 @@ NO_VALUE_AT_REST = "a force has no value at rest, as v/|v| has none"
 _NO_CLOSED_SOLUTION = "no closed solution of the conditions of equilibrium was found"
 #: Why nothing is solved for that is constant.
 TIMED = "the equations depend explicitly on the time"
-_AT_A_KINK = "a force jumps at a kink of the potential, and rest there is not decided"
+_AT_A_KINK = "a force may jump at a kink of the potential, and rest there is not decided"
+_AT_AN_OPEN_POWER = (
+    "where the base of a power is 0 the force depends on the exponent, and rest there is not "
+    "decided"
+)
 #: Digits to which decimals are worked out.
 _DIGITS = 40
 _AT_AN_EDGE = (
@@ -75,6 +79,8 @@ class RestPoints(RestConditions):
         self.complete = True
         #: all solutions are where the coordinates are singular, and none is an equilibrium
         self.at_singular_coordinates = False
+        #: at some solutions the base of a power is 0, and its exponent has no known sign
+        self.at_open_powers = False
         #: at some solutions the gradients of the constraints are not independent
         self.at_singular_constraints = False
 
@@ -103,6 +109,7 @@ class RestPoints(RestConditions):
             found += [p for p in self._evident() if tuple(p.values.values()) not in known]
             if not found:
                 self.reason = _AT_A_KINK if kinks else _NO_CLOSED_SOLUTION
+                self.reason = _AT_AN_OPEN_POWER if self.at_open_powers else self.reason
                 self.reason = TIMED if self.depends_on_time else self.reason
                 return None
         return self._in_regular_coordinates(found)
@@ -137,12 +144,12 @@ class RestPoints(RestConditions):
             elif point is not None and self.balanced(point.values, solution.positive):
                 found.append(point)
             elif self.without_value(solution.values):
-                continue
+                self.at_open_powers |= self.has_open_power(solution.values)
             elif len(solution.values) < len(self.system.q) and self._may_be_real(solution):
                 lost = True
             else:
                 self.at_singular_constraints |= self.loses_rank(solution.values)
-        return found, lost or not (found or solved.complete)
+        return found, lost or self.at_open_powers or not (found or solved.complete)
 
     def _up_to_translations(self, equations: list[Expr]) -> SolvedSystem | None:
         """All solutions at which the q are 0 along which nothing changes, then moved along them."""

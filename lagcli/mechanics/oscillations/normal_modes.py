@@ -16,7 +16,7 @@ from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.parameter_values import admissible_values
-from lagcli.mechanics.reduction.readable import without_moduli
+from lagcli.mechanics.reduction.readable import weak_sign, without_moduli
 from lagcli.record import record
 
 _DIGITS = 60
@@ -29,8 +29,8 @@ _ROUNDED = mpf(10) ** -10  # for squared frequencies given as decimals
 class NormalMode:
     """`square` is omega^2; `frequency` None where it is not real, no `shapes` where complex.
 
-    `negative`: the square is, for all values, or is not real.  Both are None, without shapes, for a
-    frequency that was not found, or is `damped`.
+    `negative`: the square is, for all values, or is not real; `open_sign`: for some.  Both are
+    None, without shapes, for a frequency that was not found, or is `damped`.
     """
 
     square: Expr | None
@@ -39,6 +39,7 @@ class NormalMode:
     multiplicity: int
     negative: bool = False
     damped: bool = False
+    open_sign: bool = False
 
 
 def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[NormalMode]:
@@ -67,9 +68,13 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
             else:
                 frequency = _frequency(linear, root, chosen)
                 square = shorter(simplify(root), root)
-            falls = frequency is None and sign(square, linear.point.positive) == -1
+            known = sign(square, linear.point.positive)
+            falls = frequency is None and known == -1
             shapes = _shapes(linear, square, values) or _shapes(linear, given[k], values)
-            modes.append(NormalMode(square, frequency, shapes, multiplicity, falls))
+            turns = known is None and weak_sign(square) != 1
+            modes.append(
+                NormalMode(square, frequency, shapes, multiplicity, falls, open_sign=turns)
+            )
     modes.sort(key=lambda mode: _number(mode.square, values))
     if unknown and (modes or not complex_):
         modes.append(NormalMode(None, None, (), unknown, complex_))

@@ -106,6 +106,11 @@ class RestConditions:
         except ZeroDivisionError:
             return True
 
+    def has_open_power(self, values: Mapping[Symbol, Expr]) -> bool:
+        """Whether 0^n, with n an open exponent, stands in some force there."""
+        powers = {p for f in self.forces_at_rest for p in f.atoms(sympy.Pow)}
+        return any(p.exp.free_symbols and is_zero(at(p.base, values)) is True for p in powers)
+
     @cached_property
     def equations(self) -> list[Expr]:
         """What vanishes at rest: the constraints, and the forces along what they allow."""

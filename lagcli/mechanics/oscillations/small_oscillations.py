@@ -278,6 +278,7 @@ class SmallOscillations:
                 damped=mode.damped,
                 open=place.held.open,
                 kinked=place.held.kinked,
+                open_sign=mode.open_sign and place.verdict.stable is not True,
             )
             for mode in place.modes
         ]

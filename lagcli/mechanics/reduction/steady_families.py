@@ -104,6 +104,7 @@ class SteadyFamilies:
                 for each in solved.solutions:
                     found += self._checked(each.values, chart, each.positive)
                 continue
+            found += self._for_any(factor, unknown, rest, chart)
             roots = solve_for(factor, unknown)
             if roots is None:
                 return None
@@ -120,6 +121,22 @@ class SteadyFamilies:
                     positive = (*each.positive, *open_)
                     found += self._checked(values, chart, positive, mirrored=mirrored)
         return found
+
+    def _for_any(
+        self, factor: Expr, unknown: Symbol, rest: list[Expr], chart: Mapping[Expr, Expr]
+    ) -> Iterator[Steady]:
+        """Where all coefficients of the unknown vanish: for every value of it.
+
+        a(q, v) u + b(q, v) = 0 is solved for u where a is not 0; where a = b = 0, any u will do.
+        """
+        coefficients = sympy.Poly(factor, unknown).coeffs() if factor.is_polynomial(unknown) else []
+        given = [v for v in self.full.qdot if any(c.has(v) for c in coefficients)]
+        if not given:
+            return
+        solved = solve_system([*coefficients, *rest], [*self.system.q, *given])
+        for each in solved.solutions:
+            if any(v in each.values for v in given):
+                yield from self._checked(each.values, chart, each.positive)
 
     def _others(self, conditions: list[Expr]) -> Sequence[SystemSolution] | None:
         """The other conditions solved for all coordinates, or for as many, the rest given."""

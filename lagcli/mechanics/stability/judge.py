@@ -41,7 +41,7 @@ DRIFTS = "a velocity constraint has a term without velocities that depends on th
 EXCLUDED = "the constraints exclude every displacement"
 #: By an exact solution.
 ACCELERATES = "near it there are motions with a constant acceleration"
-_EVERYWHERE = "every position is an equilibrium, and the kinetic energy does not grow"
+_EVERYWHERE = "every position along them is an equilibrium, and the kinetic energy does not grow"
 _POWERS = "all roots are 0, and to first order displacements grow in proportion to a power of t"
 _NO_MOTION = "the equations of motion are singular there"
 _JUMPS = "a force jumps there, or its derivative does"
