@@ -481,3 +481,12 @@ def test_a_frequency_that_may_not_be_real_is_said_to_be_one_only_where_it_is(see
     )
     told = said(text, "Small oscillations", "modes")
     assert told.count("oscillates only where this is real") == signs.count("real")
+
+
+@pytest.mark.parametrize("gap", ["x >= v*t", "x >= sin(v*t)", "y >= x + v*t", "x + y >= -v*t^2"])
+def test_nothing_is_called_stable_that_a_moving_contact_may_reach(gap):
+    """A wall that comes nearer throws away what rests before it."""
+    text = "{coordinates: [x, y], parameters: [v], T: (x'^2 + y'^2)/2, contacts: {c: {gap: G}}}"
+    for contact, stable in ((gap, False), (gap.replace("t", "1"), True)):
+        told = said(text.replace("G", contact), "Equilibria", "equilibria")
+        assert ("Stable up to" in told, "a contact moves" in told) == (stable, not stable)

@@ -62,6 +62,10 @@ class RestPoint:
     positive: tuple[Expr, ...] = ()
     family: Family | None = None
 
+    def depends_on_time(self, t: Symbol) -> bool:
+        """Whether it is there while a condition with the time holds: an open contact moves."""
+        return any(x.has(t) for x in self.positive)
+
 
 class RestPoints(RestConditions):
     """All equilibria of a system, or the evident ones.

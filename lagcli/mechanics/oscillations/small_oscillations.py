@@ -51,7 +51,6 @@ from lagcli.record import replace
 from lagcli.statements.answers import EquilibriaSection, Equilibrium, ModesOfFrequency, ModesSection
 
 _STICKS = "static friction holds it with force to spare"
-_LIMIT = "a force is at its limit there"
 _KINK = f"{{V}} has a strict minimum there ({LAGRANGE_DIRICHLET.name})"
 _PRESSED = "it is pressed against what it touches"
 _HELD = "contacts, static friction or kinks of the potential hold what is at rest"
@@ -145,8 +144,10 @@ class Place:
         """Whether it is stable."""
         if self.held.rest.depends_on_time:
             return judge_on_average(self.linear) or undecided(TIMED)
+        if self.point.depends_on_time(self.linear.system.t):
+            return undecided("a contact moves, and may reach it")
         if self.held.grazes(self.point):
-            return undecided(_LIMIT if self.held.kinked else GRAZES)
+            return undecided("a force is at its limit there" if self.held.kinked else GRAZES)
         if self.held.firmly and not self.linear.M:
             held = self.held
             reason = _STICKS if held.sticking else _KINK if held.kinked else _PRESSED
@@ -181,9 +182,8 @@ class Place:
                 or not self.linear.regular
                 or not self.linear.smooth
                 or self.linear.drifts
+                or self.held.grazes(self.point)
             ):
-                return []
-            if self.held.grazes(self.point):
                 return []
             return normal_modes(self.linear, self.characteristic)
         except ZeroDivisionError:
@@ -239,7 +239,8 @@ class SmallOscillations:
     def equilibrium(self, place: Place) -> Equilibrium:
         """One equilibrium as a statement."""
         verdict, potential = place.verdict, potential_of(RestPoints(self.dynamics))
-        reduced = self._by_routh(place) if verdict.is_open else None
+        open_ = verdict.is_open and not place.point.depends_on_time(self.system.t)
+        reduced = self._by_routh(place) if open_ else None
         if reduced is not None:
             verdict, potential = reduced, "U_eff"
         linear, order = place.linear, self.system.order
