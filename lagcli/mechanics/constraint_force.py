@@ -38,7 +38,8 @@ def on_points(
 ) -> dict[str, dict[str, Vector]]:
     """Vectors on the points that do the work given along the coordinates, by name.
 
-    Points on which nothing acts are left out; empty where the vectors are not unique.
+    Points on which nothing acts are left out; empty where the vectors are not unique, or where
+    bodies beside the points move with them and take up a part of the force.
     """
     system = dynamics.system
     components = [
@@ -50,7 +51,7 @@ def on_points(
     moving = [
         j for j in range(len(system.q)) if any(is_zero(row[j]) is not True for _, _, row in slots)
     ]
-    if not slots or len(slots) != len(moving) or not along:
+    if not slots or len(slots) != len(moving) or not along or _carry_more(dynamics, moving):
         return {}
     transposed = [[row[j] for _, _, row in slots] for j in moving]
     answer: dict[str, dict[str, Vector]] = {}
@@ -67,6 +68,22 @@ def on_points(
             if any(component != 0 for component in vector)
         }
     return answer
+
+
+def _carry_more(dynamics: Dynamics, moving: Sequence[int]) -> bool:
+    """Whether T has more inertia along these coordinates than the points of the file.
+
+    Only a difference that is quadratic in the velocities tells that; a point without a mass
+    has one that is not known.
+    """
+    system = dynamics.system
+    if any(particle.mass is None for particle in system.particles):
+        return False
+    rest = system.L - system.points_energy
+    more = [rest.diff(system.qdot[j], v) for j in moving for v in system.qdot]
+    return all(not entry.has(*system.qdot) for entry in more) and any(
+        is_zero(entry) is False for entry in more
+    )
 
 
 def fixed_axes(dynamics: Dynamics, point: str) -> tuple[str, ...]:

@@ -34,7 +34,7 @@ UNSOLVED = "the multipliers were not solved in closed form"
 _NO_POINTS = "the file has no `points`, so where the forces act is not known"
 _NOT_UNIQUE = (
     "the forces on the points are not unique: each coordinate that a point depends on needs "
-    "one component of a position, and no more"
+    "one component of a position, and no more, and its inertia in T is that of the points"
 )
 
 

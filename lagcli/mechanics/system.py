@@ -132,6 +132,11 @@ class System:
             return None
         if self.problem.kinetic is not None:
             return self.build(self.problem.kinetic)
+        return self.points_energy
+
+    @cached_property
+    def points_energy(self) -> Expr:
+        """The sum of m v^2 / 2 over the points that have a mass."""
         return sympy.Add(
             *(
                 particle.mass * self.total_derivative(x) ** 2 / 2

@@ -232,3 +232,10 @@ def test_the_moments_of_a_top_stand_by_the_squares_of_sine_and_cosine():
     p = (I1 * sin(theta) ** 2 + I3 * cos(theta) ** 2) * dphi + I3 * x * cos(theta)
     assert to_grammar(shape(sp.diff(p, dphi))) == "I1*sin(theta)^2 + I3*cos(theta)^2"
     assert to_grammar(shape(1 / sp.diff(p, dphi))) == "1/(I1*sin(theta)^2 + I3*cos(theta)^2)"
+
+
+@pytest.mark.parametrize("function", [sp.sin, sp.cos])
+@pytest.mark.parametrize("root", [sp.sqrt, sp.S])
+def test_an_angle_over_a_difference_has_no_sign_before_it(function, root):
+    angle = root(k) * t / root(M + m - m * sp.cos(theta) ** 2)
+    assert "(-" not in to_grammar(shape(function(angle)))

@@ -208,6 +208,26 @@ def test_more_components_than_coordinates_are_not_unique():
 
 
 @pytest.mark.parametrize(
+    ("body", "stated"),
+    [("0", True), ("I*theta'^2/2", True), ("M*x'^2/2", False), ("M*x'*theta'*cos(theta)", False)],
+)
+def test_no_force_is_stated_on_a_point_that_carries_a_body_along(body: str, stated: bool):
+    """The friction of a rolling disc acts on the disc, not on a bead that sits on it."""
+    text = (
+        "coordinates: [x, theta]\nparameters: [m, M, I, R, b]\n"
+        "points: {bead: {position: [x + b*cos(theta), b*sin(theta)], mass: m}}\n"
+        "T: m*(x'^2 - 2*b*x'*theta'*sin(theta) + b^2*theta'^2)/2 + %s\n"
+        "constraints: {rolling: x' = R*theta'}\n"
+    )
+    if "I" in body:  # a body that turns about the point itself
+        text = text.replace("x + b*cos(theta), b*sin(theta)", "x").replace(
+            "(x'^2 - 2*b*x'*theta'*sin(theta) + b^2*theta'^2)", "x'^2"
+        )
+    section, _ = answered(derive(text % body))
+    assert (section.forces is not None) is stated
+
+
+@pytest.mark.parametrize(
     ("attributes", "coefficient", "where"),
     [
         ("{}", "abs(tan(a))", []),
