@@ -155,7 +155,7 @@ def _opposite(where: Sequence[Above]) -> list[Part]:
 def steady_stability(motion: SteadyMotion) -> list[Part]:
     """Whether a steady motion is stable, and by which conditions, in sentences."""
     verdict = motion.verdict
-    if motion.rolling and verdict.spectrum is not None:
+    if motion.rolling and verdict.stable is None and verdict.spectrum is not None:
         parts: list[Part] = ["Stable to first order"]
         where = verdict.spectrum
         if len(motion.frequencies_squared) == 1 and any(map(_is_long, where)):

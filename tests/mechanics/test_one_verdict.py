@@ -69,3 +69,17 @@ def test_nothing_is_called_stable_along_lines_that_cross(V):
     """Motion along x = 0 comes to where V restores nothing across it, and may leave along y = 0."""
     found = equilibria(derive(f"coordinates: [x, y]\nT: (x'^2 + y'^2)/2\nV: \"{V}\"").dynamics)
     assert all(each.verdict.stable is not True for each in found.equilibria or ())
+
+
+@pytest.mark.parametrize("force", ["b", "2*m*b/7"])
+def test_rest_among_motions_at_constant_velocities_has_the_verdict_of_equilibria(force):
+    """Circles about any point: a ball on a turntable, a charge in a field given as a force."""
+    derivation = derive(
+        "{coordinates: [x, y], parameters: {m: {assume: positive}, b: {assume: positive}}, "
+        f"T: m*(x'^2 + y'^2)/2, forces: {{x: -{force}*y', y: {force}*x'}}}}"
+    )
+    [rest] = equilibria(derivation.dynamics).equilibria or ()
+    [motion] = steady_motions(derivation)[0].motions or ()
+    assert (motion.verdict.stable, motion.verdict.reason) == (True, rest.verdict.reason)
+    told = words(explain(derivation, ["steady_motions"]), "Steady motions")
+    assert "first order" not in told

@@ -13,11 +13,12 @@ Landau, Lifshitz, *Mechanics*, 3rd ed., section 23.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 from sympy import Expr, I, S, Symbol
 
+from lagcli.algebra import is_zero
 from lagcli.algebra.equations import written
 from lagcli.algebra.place import at
 from lagcli.expression import Expression
@@ -298,3 +299,12 @@ class SmallOscillations:
 
     def _tree_or_none(self, expression: Expr | None) -> Expression | None:
         return None if expression is None else self._tree(expression)
+
+
+def verdict_at(dynamics: Dynamics, values: Mapping[Symbol, Expr]) -> Stability | None:
+    """The verdict on the equilibrium at these values of the coordinates, where there is one."""
+    for place in SmallOscillations(dynamics).places or ():
+        there = place.point.values
+        if all(is_zero(there.get(q, q) - values.get(q, q)) is True for q in dynamics.system.q):
+            return place.verdict
+    return None

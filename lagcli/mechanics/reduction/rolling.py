@@ -33,6 +33,7 @@ from lagcli.mechanics.oscillations.characteristic import determinant, determinan
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.oscillations.small_oscillations import verdict_at
 from lagcli.mechanics.reduction.minimal import integrated, minimal
 from lagcli.mechanics.stability.judge import ACCELERATES, judge
 from lagcli.mechanics.stability.roots import by_polynomial
@@ -293,7 +294,14 @@ class RollingMotions:
         found, squares = by_polynomial(powers, motion.positive, dimension=self._dimension(motion))
         if found.is_open and displaced_it_accelerates(self.dynamics):
             return unstable(ACCELERATES), squares
-        return self._by_energy(motion) or found, squares
+        return self._by_energy(motion) or self._at_rest(motion, found) or found, squares
+
+    def _at_rest(self, motion: RollingMotion, found: Stability) -> Stability | None:
+        """The verdict on the equilibrium that it is, where the roots leave it open."""
+        rates = (motion.values.get(self.system.qdot[j]) for j in self.turning)
+        if found.stable is not None or any(rate != 0 for rate in rates):
+            return None
+        return verdict_at(self.dynamics, motion.values)
 
     def _by_energy(self, motion: RollingMotion) -> Stability | None:
         """The verdict on rest in the coordinates that are left; None of other motions."""

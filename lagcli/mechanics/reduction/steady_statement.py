@@ -21,7 +21,7 @@ from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import beats, choices, shorter
-from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
+from lagcli.mechanics.oscillations.small_oscillations import verdict_at
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
 from lagcli.mechanics.reduction.readable import conditions, without_moduli
 from lagcli.mechanics.reduction.rolling import RollingMotions
@@ -174,12 +174,7 @@ class _SteadyStatement:
         """The verdict on the equilibrium that it is, where the cyclic coordinates do not move."""
         if motion.rates is None or any(is_zero(x) is not True for x in motion.rates.values()):
             return None
-        q, values = self.steady.full.q, motion.values
-        for place in SmallOscillations(self.routh.full.dynamics).places or ():
-            pairs = ((place.point.values.get(x, x), values.get(x, x)) for x in q)
-            if all(is_zero(there - here) is True for there, here in pairs):
-                return place.verdict
-        return None
+        return verdict_at(self.routh.full.dynamics, motion.values)
 
     def _where(self, motion: Steady) -> tuple[Above, ...]:
         shortest = sorted(motion.positive, key=lambda e: int(e.count_ops()))
