@@ -344,3 +344,23 @@ def test_a_body_that_spins_about_its_axis_at_a_crest_of_the_potential(seed):
     assert [to_grammar(each.at["theta"]) for each in spinning] == ["pi/2"]
     [square] = spinning[0].frequencies_squared
     assert normal(square) == formula(f"p_psi^2/{I1}^2 - k/{I1}")
+
+
+@pytest.mark.parametrize("potential", ["-1/r", "r^2", "r^4 - 3*r"])
+def test_more_motions_may_be_steady_along_a_contact_that_is_closed(potential):
+    """Inside p^2 = m r^3 V'(r) the body slides around the wall, pressed against it."""
+    text = "{coordinates: {r: {assume: positive}, u: {}}, T: (r'^2 + r^2*u'^2)/2, V: V0 CONTACT}"
+    for contact, complete in ((", contacts: {wall: {gap: r >= 1}}", False), ("", True)):
+        made = derive(text.replace("CONTACT", contact).replace("V0", potential))
+        section, _ = steady_motions(made)
+        assert section.motions
+        assert section.complete == complete
+
+
+@pytest.mark.parametrize("gap", ["x >= v*t", "x >= sin(v*t) - 1", "x >= -t^2"])
+def test_no_motion_is_called_steady_that_a_moving_contact_may_reach(gap):
+    """Its condition depends on the time, as the one of rest there does."""
+    text = "{coordinates: [x], parameters: [v], T: x'^2/2, V: x^2/2, contacts: {c: {gap: G}}}"
+    section, missing = steady_motions(derive(text.replace("G", gap)))
+    assert section.motions is None
+    assert "a contact moves" in str(missing)

@@ -31,6 +31,7 @@ NO_VALUE_AT_REST = "a force has no value at rest, as v/|v| has none"
 _NO_CLOSED_SOLUTION = "no closed solution of the conditions of equilibrium was found"
 #: Why nothing is solved for that is constant.
 TIMED = "the equations depend explicitly on the time"
+REACHED = "a contact moves, and may reach it"
 _AT_A_KINK = "a force may jump at a kink of the potential, and rest there is not decided"
 _AT_AN_OPEN_POWER = (
     "where the base of a power is 0 the force depends on the exponent, and rest there is not "

@@ -186,8 +186,8 @@ def choices(linear: Linearization) -> list[dict[Symbol, mpf]]:
     real = [] if known is None else known.radicands
     positive = Evaluator([*linear.point.positive, *real], _DIGITS)
     found = []
-    for choice in admissible_values(linear.system, _CHOICES):
-        values = {**free, **choice}
+    for k, choice in enumerate(admissible_values(linear.system, _CHOICES)):
+        values = {**free, linear.system.t: mpf((-1) ** k * (k + 1)) / 7, **choice}
         if all(isinstance(x, mpf) and x > 0 for x in positive(values)):
             found.append(values)
     if not found:

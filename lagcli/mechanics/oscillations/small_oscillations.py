@@ -25,7 +25,7 @@ from lagcli.expression import Expression
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import TIMED, RestPoint, RestPoints
+from lagcli.mechanics.oscillations.equilibria import REACHED, TIMED, RestPoint, RestPoints
 from lagcli.mechanics.oscillations.exceptions import unless_written
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.held import HeldCombination, held
@@ -146,7 +146,7 @@ class Place:
         if self.held.rest.depends_on_time:
             return judge_on_average(self.linear) or undecided(TIMED)
         if self.point.depends_on_time(self.linear.system.t):
-            return undecided("a contact moves, and may reach it")
+            return undecided(REACHED)
         if self.held.grazes(self.point):
             return undecided("a force is at its limit there" if self.held.kinked else GRAZES)
         if self.held.firmly and not self.linear.M:

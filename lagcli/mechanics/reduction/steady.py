@@ -19,7 +19,13 @@ from sympy import Expr, S
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.place import at
-from lagcli.mechanics.oscillations.equilibria import NO_VALUE_AT_REST, TIMED, RestPoint, RestPoints
+from lagcli.mechanics.oscillations.equilibria import (
+    NO_VALUE_AT_REST,
+    REACHED,
+    TIMED,
+    RestPoint,
+    RestPoints,
+)
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.held import held
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
@@ -73,6 +79,9 @@ class SteadyMotions:
             found.insert(0, given)
         standing = map(self.contacts.standing, found)
         found = [each for each in standing if each is not None]
+        if any(self.point(each).depends_on_time(self.system.t) for each in found):
+            self.reason = REACHED
+            return None
         if not found and (self._singular or not self.complete):
             unsolved = _ONLY_AT_REST if self._solved and self._velocity_constraints else _UNSOLVED
             self.reason = _AT_SINGULAR if self._singular else unsolved

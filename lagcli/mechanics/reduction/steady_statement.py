@@ -92,7 +92,8 @@ class _SteadyStatement:
             SteadySection(
                 conditions=conditions,
                 motions=tuple(map(self._motion, found)),
-                complete=steady.complete,
+                # those along a closed contact are not sought
+                complete=steady.complete and not (found and steady.full.problem.contacts),
                 singular_where=()
                 if steady.complete
                 else tuple(map(self._shape, CoincidingAxes(self.routh).singular_where)),
