@@ -349,3 +349,19 @@ forces: {x: 1/2 - sign(x' - y'), y: sign(x' - y')}
 """
     result = simulated(text, 2)
     assert result.rows[-1][1:3] == pytest.approx((0.5, 0.5), abs=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_row_lies_behind_a_strike_that_is_within_the_error(seed):
+    """y = 2 t - t^2 comes by less than the accuracy above a ceiling, at 1 - sqrt(1 - height)."""
+    depth = 10 ** Random(seed).uniform(-8.5, -6.3)
+    text = (
+        "{coordinates: [y], T: y'^2/2, V: 2*y, initial: {y: 0, y': 2}, "
+        f"contacts: {{ceiling: {{gap: 1 - {depth!r} - y >= 0, restitution: 1}}}}}}"
+    )
+    result = simulated(text, 2, 1e-6, samples=41)
+    strike = 1 - math.sqrt(depth)
+    for t, y, v in result.rows:
+        back = max(0.0, t - strike)
+        assert abs(y - (2 * t - t * t - 4 * math.sqrt(depth) * back)) <= 2e-6
+        assert abs(v - (2 - 2 * t - 4 * math.sqrt(depth) * (back > 0))) <= 4e-6

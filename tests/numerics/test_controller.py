@@ -14,7 +14,7 @@ from .running import column, last, simulated
 ACCURACY, ROUNDED = 1e-9, 2e-15
 
 
-def tolerances(error):
+def tolerances(error, shortened=0):
     """Those that are tried where a run with a tolerance has an error."""
     tried = []
 
@@ -25,7 +25,7 @@ def tolerances(error):
         marks = [Mark(float(k), row, [0.0], 0, k) for k, row in enumerate(rows)]
         return SimpleNamespace(
             rows=lambda: rows, marks=marks, phases=[], scales=[1.0, 1.0], peaks=[1.0, 1.0], events=[], event=None,
-            stop=None, steps=100, step_limit=1000, evaluations=100, defect=0.0, shortened=0,
+            stop=None, steps=100, step_limit=1000, evaluations=100, defect=0.0, shortened=shortened,
         )  # fmt: skip
 
     controller = Controller(
@@ -40,6 +40,14 @@ def test_rounding_that_no_tolerance_makes_less_is_not_tried_again():
     tried, found = tolerances(lambda tolerance: errors.get(round(math.log10(tolerance)), 0.0))
     assert not found.reached
     assert tried == pytest.approx([1e-11, 1e-13, 1e-15])
+
+
+def test_two_runs_past_something_narrow_that_agree_by_chance_claim_nothing():
+    """The first two err alike, the others not."""
+    tried, found = tolerances(lambda each: 1e-8 * (round(math.log10(each), 2) in (-11, -13)), 1)
+    assert found.reached
+    assert found.rows[-1] == [1.0]
+    assert len(tried) > 3
 
 
 def test_an_error_that_grows_less_with_the_tolerance_is_pursued():

@@ -136,8 +136,9 @@ def _estimated_by(outcome: Outcome) -> str:
     coarse, fine = outcome.tolerances
     factor = outcome.controller.factor(fine, outcome.run)
     times = "twice" if factor == 2 else f"{factor:g} times"
+    runs = "three" if outcome.run.shortened and outcome.reached else "two"
     return (
-        f"{times} the difference of two runs with local tolerances {coarse:.0e} and {fine:.0e}; "
+        f"{times} the difference of {runs} runs with local tolerances {coarse:.0e} and {fine:.0e}; "
         "the finer one is shown (a cross-check, no proof)"
     )
 

@@ -253,6 +253,8 @@ class Watch:
             place, value = least(at, x, high)
             band = self._band(condition, step, place)
             if abs(value) <= band:
+                # a gap may have closed as soon as it is 0
+                place = x if condition.kind == "gap" else place
                 return Occurrence(step.start + place * step.h, condition, True, band)
         return Occurrence(step.start + x * step.h, condition)
 
@@ -283,13 +285,14 @@ class Watch:
             if at(x) > _NEAR * spread:
                 return None
             place, value = least(at, max(low, x - width), min(high, x + width))
-        band = self._band(condition, step, place)
+        touches, band = False, self._band(condition, step, place)
         if abs(value) <= band:
-            return Occurrence(step.start + place * step.h, condition, True, band)
-        if value < 0:
-            found = crossing(at, low, place, values[0], value)
-            return Occurrence(step.start + found * step.h, condition)
-        return None
+            touches = True
+        elif not value < 0:
+            return None
+        if value < 0 and (condition.kind == "gap" or not touches):
+            place = crossing(at, low, place, values[0], value)
+        return Occurrence(step.start + place * step.h, condition, touches, band * touches)
 
     # -- what is 0 -----------------------------------------------------------------------------
 
