@@ -14,6 +14,7 @@ from lagcli.problem_data import (
     Expect,
     Inequality,
     Lasting,
+    Problem,
     Question,
     Reaching,
     Rewrite,
@@ -25,9 +26,18 @@ from lagcli.reader.nodes import Sequence as ListNode
 from lagcli.reader.schema_parts import ONE_OR_MORE
 from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
+from lagcli.record import replace
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Expected, Told, step
-from lagcli.statements.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
+from lagcli.statements.questions import (
+    Answer,
+    FindSection,
+    Proved,
+    Range,
+    Ranges,
+    Rewritten,
+    Solutions,
+)
 from lagcli.statements.wording import remark
 
 if TYPE_CHECKING:
@@ -45,8 +55,29 @@ def derive(statements: Statements) -> FindSection:
     """From the solved motion and what is conserved."""
     from lagcli.mechanics.finding.find import answer_questions
 
-    section = answer_questions(statements.dynamics, statements.derivation.noether)
+    section = _with_proofs(
+        statements.problem, answer_questions(statements.dynamics, statements.derivation.noether)
+    )
     return statements.noted((section, section.unanswered))
+
+
+def _with_proofs(problem: Problem, section: FindSection) -> FindSection:
+    """Where algebra gives no ranges, the answer for the values of the file."""
+    answers = dict(section.answers)
+    for question in problem.find:
+        answer = answers[question.name]
+        if isinstance(question, Lasting | Reaching) and isinstance(answer, Ranges):
+            if answer.ranges is not None:
+                continue
+            from lagcli.studies.proved_answer import proved_answer
+
+            found = proved_answer(problem, question)
+            if isinstance(found, Proved):
+                note = f"for which {answer.unknown} it is so was not found: {answer.note}"
+                answers[question.name] = replace(answer, proved=found, note=note)
+            elif found:
+                answers[question.name] = replace(answer, note=f"{answer.note}; no proof: {found}")
+    return FindSection(answers=answers)
 
 
 def large(statements: LargeStatements) -> FindSection:
@@ -72,6 +103,8 @@ def blocks(section: FindSection, _: Answers) -> Iterator[Block]:
     for name, answer in section.answers.items():
         yield Heading(name, 2)
         match answer:
+            case Ranges(ranges=None, proved=Proved(sentence=sentence)):
+                yield Paragraph((sentence,))
             case Solutions(solutions=None) | Ranges(ranges=None):
                 yield Paragraph(("Not found.",))
             case Rewritten(value=None, values=()):
@@ -120,8 +153,13 @@ def _answer(answer: Answer) -> Object:
     match answer:
         case Solutions():
             return fields_of(answer, "solutions")
-        case Ranges(unknown=unknown, ranges=ranges):
-            return {"ranges": list_or_null(ranges, lambda each: _range(unknown, each))}
+        case Ranges(unknown=unknown, ranges=ranges, proved=proved):
+            found = {"ranges": list_or_null(ranges, lambda each: _range(unknown, each))}
+            return (
+                found
+                if proved is None
+                else {**found, "proved": fields_of(proved, "holds until at sentence")}
+            )
         case Rewritten():
             return fields_of(answer, "value values" if answer.values else "value")
 

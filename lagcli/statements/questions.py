@@ -55,12 +55,34 @@ class Range:
 
 
 @record(kw_only=True)
+class Proved:
+    """What an enclosure of the motion proves for the values of the file.
+
+    Attributes
+    ----------
+    holds : bool
+        Whether the place is reached, or the condition lasts over the span.
+    until : float
+        The end of the span, or of the motion.
+    at : str
+        The proved digits of the time at which the place is reached or the condition fails.
+    sentence : str
+    """
+
+    holds: bool
+    until: float
+    at: str = ""
+    sentence: str
+
+
+@record(kw_only=True)
 class Ranges:
     """The answer to `always` or `reaches ... for ...`, in order; None: not decided."""
 
     unknown: str
     ranges: tuple[Range, ...] | None
     note: str = ""
+    proved: Proved | None = None
 
 
 Answer = Solutions | Rewritten | Ranges
@@ -87,6 +109,6 @@ def _found(answer: Answer) -> object:
         case Solutions():
             return answer.solutions
         case Ranges():
-            return answer.ranges
+            return answer.proved if answer.ranges is None else answer.ranges
         case Rewritten():
             return answer.value or answer.values or None

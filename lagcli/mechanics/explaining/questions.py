@@ -12,7 +12,15 @@ from lagcli.mechanics.explaining.words import Part, difference, listed, says, sh
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
 from lagcli.problem_data import Lasting, Question, Reaching, Rewrite, Where
 from lagcli.statements.answers import Section
-from lagcli.statements.questions import Answer, FindSection, Range, Ranges, Rewritten, Solutions
+from lagcli.statements.questions import (
+    Answer,
+    FindSection,
+    Proved,
+    Range,
+    Ranges,
+    Rewritten,
+    Solutions,
+)
 from lagcli.statements.wording import remark
 
 _COMPARISONS = {"<": " < ", "<=": " ≤ ", ">": " > ", ">=": " ≥ "}
@@ -104,6 +112,8 @@ def _answer(answer: Answer, *, is_open: bool) -> Iterator[Block]:
             yield says("Its square is determined. It is one of")
             left = Name("value") if subject is None else subject
             yield equations_of((left, value) for value in values)
+        case Ranges(ranges=None, proved=Proved(sentence=sentence)):
+            yield says(sentence)
         case Solutions(solutions=None) | Rewritten(value=None) | Ranges(ranges=None):
             yield says(f"This was not found: {answer.note or 'there is no closed form'}.")
             return

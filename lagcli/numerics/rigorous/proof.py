@@ -60,6 +60,7 @@ def prove(
     asked: Asked,
     progress: Progress | None = None,
     attempts: type[Attempt] | None = None,
+    work: float = _WORK,
 ) -> Proof:
     """Enclose a motion.
 
@@ -73,6 +74,8 @@ def prove(
         Told which part of the span is enclosed.
     attempts : type, optional
         `Attempt`, or `Shadowing`.
+    work : float
+        The most that is done, in the unit of _WORK.
 
     Returns
     -------
@@ -89,7 +92,7 @@ def prove(
     setup, implied = _setup(problem, asked)
     best: Proof | None = None
     bits = _BITS
-    work, last = _WORK, 0.0
+    last = 0.0
     while True:
         kind = attempts or Attempt
         with ctx.workprec(bits + kind.guard):

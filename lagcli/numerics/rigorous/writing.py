@@ -94,10 +94,10 @@ def _cells(ball: dict[str, str] | None) -> tuple[str, str]:
 def to_table(proof: Proof) -> bytes:
     """Every number with the digits that are proved, and what the proof stands on."""
     cells = [list(proof.columns)]
-    cells += [[_written(row[0]), *map(_proved, row[1:])] for row in proof.rows]
+    cells += [[_written(row[0]), *map(proved_digits, row[1:])] for row in proof.rows]
     lines = aligned(cells)
     lines += [""] if proof.events else []
-    lines += [f"{e.what} at t = {_proved(e.t)} ({e.name})" for e in proof.events]
+    lines += [f"{e.what} at t = {proved_digits(e.t)} ({e.name})" for e in proof.events]
     whole = "proved" if proof.reached else f"proved until t = {proof.holds_until:g}"
     if proof.events:
         whole += ", order and number of the events, too"
@@ -122,11 +122,12 @@ def _claim(whole: str, within: float | None) -> list[str]:
 
 def _written(t: Any) -> str:
     """A time, which the file or the options give."""
-    shown = _proved(t)
+    shown = proved_digits(t)
     return shown.rstrip("0").rstrip(".") if "." in shown else shown
 
 
-def _proved(x: Any) -> str:
+def proved_digits(x: Any) -> str:
+    """Those of a ball that hold within one unit of the last of them."""
     if x is None:
         return ""
     if x.rad() == 0 and x == type(x)(f"{float(x):.15g}"):
