@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import mpmath
 import pytest
 import sympy
@@ -10,7 +12,7 @@ from sympy import Expr, Rational, S, Symbol
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import Builder, symbol
-from lagcli.expression import Expression, Name, walk
+from lagcli.expression import Expression, Name, Number, Power, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.reduction.period import ratio_series
 from lagcli.mechanics.reduction.statement import Missing, reduction
@@ -258,3 +260,18 @@ L: a^2*(1 - cos(phi))*phi'^2 - g*a*cos(phi)
 """)
     assert section.one_freedom is not None
     assert [to_grammar(each.period) for each in section.one_freedom.periods] == ["4*pi*sqrt(a/g)"]
+
+
+@pytest.mark.parametrize("inertia", ["m", "m*(1 + a^2*x^2)", "m*(M + m*sin(x)^2)/(M + m)"])
+@pytest.mark.parametrize("V", ["k*x^2/2 + b*x", "b*x - k*cos(x)", "b*x - k/(1 + x^2)"])
+def test_the_time_integral_has_the_potential_as_it_is_printed(inertia: str, V: str):
+    """sqrt(M/(2 (E - U))), term by term and without a modulus (Landau, Lifshitz, section 11)."""
+    section, _ = reduced(
+        "{coordinates: [x], parameters: {m: POSITIVE, M: POSITIVE, a: {}, b: {}, k: {}}, "
+        f"T: {inertia}*x'^2/2, V: {V}}}"
+    )
+    assert section.one_freedom is not None
+    rate = section.one_freedom.rate
+    assert "abs" not in to_grammar(rate)
+    assert "b*x" in to_grammar(rate)
+    assert same(Power(rate, Number(Fraction(2))), f"({inertia})/(2*(E - ({V})))")

@@ -70,11 +70,6 @@ class ReducedFreedom:
         """M q'^2/2 + U_eff."""
         return self.mass * self.system.qdot[0] ** 2 / 2 + self.potential
 
-    @cached_property
-    def rate(self) -> Expr:
-        """dt/dq where the coordinate grows: sqrt(M/(2 (E - U_eff)))."""
-        return sympy.sqrt(self.mass / (2 * (self.E - self.potential)))
-
     @property
     def turning_points(self) -> tuple[Expr, ...] | None:
         """The roots of U_eff = E, each by substitution; None without a closed form.

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
+from functools import cached_property
+from math import prod
 
 import sympy
 from sympy import Expr, S
@@ -16,6 +18,7 @@ from lagcli.algebra.writing import Writer
 from lagcli.expression import (
     ONE,
     ZERO,
+    Call,
     Expression,
     Name,
     Number,
@@ -25,6 +28,7 @@ from lagcli.expression import (
     Sum,
     factors_of,
     quotient_of,
+    terms_of,
 )
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Motion
@@ -35,6 +39,9 @@ from lagcli.mechanics.reduction.readable import conditions, effective_potential
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.statements.answers import EquationsSection, LagrangeEquation, ReductionSection
 from lagcli.statements.motions import Irreducible, OneFreedom, PeriodSeries
+
+_ONCE = Fraction(1)
+_HALF = Fraction(1, 2)
 
 #: What was asked for and not found, and why.
 Missing = list[tuple[str, str]]
@@ -155,9 +162,26 @@ class _Statement:
         assert self.routh.reduced is not None
         still = dict.fromkeys(self.routh.reduced.system.qdot, S.Zero)
         moving = sympy.expand(R - R.xreplace(still))
-        return writer.sum([terms(moving, self.order, self.fast), writer.negative(potential)])
+        parts = [writer.negative(potential)]
+        if len(still) == 1:
+            [v] = still
+            parts.insert(0, self._kinetic(self._freedom))
+            moving = v * moving.coeff(v)
+        if moving != 0:
+            parts.insert(-1, terms(moving, self.order, self.fast))
+        return writer.sum(parts)
 
     # -- one degree of freedom --------------------------------------------------------------------
+
+    @cached_property
+    def _freedom(self) -> Motion:
+        return Motion(self.routh)
+
+    def _kinetic(self, motion: Motion) -> Expression:
+        mass = shape(motion.mass, self.order)
+        return Writer(self.order).product(
+            _HALF, [(mass, _ONCE), (Name(motion.q.name, 1), 2 * _ONCE)]
+        )
 
     def _one_freedom(self, potential: Expression | None) -> OneFreedom | None:
         reduced = self.routh.reduced
@@ -165,7 +189,7 @@ class _Statement:
             return None
         if reduced.dynamics.constraints.equations:
             return None
-        motion = Motion(self.routh)
+        motion = self._freedom
         order = (*self.order, motion.E.name)
         if motion.why_not_conserved:
             return None
@@ -175,13 +199,12 @@ class _Statement:
             self.missing.append(("the period as a series", periods.reason))
         points = motion.turning_points
         writer = Writer(order)
-        kinetic = terms(motion.energy - motion.potential, order, self.fast)
         return OneFreedom(
             coordinate=motion.q.name,
             constant=motion.E.name,
-            energy=writer.sum([kinetic, potential]),
+            energy=writer.sum([self._kinetic(motion), potential]),
             turning_points=None if points is None else tuple(written_alike(points, order)),
-            rate=shape(motion.rate, order),
+            rate=_rate(motion, potential, order),
             periods=found,
             positive=bool(motion.q.is_positive),
             turning_energies=tuple(
@@ -217,6 +240,29 @@ class _Statement:
             period=period,
             where=conditions(found.where, self.order),
         )
+
+
+def _rate(motion: Motion, potential: Expression, order: Sequence[str]) -> Expression:
+    """sqrt(M/(2 (E - U_eff))), U_eff term by term as it stands above, squares before the root."""
+    outside = S.One
+    for factor in sympy.Mul.make_args(motion.mass / 2):
+        base, power = factor.as_base_exp()
+        if factor.is_Rational:
+            outside *= sympy.Rational(_root(int(factor.p)), _root(int(factor.q)))
+        elif base.is_positive and power.is_Integer:
+            outside *= base ** int(power / 2)
+    writer = Writer(order)
+    rest = [writer.negative(term) for term in terms_of(potential)]
+    excess = writer.sum([Name(motion.E.name), *rest])
+    inside = shape(motion.mass / outside**2, order)
+    root = Call("sqrt", (writer.product(_HALF, [(inside, _ONCE), (excess, -_ONCE)]),))
+    return writer.product(_ONCE, [(shape(outside, order), _ONCE), (root, _ONCE)])
+
+
+def _root(number: int) -> int:
+    """The largest a with a² dividing the number."""
+    powers = sympy.factorint(number).items()
+    return prod(int(base) ** (int(power) // 2) for base, power in powers)
 
 
 def _two_pi_times(root: Expression) -> Expression:
