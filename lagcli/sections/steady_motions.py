@@ -58,10 +58,11 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
             )
         )
     if section.conditions:
-        yield Paragraph(("A steady motion has",))
-        found = dict.fromkeys(section.conditions.values())
-        wanted = [value for value in found if value != ZERO] or found
-        yield equations_of((ZERO, value) for value in wanted)
+        wanted = [value for value in dict.fromkeys(section.conditions.values()) if value != ZERO]
+        held = "The conditions of a steady motion hold everywhere."
+        yield Paragraph(("A steady motion has" if wanted else held,))
+        if wanted:
+            yield equations_of((ZERO, value) for value in wanted)
     if section.motions is None:
         yield Paragraph((f"Not found: {section.reason}.",))
         return

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from sympy import Expr
 
+from lagcli.algebra import simplify
+from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import written
 from lagcli.expression import Expression
 from lagcli.mechanics.oscillations.exceptions import unless_written
@@ -17,13 +19,20 @@ def rolling_section(found: RollingMotions) -> SteadySection:
     """The conditions, and each motion with its stability."""
     names, order = found.system.names, found.system.order
     return SteadySection(
-        conditions={names[j]: written(c, order) for j, c in found.conditions.items()},
+        conditions={names[j]: written(_numerator(c), order) for j, c in found.conditions.items()},
         motions=tuple(_motion(found, motion) for motion in found.motions or ()),
         complete=found.complete,
         unless=() if found.motions else unless_written(found.unless, order),
         acting=("accelerations",),
         eliminated=tuple(n for j, n in enumerate(names) if j not in found.velocities),
     )
+
+
+def _numerator(condition: Expr) -> Expr:
+    """What vanishes with it, without the inertia below and without a number before it."""
+    field = Field([condition])
+    _, rest = field.polynomial_to_sympy(field(condition).numerator).primitive()
+    return simplify(-rest if rest.could_extract_minus_sign() else rest)
 
 
 def _motion(found: RollingMotions, motion: RollingMotion) -> SteadyMotion:
