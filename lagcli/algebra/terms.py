@@ -173,13 +173,24 @@ class _Splitter:
                 others += exponent
         return accelerations, others
 
-    def _by_function(self, static: list[Term]) -> list[list[Term]]:
-        """What has no leading quantity in it, apart by the functions of the coordinates."""
+    def _by_function(self, static: list[Term], whole: Element) -> list[list[Term]]:
+        """What has no leading quantity in it, apart by the functions of the coordinates.
+
+        Also by the powers of a coordinate that a single term divides by: k/r² - 2 b/r³.
+        """
+        below = list(self.field.ring.terms(whole.denominator))
+        dividing = {i for i, _ in below[0][0] if not self._is_known(i)} if len(below) == 1 else ()
         groups: dict[Monomial, list[Term]] = {}
         for monomial, coefficient in static:
-            functions = tuple((i, e) for i, e in monomial if self._tells_apart(i, e))
+            functions = tuple(
+                (i, e) for i, e in monomial if i in dividing or self._tells_apart(i, e)
+            )
             groups.setdefault(functions, []).append((monomial, coefficient))
         return list(groups.values())
+
+    def _is_known(self, index: int) -> bool:
+        """Whether it is a parameter."""
+        return str(self.field.generators[index].expression) in self.parameters
 
     def _tells_apart(self, index: int, exponent: int) -> bool:
         """Whether it is a function; an even power of a sine may meet a constant, 1 - cos²."""
@@ -262,7 +273,7 @@ class _Splitter:
 
     def _without_leading(self, static: list[Term], whole: Element) -> list[Expression]:
         """The terms by their functions; those of the shortest sum where that is much shorter."""
-        apart = [self._shape(group, whole) for group in self._by_function(static)]
+        apart = [self._shape(group, whole) for group in self._by_function(static, whole)]
         if len(apart) < 2:
             return [part for each in apart for part in self._flat(each, nested=True)]
         together = self._shape(static, whole)
