@@ -80,11 +80,10 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
 def _gyroscopic(section: ReductionSection) -> Iterator[Block]:
     if not section.gyroscopic:
         return
-    effect = (
-        "gyroscopic forces"
-        if section.gyroscopic_forces
-        else "no force, since their sum is a total derivative"
-    )
+    changing = "forces as their factors change with the time"
+    effects = ["gyroscopic forces"] * section.gyroscopic_forces
+    effects += [changing] * section.gyroscopic_change
+    effect = " and ".join(effects) or "no force, since their sum is a total derivative"
     yield Paragraph((f"The terms linear in the velocities give {effect}; their factors are",))
     yield equations_of((Label("g", (name,)), value) for name, value in section.gyroscopic.items())
 
@@ -103,7 +102,8 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
         yield from turning_contacts(motion)
     else:
         yield Paragraph(("There are no turning points.",))
-    turns_back = motion.turning_points is None or len(motion.turning_points) > 1
+    several = motion.turning_points is None or len(motion.turning_points) > 1
+    turns_back = several and motion.oscillates
     bound = Row(Label("T"), Integral(motion.rate, motion.coordinate, times=2))
     yield Paragraph(("Time, and period between two turning points:" if turns_back else "Time:",))
     time = Row(Name("t"), Integral(motion.rate, motion.coordinate))

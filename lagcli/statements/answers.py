@@ -317,6 +317,7 @@ class ReductionSection:
     effective_potential: Expression | None = None
     gyroscopic: Mapping[str, Expression] = field(default_factory=dict)
     gyroscopic_forces: bool = False
+    gyroscopic_change: bool = False
     one_freedom: OneFreedom | None = None
     eliminated: tuple[str, ...] = ()
     irreducible: Mapping[str, Irreducible] = field(default_factory=dict)

@@ -83,7 +83,8 @@ class OneFreedom:
     `turning_points` are the roots of U_eff = E, None where that has no closed solution; those
     that are real count, where the coordinate is `positive` those that are positive.  All of
     them are real for E between the bounds of each of `turning_energies`; one-sided contacts hold
-    at each of them under the conditions of `turning_where`.
+    at each of them under the conditions of `turning_where`.  Where nothing `oscillates`, the motion
+    comes back from one of them only.
     """
 
     coordinate: str
@@ -95,6 +96,7 @@ class OneFreedom:
     positive: bool = False
     turning_energies: tuple[tuple[Expression, Expression], ...] = ()
     turning_where: tuple[tuple[Above, ...], ...] = ()
+    oscillates: bool = True
     reason: str = ""
 
 

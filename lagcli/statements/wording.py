@@ -42,7 +42,7 @@ INDEPENDENT = " where the gradients of the constraints are independent"
 NOT_ZERO = " where the gradient of the constraint is not 0"
 FINITE_MASS = " where the mass matrix is finite"
 #: The most operations of a value within a sentence.
-_SHORT = 3
+_SHORT = 6
 _SHORT_RELATION = 12
 _SUBSTITUTED = {"exact": "exactly", "50 digits": "at random states to 50 digits"}
 

@@ -11,13 +11,17 @@ Every charge on a trajectory: tests/oracle/test_discovered.py.
 
 import time
 from pathlib import Path
+from random import Random
 
 import pytest
+import sympy
 
 from lagcli import load
+from lagcli.algebra import is_zero
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.discovery import limits
+from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.summary import summary
 from tests.solved import solve
 
@@ -173,3 +177,14 @@ def test_known_algebras_are_found_within_the_work_allowed(name):
 def test_an_oscillator_of_unknown_signs_has_its_five_symmetries():
     d = derive("coordinates: [x]\nparameters: [m, k]\nT: m*x'^2/2\nV: k*x^2/2")
     assert len(d.discovery.point_charges) == 5
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_scaled_solution_has_no_factor_of_constants_left(seed: int):
+    rng = Random(seed)
+    a, b, c = constants = sympy.symbols("a b c", positive=True)
+    x, t = sympy.symbols("x t")
+    values = [rng.choice([x, t, x * t, x**2 + t]) for _ in range(2)] + [a * x + b]
+    factor = rng.choice([a + b, (a * c**2 + b) ** 3 * c, (a - b) * sympy.sqrt(a + c), a**2])
+    found = scaled([sympy.expand(v * factor) for v in values], set(constants))
+    assert all(is_zero(f - v) is True for f, v in zip(found, values, strict=True))

@@ -275,3 +275,23 @@ def test_the_time_integral_has_the_potential_as_it_is_printed(inertia: str, V: s
     assert "abs" not in to_grammar(rate)
     assert "b*x" in to_grammar(rate)
     assert same(Power(rate, Number(Fraction(2))), f"({inertia})/(2*(E - ({V})))")
+
+
+@pytest.mark.parametrize(("V", "to_and_fro"), [("-k*x^2", False), ("b*x", False), ("k*x^4", True),
+                                              ("k*abs(x)", True), ("k*x^4 - k*x^2", True)])  # fmt: skip
+def test_a_period_is_stated_where_the_motion_may_come_back_twice(V: str, to_and_fro: bool):
+    text = f"{{coordinates: [x], parameters: {{k: POSITIVE, b: POSITIVE}}, T: x'^2/2, V: {V}}}"
+    one = reduced(text)[0].one_freedom
+    assert one is not None
+    assert one.oscillates is to_and_fro
+
+
+@pytest.mark.parametrize("drive", ["a*t^2/2", "l*cos(a*t)"])
+def test_one_coordinate_has_no_gyroscopic_force(drive: str):
+    """-dg/dt of a support that is driven is a force, but none across the velocity."""
+    section, _ = reduced(
+        f"{{coordinates: [phi], parameters: {{l: POSITIVE, a: POSITIVE}}, "
+        f"definitions: {{X: l*sin(phi) + {drive}, Y: l*cos(phi)}}, T: (X'^2 + Y'^2)/2}}"
+    )
+    assert section.gyroscopic_change
+    assert not section.gyroscopic_forces

@@ -4,25 +4,56 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
+from functools import reduce
 
 import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import simplify
+from lagcli.algebra.entry import Field
+from lagcli.algebra.field import common_denominator
+from lagcli.algebra.ring import Monomial, Poly
 
 
 def scaled(values: Sequence[Expr], constants: AbstractSet[Symbol]) -> tuple[Expr, ...]:
-    """The values without denominators and common factors, the last one positive.
+    """The values without denominators and common factors of constants, the last one positive.
 
-    Only numbers and powers of single constants are taken out, which never vanish.
+    By continuity the rest is a solution even where such a factor vanishes.
     """
     terms = [term for v in values for term in sympy.Add.make_args(sympy.expand(v))]
     common = _common(terms, constants)
-    result = tuple(simplify(sympy.expand(v / common)) for v in values)
+    result = _without_content([sympy.expand(v / common) for v in values], constants)
     leading = next((v for v in reversed(result) if v != 0), sympy.S.One)
     first = sympy.Add.make_args(leading)[0]
     sign = -1 if first.could_extract_minus_sign() and leading.could_extract_minus_sign() else 1
     return tuple(sign * v for v in result)
+
+
+def _without_content(values: Sequence[Expr], constants: AbstractSet[Symbol]) -> tuple[Expr, ...]:
+    """The values simplified, over what divides all their coefficients."""
+    field = Field(values)
+    elements = [field(v) for v in values]
+    lift = field.ring.lift
+    below = lift(common_denominator(field, elements))
+    tops = [lift(e.numerator) * (below / lift(e.denominator)) for e in elements]
+    content = field.polynomial_to_sympy(_content(field, tops, constants))
+    if content.is_Number:
+        return tuple(map(simplify, values))
+    return tuple(simplify(v / content) for v in values)
+
+
+def _content(field: Field, tops: Sequence[Poly], constants: AbstractSet[Symbol]) -> Poly:
+    """The gcd of the coefficients, which are polynomials in the constants."""
+    ring = field.ring
+    fixed = {i for i, g in enumerate(field.generators) if g.expression.free_symbols <= constants}
+    coefficients: dict[tuple[int, Monomial], list[tuple[Monomial, int]]] = {}
+    for k, top in enumerate(tops):
+        for monomial, number in ring.terms(top):
+            rest = tuple(pair for pair in monomial if pair[0] not in fixed)
+            inside = tuple(pair for pair in monomial if pair[0] in fixed)
+            coefficients.setdefault((k, rest), []).append((inside, number))
+    polys = (ring.lift(ring.build(part)) for part in coefficients.values())
+    return reduce(lambda a, b: a.gcd(b), polys)
 
 
 def _common(terms: Sequence[Expr], constants: AbstractSet[Symbol]) -> Expr:

@@ -75,6 +75,16 @@ class Periods:
         self.reason = ""
         self.failed = False
 
+    @property
+    def excluded(self) -> bool:
+        """Whether U_eff has maxima only, or no place of rest: nothing goes to and fro."""
+        rest, motion = RestPoints(self.motion.dynamics), self.motion
+        if rest.points is None or not rest.complete:
+            return False
+        curvature = motion.potential.diff(motion.q, 2)
+        slopes = (at(curvature, point.values) for point in rest.points)
+        return all(sign(simplify(slope)) == -1 for slope in slopes)
+
     @cached_property
     def series(self) -> tuple[AmplitudeSeries, ...]:
         """One series for each equilibrium that is a minimum, or may be one."""

@@ -245,14 +245,19 @@ class Routh:
 
     @cached_property
     def gyroscopic_forces(self) -> bool:
-        """Whether sum g_a q_a' is more than the rate of a function of q and t."""
+        """Whether one velocity gives a force along another: dg_a/dq_b is not dg_b/dq_a."""
         assert self.reduced is not None
-        q, g = (*self.reduced.system.q, self.system.t), (*self.gyroscopic, S.Zero)
+        q, g = self.reduced.system.q, self.gyroscopic
         return any(
             is_zero(g[a].diff(q[b]) - g[b].diff(q[a])) is not True
             for a in range(len(q))
             for b in range(a)
         )
+
+    @cached_property
+    def gyroscopic_change(self) -> bool:
+        """Whether dg_a/dt gives forces."""
+        return any(is_zero(g.diff(self.system.t)) is not True for g in self.gyroscopic)
 
     def _at_rest(self, expression: Expr) -> Expr:
         assert self.reduced is not None

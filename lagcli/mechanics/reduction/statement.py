@@ -28,6 +28,7 @@ from lagcli.expression import (
     Sum,
     factors_of,
     quotient_of,
+    sum_of,
     terms_of,
 )
 from lagcli.mechanics.derivation import Derivation
@@ -110,7 +111,8 @@ class _Statement:
                 },
                 effective_potential=potential,
                 gyroscopic=gyroscopic,
-                gyroscopic_forces=routh.gyroscopic_forces if gyroscopic else False,
+                gyroscopic_forces=bool(gyroscopic) and routh.gyroscopic_forces,
+                gyroscopic_change=bool(gyroscopic) and routh.gyroscopic_change,
                 one_freedom=self._one_freedom(potential),
                 eliminated=self.eliminated,
                 irreducible=self.irreducible,
@@ -212,6 +214,7 @@ class _Statement:
                 for lower, upper in motion.turning_energies
             ),
             turning_where=tuple(conditions(each, order) for each in motion.turning_where),
+            oscillates=not periods.excluded,
             reason=periods.reason,
         )
 
@@ -252,8 +255,8 @@ def _rate(motion: Motion, potential: Expression, order: Sequence[str]) -> Expres
         elif base.is_positive and power.is_Integer:
             outside *= base ** int(power / 2)
     writer = Writer(order)
-    rest = [writer.negative(term) for term in terms_of(potential)]
-    excess = writer.sum([Name(motion.E.name), *rest])
+    rest = map(writer.negative, terms_of(potential))
+    excess = sum_of((Name(motion.E.name), *(term for term in rest if term != ZERO)))
     inside = shape(motion.mass / outside**2, order)
     root = Call("sqrt", (writer.product(_HALF, [(inside, _ONCE), (excess, -_ONCE)]),))
     return writer.product(_ONCE, [(shape(outside, order), _ONCE), (root, _ONCE)])
