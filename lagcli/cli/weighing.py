@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from time import monotonic
 from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import COSTS, PICTURES, STUDIES
@@ -17,8 +18,12 @@ from lagcli.record import record
 
 if TYPE_CHECKING:
     from lagcli.problem_data import Problem
-    from lagcli.studies.tradeoff.study import Study
+    from lagcli.studies.tradeoff.front import RunPoint
+    from lagcli.studies.tradeoff.study import Study, Teller
     from lagcli.studies.tradeoff.trial import Given
+
+#: Seconds after which the runs are told one by one.
+_PATIENCE = 10.0
 
 
 @record(kw_only=True)
@@ -82,12 +87,36 @@ def _study(
 
     try:
         with counted("measuring") as progress:
-            made = study(given, methods, cost=wish.cost, repeat=wish.repeat, progress=progress)
+            made = study(
+                given,
+                methods,
+                cost=wish.cost,
+                repeat=wish.repeat,
+                progress=progress,
+                teller=_teller(),
+            )
     except Refusal as refusal:
         return tell_refusal(problem.source, refusal)
     if not _written(made, wish):
         return Status.USAGE
     return Status.NOT_FOUND if made.broken else Status.WELL
+
+
+def _teller() -> Teller:
+    """Tells the runs that are made while others go on, once that has taken a while."""
+    from lagcli.studies.tradeoff.writing import line_of
+
+    waiting: list[str] = []
+    begun = monotonic()
+
+    def tell_made(point: RunPoint) -> None:
+        waiting.append(line_of(point))
+        if monotonic() - begun > _PATIENCE:
+            for line in waiting:
+                tell_line(line)
+            waiting.clear()
+
+    return tell_made
 
 
 def _written(made: Study, wish: TradeoffOptions) -> bool:

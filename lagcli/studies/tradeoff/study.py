@@ -39,6 +39,8 @@ _RUNS = 20
 
 #: Told of each run before it is made: how many are made, of how many.
 Progress = Callable[[int, int], None]
+#: Told of each run when it is made.
+Teller = Callable[[RunPoint], None]
 
 
 @record(kw_only=True)
@@ -111,6 +113,7 @@ def study(
     cost: str = "total",
     repeat: int = 1,
     progress: Progress | None = None,
+    teller: Teller | None = None,
 ) -> Study:
     """Make all runs, each in a process of its own.
 
@@ -124,8 +127,8 @@ def study(
         A name out of `COSTS`.
     repeat
         How often each run is made; the shortest times count.
-    progress
-        Told of each run.
+    progress, teller
+        Told of each run, before and after.
 
     Raises
     ------
@@ -137,7 +140,7 @@ def study(
     if progress is not None:
         progress(0, 1)
     known = reference(problem, asked, _reference_limit(given))
-    maker = _RunMaker(given, known, repeat, progress, methods)
+    maker = _RunMaker(given, known, repeat, (progress, teller), methods)
     points: list[RunPoint] = []
     unsuited: dict[str, str] = {}
     for name in methods:
@@ -180,10 +183,11 @@ class _RunMaker:
         given: Given,
         known: ReferenceMotion,
         repeat: int,
-        progress: Progress | None,
+        told: tuple[Progress | None, Teller | None],
         methods: Sequence[str],
     ) -> None:
-        self.given, self.known, self.repeat, self.progress = given, known, repeat, progress
+        self.given, self.known, self.repeat = given, known, repeat
+        self.progress, self.teller = told
         self.made = 0
         self.total = len(methods) * len(_TOLERANCES) + len(ACCURACIES) * (1 + len(methods)) + 1
         self.unsuited = False
@@ -225,6 +229,12 @@ class _RunMaker:
         if self.progress is not None:
             self.progress(self.made, self.total)
         self.made += 1
+        point = self._run(given)
+        if self.teller is not None:
+            self.teller(point)
+        return point
+
+    def _run(self, given: Given) -> RunPoint:
         asked = RunPoint(method=given.method, tolerance=given.tolerance, accuracy=given.accuracy)
         self.unsuited, most = False, _RUNS * given.limit
         if self._ended:
