@@ -83,3 +83,29 @@ def test_rest_among_motions_at_constant_velocities_has_the_verdict_of_equilibria
     assert (motion.verdict.stable, motion.verdict.reason) == (True, rest.verdict.reason)
     told = words(explain(derivation, ["steady_motions"]), "Steady motions")
     assert "first order" not in told
+
+
+@pytest.mark.parametrize(
+    ("potential", "stable"), [("x^4", True), ("x^3", False), ("-x^4", False), ("x^6 + x^8", True)]
+)
+@pytest.mark.parametrize("constraint", ["x = 2*u", "u = x + x^3", "u = x^2"])
+def test_a_constraint_that_is_solved_leaves_the_verdict_of_the_reduced_motion(
+    potential, stable, constraint
+):
+    """V has its order along what the constraint allows: Lagrange and Dirichlet, one freedom."""
+    text = (
+        f"{{coordinates: [x, u], T: (x'^2 + u'^2)/2, V: {potential}, "
+        f"constraints: {{c: {constraint}}}}}"
+    )
+    [rest] = equilibria(derive(text).dynamics).equilibria or ()
+    assert rest.verdict.stable is stable
+
+
+@pytest.mark.parametrize("drag", ["c*x'", "c*x'^3", "c*(x' - 1)", "2*c*x' + x'^3"])
+def test_a_terminal_velocity_is_confirmed(drag):
+    """m x'' = F - f(x') with f' > 0: it is stable, and no force pushes along x."""
+    text = (
+        f"{{coordinates: [x], parameters: {{{_M}, c: {{assume: positive}}}}, T: m*x'^2/2, V: 0, "
+        f'forces: {{x: "k - {drag}"}}}}'
+    )
+    assert "left out" not in words(explain(derive(text), ["steady_motions"]), "Steady motions")

@@ -490,3 +490,11 @@ def test_nothing_is_called_stable_that_a_moving_contact_may_reach(gap):
     for contact, stable in ((gap, False), (gap.replace("t", "1"), True)):
         told = said(text.replace("G", contact), "Equilibria", "equilibria")
         assert ("Stable up to" in told, "a contact moves" in told) == (stable, not stable)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("bowl", ["(x^2 + z^2)^2", "(x^2 + x*z + z^2)^3", "(2*x^2 + z^2)^2"])
+def test_rest_at_the_bottom_of_a_flat_bowl_is_not_denied(bowl):
+    """The gradient has a factor whose zeros are complex but for the bottom."""
+    text = f"{{coordinates: [x, y, z], T: (x'^2 + y'^2 + z'^2)/2, V: y, constraints: {{b: y = {bowl}}}}}"
+    assert "there is no equ" not in said(text, "Equilibria", "equilibria")

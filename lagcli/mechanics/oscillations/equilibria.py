@@ -237,8 +237,9 @@ class RestPoints(RestConditions):
         _, imaginary = known.root.as_real_imag()
         solved = solve_system([imaginary], self.system.q)
         for each in solved.solutions:
-            values = {**known.given, **each.values}
-            values[known.unknown] = known.root.xreplace(dict(each.values))
+            put_in = dict(each.values)
+            put_in[known.unknown] = known.root.xreplace(put_in)
+            values = {q: value.xreplace(put_in) for q, value in known.given.items()} | put_in
             try:
                 if self.balanced(values):
                     return True

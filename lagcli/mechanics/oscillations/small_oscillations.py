@@ -16,13 +16,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 
-from sympy import Expr, I, S, Symbol
+from sympy import Expr, I, Symbol
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.equations import written
-from lagcli.algebra.place import at
 from lagcli.expression import Expression
-from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.equilibria import REACHED, TIMED, RestPoint, RestPoints
@@ -31,11 +29,9 @@ from lagcli.mechanics.oscillations.family_statement import relation_sides, shown
 from lagcli.mechanics.oscillations.held import HeldCombination, held
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
+from lagcli.mechanics.oscillations.reduced_verdict import ReducedVerdict
 from lagcli.mechanics.oscillations.singular import OnMeridians, is_singular
 from lagcli.mechanics.reduction.readable import conditions
-from lagcli.mechanics.reduction.routh import Routh
-from lagcli.mechanics.reduction.steady import SteadyMotions
-from lagcli.mechanics.reduction.steady_motion import Steady
 from lagcli.mechanics.stability.judge import (
     DRIFTS,
     EXCLUDED,
@@ -44,7 +40,6 @@ from lagcli.mechanics.stability.judge import (
     judge_on_average,
     judge_on_meridians,
 )
-from lagcli.mechanics.stability.lagrange_dirichlet import by_routh
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.mechanics.stability.verdict import Stability, undecided
 from lagcli.mechanics.theorems import LAGRANGE_DIRICHLET
@@ -199,6 +194,7 @@ class SmallOscillations:
         self.system = dynamics.system
         self.held = held(dynamics)
         self.rest = self.held[0].rest
+        self.reduced = ReducedVerdict(dynamics, self.rest)
 
     @cached_property
     def places(self) -> list[Place] | None:
@@ -213,37 +209,13 @@ class SmallOscillations:
         """Whether there can be no other."""
         return all(each.rest.complete and each.rest.points is not None for each in self.held)
 
-    @cached_property
-    def _steady(self) -> SteadyMotions | None:
-        """The motions at constant momenta of cyclic coordinates, rest among them."""
-        if self.dynamics.constraints.equations or self.rest.depends_on_time:
-            return None
-        routh = Routh(Derivation(self.system.problem))
-        return SteadyMotions(routh) if routh.cyclic and routh.reduced is not None else None
-
-    def _by_routh(self, place: Place) -> Stability | None:
-        """The verdict on rest as a steady motion; None where that decides nothing."""
-        steady, values = self._steady, place.point.values
-        if steady is None or place.point.family is not None or place.held.firmly:
-            return None
-        still = dict.fromkeys(self.system.qdot, S.Zero)
-        full = steady.routh.full.dynamics.lagrange
-        fixed = {q: values[q] for q in steady.system.q if q in values}
-        for p, j in zip(steady.routh.momenta, steady.routh.cyclic, strict=True):
-            fixed[p] = at(full.momenta[j].xreplace(still), values)
-        try:
-            found = judge(Linearization(steady.rest, steady.point(Steady(fixed, None))))
-        except ZeroDivisionError:
-            return None
-        return by_routh(replace(found, across=True)) if found.minimum is not None else None
-
     def equilibrium(self, place: Place) -> Equilibrium:
         """One equilibrium as a statement."""
         verdict, potential = place.verdict, potential_of(RestPoints(self.dynamics))
-        open_ = verdict.is_open and not place.point.depends_on_time(self.system.t)
-        reduced = self._by_routh(place) if open_ else None
+        sought = verdict.is_open and not place.held.firmly
+        reduced = self.reduced.of(place.point) if sought else None
         if reduced is not None:
-            verdict, potential = reduced, "U_eff"
+            verdict, potential = reduced, "U_eff" if self.reduced.cyclic else potential
         linear, order = place.linear, self.system.order
         free, gone = untied(place.point, self.system.q), place.indeterminate
         return Equilibrium(

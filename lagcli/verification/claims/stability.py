@@ -56,7 +56,8 @@ def refutes(x: Examination, what: str, near: LinearMotion, verdict: Verdict, zer
     if not near.regular:
         return _at_a_pole(near, verdict)
     judged = Judged(near, zeros)
-    leaves, returns = 1 in near.sides, near.sides == (-1, -1)
+    sides = () if zeros else near.sides  # nothing pushes along a coordinate that turns
+    leaves, returns = 1 in sides, sides == (-1, -1)
     if verdict.stable and (judged.growing or leaves):
         return "a disturbance grows"
     given = x.problem
