@@ -10,6 +10,7 @@ import sympy
 
 from lagcli.algebra.signs import sign
 from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.oscillations.equilibria import _finite_where
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.statement import reduction
@@ -498,3 +499,25 @@ def test_rest_at_the_bottom_of_a_flat_bowl_is_not_denied(bowl):
     """The gradient has a factor whose zeros are complex but for the bottom."""
     text = f"{{coordinates: [x, y, z], T: (x'^2 + y'^2 + z'^2)/2, V: y, constraints: {{b: y = {bowl}}}}}"
     assert "there is no equ" not in said(text, "Equilibria", "equilibria")
+
+
+@pytest.mark.parametrize(
+    ("T", "V", "reached"),
+    [
+        ("s'^2/(4*s) + s*p'^2", "s", True),
+        ("s'^2/(4*s) + s*p'^2", "1/s", False),
+        ("4*s^2*s'^2 + s^4*p'^2", "s^4", True),
+        ("s'^2 + s^2*p'^2", "s^n", True),
+        ("s'^2 + s^2*p'^2", "s", False),
+    ],
+)
+def test_rest_at_the_origin_is_not_denied_by_powers_of_the_distance(T, V, reached):
+    """r = sqrt(s), s^2 and s: the oscillator rests at 0, V = 1/r and r do not."""
+    text = f"{{coordinates: {{s: {{assume: positive}}, p: {{}}}}, parameters: [n], T: {T}, V: {V}}}"
+    assert ("with s > 0" in said(text, "Equilibria", "equilibria")) is reached
+
+
+def test_conditions_stand_in_an_order_that_no_hash_decides():
+    letters = sympy.symbols("b:h", real=True)
+    found = list(_finite_where([1 / sympy.Mul(*letters)]))
+    assert found == [letter**2 for letter in letters]

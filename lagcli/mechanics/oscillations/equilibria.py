@@ -47,7 +47,8 @@ _AT_AN_EDGE = (
 
 def _finite_where(values: Iterable[Expr]) -> Iterator[Expr]:
     """The squares of what values are divided by, where that may be 0."""
-    found = (divisor for value in values for divisor in divisors(value))
+    order = sympy.default_sort_key
+    found = (divisor for value in values for divisor in sorted(divisors(value), key=order))
     yield from (f**2 for f in dict.fromkeys(found) if f.free_symbols and sign(f**2) is None)
 
 

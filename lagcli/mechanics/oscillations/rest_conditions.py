@@ -193,10 +193,23 @@ class RestConditions:
 
     @property
     def edge(self) -> tuple[str, ...]:
-        """Coordinates assumed positive at whose value 0 all conditions may hold."""
+        """Coordinates assumed positive at whose value 0 all conditions may hold.
+
+        A finite force along what has an infinite mass there need not vanish: s = r^2, M = m/(4 s).
+        """
+        mass, forces_at_rest = self.dynamics.lagrange.mass_matrix_at_rest, self.forces_at_rest
+        free = not self.dynamics.constraints.equations
+
+        def infinite(e: Expr, q: Symbol) -> bool:
+            return bool(e.xreplace({q: S.Zero}).has(S.ComplexInfinity, S.NaN))
 
         def holds(q: Symbol) -> bool:
-            there = [e.xreplace({q: S.Zero}) for e in self.equations]
+            if self.has_open_power({q: S.Zero}):
+                return True
+            j = self.system.q.index(q)
+            others = [f for k, f in enumerate(forces_at_rest) if k != j]
+            loose = free and infinite(mass[j][j], q) and not infinite(forces_at_rest[j], q)
+            there = [e.xreplace({q: S.Zero}) for e in (others if loose else self.equations)]
             if any(e.has(S.NaN, S.ComplexInfinity) for e in there):
                 return False
             solved = solve_system(there, [x for x in self.system.q if x != q])
