@@ -521,3 +521,15 @@ def test_conditions_stand_in_an_order_that_no_hash_decides():
     letters = sympy.symbols("b:h", real=True)
     found = list(_finite_where([1 / sympy.Mul(*letters)]))
     assert found == [letter**2 for letter in letters]
+
+
+@pytest.mark.parametrize("constraint", ["y = v*t", "y' = v", "x - 2*y = v*t"])
+def test_a_constraint_that_moves_with_the_body_is_not_said_to_do_work(constraint):
+    """A free body that a guide accompanies at a constant velocity keeps its energy."""
+    text = (
+        "{coordinates: [x, y], parameters: [v], T: (x'^2 + y'^2)/2, "
+        f'constraints: {{guide: "{constraint}"}}}}'
+    )
+    told = said(text, "The energy")
+    assert "is conserved" in told
+    assert "does work" not in told

@@ -93,7 +93,8 @@ def _rate(teller: Teller) -> Iterator[Block]:
         ]
     )
     total = sympy.Add(*(power.value for power in function.powers))
-    yield says("It can change because ", changes, ". Its rate is")
+    because = [] if function.conserved else ["It can change because ", *changes, ". "]
+    yield says(*because, "Its rate is")
     yield shows(Name(h.name, 1), teller.readable.by_terms(total, as_given=True))
     if function.conserved is None:
         yield says("Whether this vanishes on the motion was not decided.")
@@ -110,13 +111,11 @@ def _rate(teller: Teller) -> Iterator[Block]:
 
 def _unchanged(teller: Teller) -> list[Part]:
     """Why dh/dt has no terms: dL/dt = 0, Q . q' = 0, and b = 0 for every constraint."""
-    parts: list[Part] = [teller.letters.L, " does not depend on t explicitly"]
-    parts += [", the applied forces do no work"] if teller.forced else []
-    constraints = len(teller.dynamics.constraints.equations)
-    if constraints:
-        parts += [" and " if not teller.forced else ", and "]
-        parts += ["the constraint does" if constraints == 1 else "the constraints do", " no work"]
-    return [*parts, "."]
+    clauses: list[Part | list[Part]] = [[teller.letters.L, " does not depend on t explicitly"]]
+    clauses += ["the applied forces do no work"] if teller.forced else []
+    if constraints := len(teller.dynamics.constraints.equations):
+        clauses += [f"the constraint{' does' if constraints == 1 else 's do'} no work"]
+    return [*listed(clauses), "."]
 
 
 def _conserved(teller: Teller) -> list[Part]:
