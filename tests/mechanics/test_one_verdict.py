@@ -109,3 +109,18 @@ def test_a_terminal_velocity_is_confirmed(drag):
         f'forces: {{x: "k - {drag}"}}}}'
     )
     assert "left out" not in words(explain(derive(text), ["steady_motions"]), "Steady motions")
+
+
+def test_a_contact_on_which_nothing_presses_has_one_verdict():
+    """A rod upright against a wall: where the wall may be left, the guided motion says nothing."""
+    text = (
+        f"{{coordinates: [x, y, u], parameters: {{{_M}}}, V: m*y, "
+        "T: m*(x'^2 + y'^2)/2 + k*u'^2/2, constraints: {"
+        "wall: {equation: x = sin(u), multiplier: N, holds_while: N >= 0}, "
+        "floor: {equation: y = cos(u), multiplier: F, holds_while: F >= 0}}}"
+    )
+    derivation = derive(text)
+    places = equilibria(derivation.dynamics).equilibria or ()
+    for each in (*places, *(steady_motions(derivation)[0].motions or ())):
+        verdict = each.verdict
+        assert (verdict.stable, verdict.reason) == (None, places[0].verdict.reason)

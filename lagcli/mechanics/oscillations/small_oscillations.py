@@ -212,7 +212,8 @@ class SmallOscillations:
     def equilibrium(self, place: Place) -> Equilibrium:
         """One equilibrium as a statement."""
         verdict, potential = place.verdict, potential_of(RestPoints(self.dynamics))
-        sought = verdict.is_open and not place.held.firmly
+        bound = place.held.firmly or place.held.grazes(place.point)
+        sought = verdict.is_open and not bound
         reduced = self.reduced.of(place.point) if sought else None
         if reduced is not None:
             verdict, potential = reduced, "U_eff" if self.reduced.cyclic else potential
