@@ -46,7 +46,7 @@ class Writer:
         """coefficient * prod base^exponent, with what divides in one denominator."""
         if coefficient == 0:
             return ZERO
-        coefficient, pairs = _flattened(coefficient, factors)
+        coefficient, pairs = _upright(*_flattened(coefficient, factors))
         coefficient, pairs = _single_angles(coefficient, _merged(pairs))
         pairs = self._joined_exponentials(self._into_exponentials(_tangents(pairs)))
         pairs = self._into_roots(_without_moduli(pairs))
@@ -302,6 +302,20 @@ def _flattened(coefficient: Fraction, factors: Iterable[Factor]) -> tuple[Fracti
             case _:
                 result.append((base, exponent))
     return coefficient, result
+
+
+def _upright(coefficient: Fraction, pairs: list[Factor]) -> tuple[Fraction, list[Factor]]:
+    """sin(-u) = -sin(u), cos(-u) = cos(u)."""
+    found: list[Factor] = []
+    for base, exponent in pairs:
+        if isinstance(base, Call) and base.function in ("sin", "cos") and exponent.denominator == 1:
+            (angle,) = base.arguments
+            if isinstance(angle, Negative):
+                base = Call(base.function, (angle.operand,))
+                if base.function == "sin" and exponent % 2:
+                    coefficient = -coefficient
+        found.append((base, exponent))
+    return coefficient, found
 
 
 def _modulus(node: Expression) -> Expression:

@@ -239,3 +239,14 @@ def test_the_moments_of_a_top_stand_by_the_squares_of_sine_and_cosine():
 def test_an_angle_over_a_difference_has_no_sign_before_it(function, root):
     angle = root(k) * t / root(M + m - m * sp.cos(theta) ** 2)
     assert "(-" not in to_grammar(shape(function(angle)))
+
+
+@pytest.mark.parametrize("below", [M - m, m - M])
+def test_a_sine_of_what_is_written_with_a_minus_is_turned(below):
+    angle = sp.sqrt(k * below) * t / below
+    for value in (sp.sin(angle), k * sp.sin(angle) ** 3, sp.cos(angle) + k):
+        written = to_grammar(shape(value))
+        assert "(-" not in written
+        at = {k: 3, t: 2, M: 1 + 4 * (below == M - m), m: 1 + 4 * (below != M - m)}
+        read = sp.sympify(written.replace("^", "**"), {str(s): s for s in at})
+        assert abs((value - read).xreplace(at).evalf()) < 1e-12

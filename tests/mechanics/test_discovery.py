@@ -188,3 +188,19 @@ def test_a_scaled_solution_has_no_factor_of_constants_left(seed: int):
     factor = rng.choice([a + b, (a * c**2 + b) ** 3 * c, (a - b) * sympy.sqrt(a + c), a**2])
     found = scaled([sympy.expand(v * factor) for v in values], set(constants))
     assert all(is_zero(f - v) is True for f, v in zip(found, values, strict=True))
+
+
+@pytest.mark.parametrize("inertia", ["L, M", "M, L"])
+@pytest.mark.parametrize("coupling", ["(x - y)^2/(2*C)", "x*y/C"])
+def test_like_circuits_have_both_amplitudes_of_both_modes(inertia: str, coupling: str):
+    """L x'' + M y'' …: the frequencies of x + y and x - y, real for L > M or for M > L alone."""
+    own, shared = inertia.split(", ")
+    derivation = derive(
+        "{coordinates: [x, y], parameters: {L: {assume: positive}, M: {assume: positive}, "
+        f"C: {{assume: positive}}}}, T: {own}*(x'^2 + y'^2)/2 + {shared}*x'*y', "
+        f"V: (x^2 + y^2)/(2*C) + {coupling}}}"
+    )
+    charges = derivation.discovery.charges
+    moves = [c.transformation for c in charges if c.transformation.time == 0]
+    state = {*derivation.system.q, *derivation.system.qdot}
+    assert sum(not any(x.free_symbols & state for x in move.changes) for move in moves) == 4

@@ -247,6 +247,12 @@ class Atoms:
                 return self.to_sympy(above) / self.to_sympy(below)
             case Power(base=base, exponent=exponent):
                 return sympy.Pow(self.to_sympy(base), self.to_sympy(exponent))
+            case Call(function="sqrt", arguments=(Quotient(numerator=a, denominator=b),)):
+                above, below = self.to_sympy(a), self.to_sympy(b)
+                if above.is_nonnegative:
+                    # sqrt(a/b) where that is real; of sqrt(1/b) no power of b goes away
+                    return sympy.sqrt(above * below) / below
+                return sympy.sqrt(above / below)
             case Call(function=function, arguments=arguments, primes=0):
                 function = {"abs": "Abs"}.get(function, function)
                 return getattr(sympy, function)(*map(self.to_sympy, arguments))
