@@ -103,12 +103,45 @@ def test_two_bodies_that_rub_move_together_in_the_end():
         assert all(contains(x, mpmath.mpf(1) / 3) for x in found.rows[-1][3:5])
 
 
+@pytest.mark.parametrize(
+    ("e", "height"), [("0.31", "1"), pytest.param("1/2", "0.37", marks=pytest.mark.long)]
+)
+def test_impacts_that_accumulate_on_a_slope_end_and_the_ball_slides(e, height):
+    """Of slope 3/4, g = 10: the normal falls with 8, and along the slope it slides with 6."""
+    ball = lagcli.loads(
+        "{coordinates: [x, y], T: (x'^2 + y'^2)/2, V: 10*y, initial: {y: HEIGHT}, contacts: "
+        "{slope: {gap: 4*y - 3*x >= 0, restitution: E}}}".replace("E}", f"{e}}}").replace(
+            "HEIGHT", height
+        )
+    )
+    found = proof(ball, 3.0, samples=4, show=["x", "y", "x'", "lambda_slope"])
+    assert found.reached, found.refusal
+    assert [event.what for event in found.events][-2:] == ["impact", "comes to rest"]
+    with mpmath.workdps(40):
+        ratio, h = (
+            mpmath.mpf(Fraction(x).numerator) / Fraction(x).denominator for x in (e, height)
+        )
+        rest = mpmath.sqrt(h / 5) * (1 + ratio) / (1 - ratio)
+        assert contains(found.events[-1].t, rest)
+        assert rest < 3
+        along = 3 * h / 5 - 3 * mpmath.mpf(9)
+        x, y, speed, force = found.rows[-1][1:]
+        assert contains(x, 4 * along / 5)
+        assert contains(y, 3 * along / 5)
+        assert contains(speed, -mpmath.mpf(4) * 18 / 5)
+        assert contains(force, mpmath.mpf(8) / 5)  # beside the gradient, of length 5
+
+
 @pytest.mark.long
-def test_impacts_that_accumulate_end_the_proof():
-    found = proof(lagcli.load("bouncing-ball"), 4.0, samples=41)
+def test_impacts_that_accumulate_while_another_contact_holds_end_the_proof():
+    ball = lagcli.loads(
+        "{coordinates: [x, y], T: (x'^2 + y'^2)/2, V: 10*y + x, initial: {y: 1}, contacts: "
+        "{wall: {gap: x >= 0, restitution: 0}, floor: {gap: y >= 0, restitution: 0.4}}}"
+    )
+    found = proof(ball, 4.0, samples=41)
+    rest = (0.2**0.5) * 1.4 / 0.6
     assert not found.reached
-    assert 2.2 < found.holds_until < 2.5542  # sqrt(2 h/g) (1 + e)/(1 - e) = 2.5542
-    assert all(event.what == "impact" for event in found.events)
+    assert 0.8 * rest < found.holds_until < rest
     assert "where impacts accumulate: what follows them is not enclosed" in found.refusal
 
 

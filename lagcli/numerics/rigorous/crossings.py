@@ -127,6 +127,9 @@ def when(piece: Piece, field: VectorField, watched: Watched, begun: int = 0) -> 
         if watched.at(whole, state) > 0:
             continue
         rate = watched.rate(field, whole, state)
+        # the mean value form: on a slope the terms of a gap change far more than their sum
+        if watched.at(whole.mid(), piece.at(whole.mid())) + rate * (whole - whole.mid()) > 0:
+            continue
         last = watched.at(b, piece.at(b))
         if last > 0 and watched.term(field, whole, state, max(leaves, 1)) > 0:
             continue

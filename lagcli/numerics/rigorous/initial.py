@@ -21,9 +21,13 @@ from typing import Any
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node, Symbol
 from lagcli.graph.substitution import Substitution
+from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import given_values
+from lagcli.numerics.hybrid.request import Asked
+from lagcli.problem_data import Problem
+from lagcli.record import replace
 
 #: What a given state may leave of a constraint: then it is taken to satisfy it.
 _RESIDUAL = 2.0**-56
@@ -166,3 +170,28 @@ def _pivots(matrix: list[list[float]], preferred: Sequence[bool]) -> list[tuple[
             factor = rest[k][j] / rest[i][j]
             rest[k] = [a - factor * b for a, b in zip(rest[k], rest[i], strict=True)]
     return found
+
+
+def setup_of(problem: Problem, asked: Asked) -> tuple[Simulation, frozenset[int]]:
+    """What is integrated, and the constraints that the others imply at the beginning."""
+    setup, modes = Simulation(problem, asked).ready()
+    symbols = (*setup.equations.q, *setup.equations.qdot)
+    given = {(name.name, name.primes) for name in problem.initial}
+    values = zip(symbols, (*setup.start[0], *setup.start[1]), strict=True)
+    if any(x and (s.name, s.primes) not in given for s, x in values):
+        # what a constraint gives is enclosed with that constraint
+        setup, modes = Simulation(problem, replace(asked, whole=True)).ready()
+    implied: frozenset[int] = frozenset()
+    if setup.equations.rows:
+        first = modes.first
+        q, v = setup.start
+        kept = first.motion.independent(0.0, *q, *v)
+        if kept is not None:
+            implied = frozenset(
+                k for k, place in first.equations.place.items() if place not in kept
+            )
+    multipliers = setup.reading.multipliers
+    if implied and any(node.mask & s.mask for node in setup.nodes for s in multipliers):
+        message = "with constraints that others imply the multipliers are not determined"
+        raise Refusal(message, mistake=False)
+    return setup, implied

@@ -9,18 +9,17 @@ from typing import Any
 from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.constants import constants_of
-from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.rigorous.accumulation import rest_after
 from lagcli.numerics.rigorous.crossings import UndecidedCrossing, Watched, behind, when
 from lagcli.numerics.rigorous.enclosure import NotEnclosed, ShortSteps
-from lagcli.numerics.rigorous.initial import initial_state
+from lagcli.numerics.rigorous.initial import initial_state, setup_of
 from lagcli.numerics.rigorous.modes import ProofMode, ProofModes
 from lagcli.numerics.rigorous.piece import Piece
 from lagcli.numerics.rigorous.result import Proof
 from lagcli.numerics.rigorous.rows import Rows
 from lagcli.numerics.rigorous.sets import LohnerSet, around
 from lagcli.problem_data import Problem
-from lagcli.record import replace
 
 #: Bits of the first attempt and of the last; the order in proportion, from a scan of costs.
 _BITS, _MOST_BITS, _ORDER = 80, 640, 0.45
@@ -41,6 +40,11 @@ _GAIN = 1.02
 _LOST = 1e3
 #: A loss of digits is taken to go on as it began, over at most this multiple of the time.
 _FARTHEST = 8
+#: Fewer bits than these are raised where impacts accumulate: on a slope each widens the set.
+_ACCUMULATED = 240
+#: Impacts that are over within this part of the span, or of the span and the accuracy, are bounded
+#: together: much shorter flights are not enclosed one by one.
+_REST, _REST_PART = 1e-11, 1e-2
 #: Of a step whose end is at an event.
 _SHORTER = 0.8
 #: Where something may happen at the very end, steps go farther.
@@ -89,7 +93,7 @@ def prove(
     """
     from flint import ctx
 
-    setup, implied = _setup(problem, asked)
+    setup, implied = setup_of(problem, asked)
     best: Proof | None = None
     bits = _BITS
     last = 0.0
@@ -104,31 +108,6 @@ def prove(
         if found.reached or not 0 < bits <= _MOST_BITS or work <= 0 or attempt.last < _GAIN * last:
             return best
         last = 0.0 if attempt.short or attempt.excess > 1 else attempt.last
-
-
-def _setup(problem: Problem, asked: Asked) -> tuple[Simulation, frozenset[int]]:
-    """What is integrated, and the constraints that the others imply at the beginning."""
-    setup, modes = Simulation(problem, asked).ready()
-    symbols = (*setup.equations.q, *setup.equations.qdot)
-    given = {(name.name, name.primes) for name in problem.initial}
-    values = zip(symbols, (*setup.start[0], *setup.start[1]), strict=True)
-    if any(x and (s.name, s.primes) not in given for s, x in values):
-        # what a constraint gives is enclosed with that constraint
-        setup, modes = Simulation(problem, replace(asked, whole=True)).ready()
-    implied: frozenset[int] = frozenset()
-    if setup.equations.rows:
-        first = modes.first
-        q, v = setup.start
-        kept = first.motion.independent(0.0, *q, *v)
-        if kept is not None:
-            implied = frozenset(
-                k for k, place in first.equations.place.items() if place not in kept
-            )
-    multipliers = setup.reading.multipliers
-    if implied and any(node.mask & s.mask for node in setup.nodes for s in multipliers):
-        message = "with constraints that others imply the multipliers are not determined"
-        raise Refusal(message, mistake=False)
-    return setup, implied
 
 
 class Attempt:
@@ -166,6 +145,7 @@ class Attempt:
             self.refusal, self.short = str(reason), isinstance(reason, ShortSteps)
             if isinstance(reason, UndecidedCrossing) and self.rows.impacts_accumulate():
                 self.refusal += ", where impacts accumulate: what follows them is not enclosed"
+                self.short = self.bits < _ACCUMULATED
         except (ArithmeticError, ValueError, OverflowError) as reason:
             self.refusal = f"the equations are not defined on the enclosure: {reason}"
         asked = self.setup.asked
@@ -316,6 +296,14 @@ class Attempt:
         for each in after.watched:
             if not each.term(after.field, times, box, leaves.get(each, 0)) > 0:
                 raise NotEnclosed(f"what {each.name} does at t = {float(tau):.6g} is not decided")
+        if what == "impact" and after.held == mode.held:
+            part = max(_REST, _REST_PART * self.setup.asked.accuracy)
+            most = part * float(self.rows.times[-1])
+            rest = rest_after(watched, after, restart, times, box, most)
+            if rest is not None:
+                self.rows.happened(rest.times, watched.name, "comes to rest", after, rest.box)
+                self.rows.within(rest.times, (after, rest.box), (rest.mode, rest.box))
+                return rest.times.upper(), around(rest.end), rest.mode, {}
         return tau.mid(), start, after, leaves
 
     def _count(self, piece: Piece, mode: ProofMode) -> None:
