@@ -1,5 +1,6 @@
 """Corners, jumps and impacts: what is claimed against closed forms, after many of them."""
 
+import math
 import random
 
 import mpmath
@@ -116,6 +117,23 @@ def test_a_ball_that_bounces_many_times(seed):
     first, flight = (v0 + speed) / a, 2 * speed / a
     s = t - first - flight * mpmath.floor((t - first) / flight)
     claims_hold(BALL.format(g=g, x=x, v=v), until, speed * s - a * s * s / 2, speed - a * s)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("g", "height"), [("19.617", "0.171"), ("18.542", "0.214")])
+def test_between_impacts_two_runs_differ_by_rounding_alone(g, height):
+    """From rest: flights are polynomials, which every tolerance gives alike."""
+    result = simulated(BALL.format(g=g, x=height, v=0), 40, 1e-14)
+    scales, bounds = result.certificate.scales[1:], result.certificate.global_error.values()
+    with mpmath.workdps(30):
+        a, top = mpmath.mpf(g), mpmath.mpf(height)
+        flight = 2 * mpmath.sqrt(2 * top / a)
+        for t, *found in result.rows:
+            s = (t + flight / 2) % flight - flight / 2
+            for x, y, scale, bound in zip(
+                found, (top - a * s * s / 2, -a * s), scales, bounds, strict=True
+            ):
+                assert abs(x - y) <= bound * scale + math.ulp(x) / 2
 
 
 @pytest.mark.long

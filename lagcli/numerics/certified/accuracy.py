@@ -174,9 +174,8 @@ class Controller:
             bound = max(found.errors)
             before, apart = apart, bound / self.factor(finer, fine)
             gains = finer > self.rounded or apart <= _NO_GAIN * before
-            if not gains and _FAR * self.accuracy < bound <= SATURATED:
-                return found
-            if self.first < _SHARP and places(fine, fine.marks):  # two branches, by chance
+            out_of_reach = not gains and _FAR * self.accuracy < bound <= SATURATED
+            if out_of_reach or (self.first < _SHARP and places(fine, fine.marks)):  # branches
                 return found
             tolerance = self._tightened(tolerance, finer, bound)
             if tolerance == finer:
@@ -194,13 +193,15 @@ class Controller:
     def factor(self, tolerance: float, fine: Run) -> float:
         """Times the difference of two runs that bounds the error, by the finer one.
 
-        What is narrow enlarges rounding, by which the two then differ at any tolerance.
+        What is narrow enlarges rounding, by which the two then differ at any tolerance; so they do
+        where events are met, between which a motion may be a polynomial.
         """
         if fine.shortened:
             return NARROW
         if tolerance <= self.finest:
             return CHANCE
-        return self.chance if tolerance <= self.rounded else USUAL
+        met = len(fine.events) > (fine.event is not None)
+        return self.chance if tolerance <= self.rounded or met else USUAL
 
     def _tightened(self, tolerance: float, finer: float, bound: float) -> float:
         """The coarser tolerance of the next pair: the global error is in proportion to it."""
@@ -214,8 +215,7 @@ class Controller:
         peaks = None if before is None or before.stop is not None else before.scales
         longest = self.span / (self._longest[level] * _FINER_STEPS**self._finer)
         run = self.runner(tolerance, longest, peaks, every)
-        self._finer += 1
-        self.runs += 1
+        self._finer, self.runs = self._finer + 1, self.runs + 1
         self.evaluations += run.evaluations
         return run, run.rows()
 
@@ -303,7 +303,7 @@ class Controller:
         fine, good = found.run, found.good_rows
         if good < 2 or fine.steps >= fine.step_limit or self._is_refused:
             return found
-        ends = [fine.marks[good].t] if good < len(fine.marks) else []
+        ends = [mark.t for mark in fine.marks[good : good + 1]]
         ends += [fine.stop.t] if fine.stop is not None else []
         if not ends or min(ends) <= fine.marks[good - 1].t:
             return found
