@@ -40,6 +40,9 @@ _WORTH_A_BRACKET = 0.72
 #: The potential energy stays as the file has it up to this multiple of the operations.
 _GIVEN = 1.2
 
+#: What is no polynomial in the velocities stays whole as the file has it: -m c² sqrt(1 - v²/c²).
+_GIVEN_WHOLE = 1.6
+
 Term = tuple[Monomial, int]
 
 
@@ -78,7 +81,7 @@ def terms(
     if split is None:
         assert given is not None
         result = shape(expression, order)
-        return given if length(given) <= _GIVEN * length(result) else result
+        return given if length(given) <= _GIVEN_WHOLE * length(result) else result
     static = writer.sum(split.static)
     at_rest = _given_at_rest(expression, leading, writer) if as_given and growth.is_one() else None
     if at_rest is not None and length(at_rest) <= _GIVEN * length(static):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
+from lagcli.evaluation import value_of
 from lagcli.expression import (
     ONE,
     ZERO,
@@ -185,7 +186,8 @@ class Writer:
             if not isinstance(base, Sum) or exponent != 1:
                 continue
             negatives = sum(isinstance(term, Negative) for term in base.terms)
-            if isinstance(base.terms[0], Negative) and len(base.terms) <= 2 * negatives + 1:
+            mostly = isinstance(base.terms[0], Negative) and len(base.terms) <= 2 * negatives + 1
+            if mostly or (value_of(base) or 0) < 0:
                 turned = self.negative_sum(base)
                 return -coefficient, [*pairs[:position], (turned, exponent), *pairs[position + 1 :]]
         return coefficient, pairs

@@ -65,10 +65,10 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
         rows.append(Row(POTENTIAL, section.effective_potential))
     yield Equations(tuple(rows))
     yield from _gyroscopic(section)
-    if section.equations:
+    if section.momenta or section.eliminated:  # else they are those of the file
         yield Paragraph(("Its equations of motion:",))
         yield equations_of((each.left, each.right) for each in section.equations)
-    yield from with_constraints(section.constraints)
+        yield from with_constraints(section.constraints)
     if section.reconstruction:
         yield Paragraph(("The cyclic coordinates follow from",))
         yield equations_of((Name(name, 1), value) for name, value in section.reconstruction.items())

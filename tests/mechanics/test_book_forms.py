@@ -146,3 +146,18 @@ def test_conditions_in_one_ratio_are_bounds_on_it(text, section, bounds):
     assert [(each.right, each.left) for each in found] == [
         (each.left, each.right) for each in verdict.unstable
     ]
+
+
+@pytest.mark.parametrize("V", ["0", "k*x^2/2", "-F*x"])
+def test_a_relativistic_lagrangian_is_written_as_in_goldstein(V: str):
+    """L = -m c² sqrt(1 - v²/c²) - V (3rd ed., equation 7.136), and so is what reduces nothing."""
+    given = "-m*c^2*sqrt(1 - x'^2/c^2)"
+    text = (
+        "{coordinates: [x], parameters: {m: {assume: positive}, c: {assume: positive}, k: {}, "
+        f'F: {{}}}}, L: "{given} - ({V})"}}'
+    )
+    problem = read("t.yaml", text.encode()).problem
+    found = state(derive(problem), Request(sections=("lagrangian", "reduction"))).sections
+    L, R = found["lagrangian"].lagrangian, found["reduction"].routhian
+    assert given.lstrip("-") in to_grammar(L)
+    assert R is None or to_grammar(R) == to_grammar(L)

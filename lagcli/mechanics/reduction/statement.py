@@ -30,6 +30,7 @@ from lagcli.expression import (
     quotient_of,
     sum_of,
     terms_of,
+    walk,
 )
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Motion
@@ -159,7 +160,8 @@ class _Statement:
         R = self.routh.function
         assert R is not None
         if potential is None:
-            return terms(R, self.order, self.fast)
+            given = R if self.routh.cyclic else self.routh.system.L
+            return terms(given, self.order, self.fast, as_given=not self.routh.cyclic)
         writer = Writer(self.order)
         assert self.routh.reduced is not None
         still = dict.fromkeys(self.routh.reduced.system.qdot, S.Zero)
@@ -180,7 +182,10 @@ class _Statement:
         return Motion(self.routh)
 
     def _kinetic(self, motion: Motion) -> Expression:
+        """M q'^2/2, or its shortest form where M has a bracket such as 1/3 + sin(q)^2."""
         mass = shape(motion.mass, self.order)
+        if any(isinstance(part, Sum) and any(map(_is_fraction, part.terms)) for part in walk(mass)):
+            return terms(motion.energy - motion.potential, self.order, self.fast)
         return Writer(self.order).product(
             _HALF, [(mass, _ONCE), (Name(motion.q.name, 1), 2 * _ONCE)]
         )
@@ -260,6 +265,12 @@ def _rate(motion: Motion, potential: Expression, order: Sequence[str]) -> Expres
     inside = shape(motion.mass / outside**2, order)
     root = Call("sqrt", (writer.product(_HALF, [(inside, _ONCE), (excess, -_ONCE)]),))
     return writer.product(_ONCE, [(shape(outside, order), _ONCE), (root, _ONCE)])
+
+
+def _is_fraction(term: Expression) -> bool:
+    return isinstance(term, Quotient) and all(
+        isinstance(part, Number) for part in (term.numerator, term.denominator)
+    )
 
 
 def _root(number: int) -> int:
