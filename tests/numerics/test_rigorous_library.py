@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 import pytest
@@ -43,3 +44,22 @@ def happened(found):
     """The events, without the last impacts before rest, of which each ends with some others."""
     names = [(event.name, event.what) for event in found.events]
     return names[:8] + names[-1:] if "comes to rest" in {what for _, what in names} else names
+
+
+@pytest.mark.long
+def test_in_80_bits_before_a_collision_the_bound_holds():
+    """-0.03/r^3 draws it into the centre; the tolerance is some 18 roundings there."""
+    problem = lagcli.loads(
+        "{coordinates: [x, y], T: (x'^2 + y'^2)/2, initial: {x: 1, y': 0.8}, "
+        "V: '-1/sqrt(x^2 + y^2) - 0.03/(x^2 + y^2)^(3/2)'}"
+    )
+    motion = lagcli.simulate(problem, 20, accuracy=1e-14, samples=17)
+    assert not motion.certificate.reached
+    end = motion.rows[-1][0]
+    proof = prove(problem, asked_of(problem, until=end, times=[0.0, end], accuracy=1e-9))
+    scales, bounds = motion.certificate.scales[1:], motion.certificate.global_error.values()
+    assert proof.reached
+    for ball, x, scale, bound in zip(
+        proof.rows[-1][1:], motion.rows[-1][1:], scales, bounds, strict=True
+    ):
+        assert float(abs(ball - x).lower()) <= bound * scale + math.ulp(x) / 2

@@ -293,7 +293,7 @@ def _prepared(
         run=run,
         first=first,
         finest=finest,
-        rounded=ROUNDED * numbers.rounding,
+        rounded=2 * ROUNDED * numbers.rounding,  # 1e-18 is 18 of those of 80 bits
         longest=LONGEST,
         precision=precision,
     )
