@@ -2,6 +2,7 @@
 
 from . import (
     chains,
+    classical,
     combined,
     constraints,
     corners,
@@ -28,6 +29,7 @@ KINDS = {
         combined,
         chains,
         extended,
+        classical,
     )
     for name, kind in file.KINDS.items()
 }
