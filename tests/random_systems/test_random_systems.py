@@ -22,6 +22,10 @@ LARGE = {
     "names",
     "hamiltonians",
     "turning",
+    "equal_springs",
+    "two_angles",
+    "field_gauges",
+    "passing_ranks",
 }
 MILD = {"missing", "trivial"}
 
