@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -194,7 +195,7 @@ def asked_of(
         until=_number(problem, _formula(until, run.until, "until"), "until"),
         end=_formula(until, run.until, "until"),
         accuracy=_number(
-            problem, _formula(accuracy, run.accuracy, "accuracy"), "accuracy", _USUAL_ACCURACY
+            problem, _formula(accuracy, run.accuracy, "accuracy"), "accuracy", _USUAL_ACCURACY, 1
         ),
         samples=samples,
         times=tuple(map(float, times)),
@@ -219,9 +220,13 @@ def _formula(given: float | str | None, of_file: Expression | None, what: str) -
 
 
 def _number(
-    problem: Problem, formula: Expression | None, what: str, usual: float | None = None
+    problem: Problem,
+    formula: Expression | None,
+    what: str,
+    usual: float | None = None,
+    below: float = math.inf,
 ) -> float:
-    """Its value."""
+    """Its value, which is positive."""
     from lagcli.evaluation import value_of
 
     if formula is None:
@@ -229,6 +234,7 @@ def _number(
             raise ProblemError(problem.source, (Diagnostic(f"{what} is missing: give {what}=…"),))
         return usual
     value = value_of(formula)
-    if value is None or not 0 < float(value) < float("inf"):
-        raise ProblemError(problem.source, (Diagnostic(f"{what} must be a positive number"),))
+    if value is None or not 0 < float(value) < below:
+        wanted = "a positive number" if below == math.inf else f"between 0 and {below:g}"
+        raise ProblemError(problem.source, (Diagnostic(f"{what} must be {wanted}"),))
     return float(value)

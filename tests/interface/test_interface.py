@@ -274,3 +274,10 @@ def test_latex_has_labels_on_choice(pendulum):
     assert r"\begin{equation}\label{swing:accelerations:theta}" in page
     assert r"\ddot{\vartheta}" in page
     assert r"\label{eq:" in lagcli.explain(pendulum).to_latex(labels="eq")
+
+
+@pytest.mark.parametrize("accuracy", [2, 1, 0, -1e-6, "1.5"])
+def test_an_accuracy_lies_between_0_and_1(accuracy) -> None:
+    problem = lagcli.loads("{coordinates: [x], T: x'^2/2, V: x^2/2, initial: {x: 1}}")
+    with pytest.raises(lagcli.ProblemError, match="accuracy must be between 0 and 1"):
+        lagcli.simulate(problem, until=1, accuracy=accuracy)
