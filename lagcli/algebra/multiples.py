@@ -17,7 +17,6 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra.field import Element, Generator
-from lagcli.algebra.ring import Poly, Ring
 
 if TYPE_CHECKING:
     from lagcli.algebra.entry import Field
@@ -39,8 +38,6 @@ def split(field: Field, argument: Expr) -> list[tuple[Fraction, Expr]]:
     element = field(argument)
     ring = field.ring
     content = int(element.denominator.content())
-    if _is_mostly_negative(ring, element.denominator):
-        content = -content  # sin(-u) would be read less well than -sin(u)
     below = element.denominator / content
     terms = list(ring.terms(element.numerator))
     if len(terms) > MAX_PARTS:
@@ -51,11 +48,6 @@ def split(field: Field, argument: Expr) -> list[tuple[Fraction, Expr]]:
         base = field.element(ring.build([(monomial, 1)]), below)
         parts.append((Fraction(coefficient, content), field.to_sympy(base)))
     return parts
-
-
-def _is_mostly_negative(ring: Ring, polynomial: Poly) -> bool:
-    """m cos^2 - M - m, which is -(M + m sin^2)."""
-    return sum(1 if coefficient > 0 else -1 for _, coefficient in ring.terms(polynomial)) < 0
 
 
 class Multiples:

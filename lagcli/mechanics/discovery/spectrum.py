@@ -10,7 +10,7 @@ into solutions, so its time dependence has the differences of the exponents.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import sympy
 from sympy import Expr, Symbol
@@ -142,9 +142,8 @@ def forced_motion(
 
 def _keep(found: list[Exponent], new: Exponent) -> None:
     """Add an exponent that is not 0 and that differs from the others, also as a conjugate."""
-    new = replace(new, growth=_rooted_above(new.growth), frequency=_rooted_above(new.frequency))
     if is_zero(new.frequency):
-        new = replace(new, frequency=sympy.S.Zero)
+        new = Exponent(new.growth, sympy.S.Zero, new.repeated)
         if is_zero(new.growth):
             return
     for each in found:
@@ -153,7 +152,7 @@ def _keep(found: list[Exponent], new: Exponent) -> None:
         ):
             return
     if new.frequency.could_extract_minus_sign():
-        new = replace(new, frequency=-new.frequency)
+        new = Exponent(new.growth, -new.frequency, new.repeated)
     found.append(new)
 
 
@@ -223,24 +222,15 @@ def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
 
 
 def _root(square: Expr) -> Expr:
-    """A root without a modulus: either sign serves for sine and cosine."""
+    """A root without a modulus: either sign serves for sine and cosine.
+
+    sqrt(k/m) is sqrt(k*m)/m where the sign of m is open: one root, whose square is exact.
+    """
     factored = sympy.factor(square)
+    above, below = factored.as_numer_denom()
+    if below.free_symbols and not below.is_nonnegative:
+        return simplify(_root(above * below) / below)
     root = sympy.sqrt(factored)
     if any(p.base.is_Add for p in root.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q == 2):
         root = sympy.sqrt(square)  # no perfect square: not torn apart
     return simplify(root.replace(sympy.Abs, lambda x: x))
-
-
-def _rooted_above(expression: Expr) -> Expr:
-    """With sqrt(k m)/m for sqrt(k/m) where the sign of m is open.
-
-    One root for both: sqrt(1/m) is sqrt(m)/|m|, and |m| does not go away in products.
-    """
-
-    def above(power: Expr) -> Expr:
-        top, below = sympy.together(power.base).as_numer_denom()
-        if not below.free_symbols or below.is_nonnegative:
-            return power
-        return (top * below) ** power.exp / below ** (2 * power.exp)
-
-    return expression.replace(lambda e: e.is_Pow and e.exp.is_Rational and e.exp.q == 2, above)
