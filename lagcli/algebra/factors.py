@@ -20,3 +20,9 @@ def factors_of(expression: Expr) -> list[tuple[Expr, int]]:
             found.append((sympy.Integer(int(content)), side))
         found += [(field.polynomial_to_sympy(f), side * int(k)) for f, k in factors]
     return found
+
+
+def square_part(number: Expr) -> tuple[Expr, Expr]:
+    """(a, b) with number = a² b, of an integer, and b free of squares."""
+    whole, root = sympy.sqrt(abs(number)).as_coeff_Mul()
+    return whole, sympy.sign(number) * root**2

@@ -7,7 +7,7 @@ coefficient positive.  Zero has exactly one such form.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf
@@ -121,6 +121,23 @@ def common_denominator(
             raise OverflowError
         common = lift(common) * (below / lift(common).gcd(below))
     return common
+
+
+def over_common_denominator(
+    field: FractionField, elements: Sequence[Element], most: float = inf
+) -> list[Poly]:
+    """The numerators of the elements over the least common multiple of their denominators.
+
+    Raises
+    ------
+    OverflowError
+        Where that might have more than `most` terms.
+    """
+    ring, common = field.ring, common_denominator(field, elements, most)
+    return [
+        ring.reduce(ring.lift(e.numerator) * (ring.lift(common) / ring.lift(e.denominator)))
+        for e in elements
+    ]
 
 
 class FractionField:

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from lagcli.studies.tradeoff.study import Study, Teller
     from lagcli.studies.tradeoff.trial import Given
 
-#: Seconds after which the runs are told one by one.
+#: Seconds after which each run is reported as it is made.
 _PATIENCE = 10.0
 
 

@@ -53,7 +53,7 @@ def proved_answer(problem: Problem, question: Lasting | Reaching) -> Proved | st
 
 
 def _told(proof: Proof, until: float, *, lasts: bool) -> Proved | str:
-    """The answer that the first crossing of 0 gives, or that there is none."""
+    """The answer by the first crossing of 0, or by its absence."""
     begins = proof.rows[0][1] if proof.rows else None
     if begins is None or begins.contains(0):
         return proof.refusal or "it is not decided at the beginning"

@@ -19,7 +19,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import Field, is_zero, nullspace, simplify
-from lagcli.algebra.field import common_denominator
+from lagcli.algebra.field import over_common_denominator
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.dynamics import Dynamics
 
@@ -65,12 +65,7 @@ def primitive(vector: Sequence[Expr]) -> Vector:
     """The vector without denominators and common factors."""
     field = Field(vector)
     ring = field.ring
-    elements = [field(x) for x in vector]
-    below = common_denominator(field, elements)
-    tops = [
-        ring.reduce(ring.lift(e.numerator) * (ring.lift(below) / ring.lift(e.denominator)))
-        for e in elements
-    ]
+    tops = over_common_denominator(field, [field(x) for x in vector])
     common = None
     for top in tops:
         if top != 0:

@@ -11,7 +11,7 @@ from flint import nmod_mat
 from sympy import Expr, Rational
 
 from lagcli.algebra import nullspace, simplify
-from lagcli.algebra.field import common_denominator
+from lagcli.algebra.field import over_common_denominator
 from lagcli.algebra.ring import Monomial, Poly
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, small_fraction
@@ -174,13 +174,11 @@ class ExactSolver:
         if len(field.generators) > len(self.points.constant):  # one that has no random value
             raise TooMuchWork
         try:
-            common = common_denominator(field, elements, _MOST_COMMON)
+            polys = over_common_denominator(field, elements, _MOST_COMMON)
         except OverflowError:
             raise TooMuchWork from None
         groups: dict[tuple[tuple[int, int], ...], dict[int, list[tuple[Monomial, int]]]] = {}
-        for index, element in enumerate(elements):
-            factor = ring.lift(common) / ring.lift(element.denominator)
-            poly = ring.reduce(ring.lift(element.numerator) * factor)
+        for index, poly in enumerate(polys):
             for monomial, coefficient in ring.terms(poly):
                 moving = tuple(p for p in monomial if not self.points.constant[p[0]])
                 fixed = tuple(p for p in monomial if self.points.constant[p[0]])

@@ -11,7 +11,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import simplify
 from lagcli.algebra.entry import Field
-from lagcli.algebra.field import common_denominator
+from lagcli.algebra.field import over_common_denominator
 from lagcli.algebra.ring import Monomial, Poly
 
 
@@ -32,10 +32,7 @@ def scaled(values: Sequence[Expr], constants: AbstractSet[Symbol]) -> tuple[Expr
 def _without_content(values: Sequence[Expr], constants: AbstractSet[Symbol]) -> tuple[Expr, ...]:
     """The values simplified, over what divides all their coefficients."""
     field = Field(values)
-    elements = [field(v) for v in values]
-    lift = field.ring.lift
-    below = lift(common_denominator(field, elements))
-    tops = [lift(e.numerator) * (below / lift(e.denominator)) for e in elements]
+    tops = over_common_denominator(field, [field(v) for v in values])
     content = field.polynomial_to_sympy(_content(field, tops, constants))
     if content.is_Number:
         return tuple(map(simplify, values))

@@ -273,11 +273,10 @@ class SmallOscillations:
     def _tree_or_none(self, expression: Expr | None) -> Expression | None:
         return None if expression is None else self._tree(expression)
 
-
-def verdict_at(dynamics: Dynamics, values: Mapping[Symbol, Expr]) -> Stability | None:
-    """The verdict on the equilibrium at these values of the coordinates, where there is one."""
-    for place in SmallOscillations(dynamics).places or ():
-        there = place.point.values
-        if all(is_zero(there.get(q, q) - values.get(q, q)) is True for q in dynamics.system.q):
-            return place.verdict
-    return None
+    def verdict_at(self, values: Mapping[Symbol, Expr]) -> Stability | None:
+        """The verdict on the equilibrium at these values of the coordinates, where there is one."""
+        for place in self.places or ():
+            there = place.point.values
+            if all(is_zero(there.get(q, q) - values.get(q, q)) is True for q in self.system.q):
+                return place.verdict
+        return None

@@ -75,10 +75,14 @@ class Periods:
         self.reason = ""
         self.failed = False
 
+    @cached_property
+    def _rest(self) -> RestPoints:
+        return RestPoints(self.motion.dynamics)
+
     @property
     def excluded(self) -> bool:
         """Whether U_eff has maxima only, or no place of rest: nothing goes to and fro."""
-        rest, motion = RestPoints(self.motion.dynamics), self.motion
+        rest, motion = self._rest, self.motion
         if rest.points is None or not rest.complete:
             return False
         curvature = motion.potential.diff(motion.q, 2)
@@ -88,7 +92,7 @@ class Periods:
     @cached_property
     def series(self) -> tuple[AmplitudeSeries, ...]:
         """One series for each equilibrium that is a minimum, or may be one."""
-        rest = RestPoints(self.motion.dynamics)
+        rest = self._rest
         points = rest.points
         if points is None:
             return self._anywhere()

@@ -15,7 +15,7 @@ from sympy import Abs, Expr, S, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of
-from lagcli.algebra.factors import factors_of
+from lagcli.algebra.factors import factors_of, square_part
 from lagcli.mechanics.reduction.known_signs import KnownSigns
 from lagcli.mechanics.reduction.readable import deciding, weak_sign
 from lagcli.mechanics.reduction.root_integrals import ROOT, Integrals, Part, root_of
@@ -225,7 +225,7 @@ def _split(squared: Expr, u: Symbol) -> tuple[sympy.Poly, Expr] | None:
     Q, R = S.One, S.One
     for factor, power in factors_of(squared):
         if factor.is_Integer:
-            whole, rest = _square_part(factor)
+            whole, rest = square_part(factor)
             Q, R = Q * rest**power, R * whole**power
             continue
         if power % 2:
@@ -236,12 +236,6 @@ def _split(squared: Expr, u: Symbol) -> tuple[sympy.Poly, Expr] | None:
     if polynomial is None or polynomial.degree() not in (1, 2):
         return None
     return polynomial, R
-
-
-def _square_part(number: Expr) -> tuple[Expr, Expr]:
-    """(a, b) with number = a² b and b free of squares."""
-    whole, root = sympy.sqrt(abs(number)).as_coeff_Mul()
-    return whole, sympy.sign(number) * root**2
 
 
 def _parts(R: Expr, Q: sympy.Poly, u: Symbol) -> list[Part] | None:

@@ -33,7 +33,7 @@ from lagcli.mechanics.oscillations.characteristic import determinant, determinan
 from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.linearization import Linearization
-from lagcli.mechanics.oscillations.small_oscillations import verdict_at
+from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
 from lagcli.mechanics.reduction.minimal import integrated, minimal
 from lagcli.mechanics.stability.judge import ACCELERATES, judge
 from lagcli.mechanics.stability.roots import by_polynomial
@@ -301,7 +301,11 @@ class RollingMotions:
         rates = (motion.values.get(self.system.qdot[j]) for j in self.turning)
         if found.stable is not None or any(rate != 0 for rate in rates):
             return None
-        return verdict_at(self.dynamics, motion.values)
+        return self._equilibria.verdict_at(motion.values)
+
+    @cached_property
+    def _equilibria(self) -> SmallOscillations:
+        return SmallOscillations(self.dynamics)
 
     def _by_energy(self, motion: RollingMotion) -> Stability | None:
         """The verdict on rest in the coordinates that are left; None of other motions."""

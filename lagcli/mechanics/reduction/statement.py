@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from fractions import Fraction
 from functools import cached_property
-from math import prod
 
 import sympy
 from sympy import Expr, S
@@ -14,6 +13,7 @@ from lagcli.algebra import shape, terms
 from lagcli.algebra.build import symbol
 from lagcli.algebra.conjugate_roots import written_alike
 from lagcli.algebra.equations import written
+from lagcli.algebra.factors import square_part
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
     ONE,
@@ -256,7 +256,8 @@ def _rate(motion: Motion, potential: Expression, order: Sequence[str]) -> Expres
     for factor in sympy.Mul.make_args(motion.mass / 2):
         base, power = factor.as_base_exp()
         if factor.is_Rational:
-            outside *= sympy.Rational(_root(int(factor.p)), _root(int(factor.q)))
+            above, below = map(square_part, factor.as_numer_denom())
+            outside *= above[0] / below[0]
         elif base.is_positive and power.is_Integer:
             outside *= base ** int(power / 2)
     writer = Writer(order)
@@ -271,12 +272,6 @@ def _is_fraction(term: Expression) -> bool:
     return isinstance(term, Quotient) and all(
         isinstance(part, Number) for part in (term.numerator, term.denominator)
     )
-
-
-def _root(number: int) -> int:
-    """The largest a with a² dividing the number."""
-    powers = sympy.factorint(number).items()
-    return prod(int(base) ** (int(power) // 2) for base, power in powers)
 
 
 def _two_pi_times(root: Expression) -> Expression:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from functools import cached_property
 
 import sympy
 from sympy import Expr
@@ -21,7 +22,7 @@ from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import beats, choices, shorter
-from lagcli.mechanics.oscillations.small_oscillations import verdict_at
+from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
 from lagcli.mechanics.reduction.readable import conditions, without_moduli
 from lagcli.mechanics.reduction.rolling import RollingMotions
@@ -175,7 +176,11 @@ class _SteadyStatement:
         """The verdict on the equilibrium that it is, where the cyclic coordinates do not move."""
         if motion.rates is None or any(is_zero(x) is not True for x in motion.rates.values()):
             return None
-        return verdict_at(self.routh.full.dynamics, motion.values)
+        return self._equilibria.verdict_at(motion.values)
+
+    @cached_property
+    def _equilibria(self) -> SmallOscillations:
+        return SmallOscillations(self.routh.full.dynamics)
 
     def _where(self, motion: Steady) -> tuple[Above, ...]:
         shortest = sorted(motion.positive, key=lambda e: int(e.count_ops()))
