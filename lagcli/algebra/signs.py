@@ -10,6 +10,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra.entry import Field
+from lagcli.algebra.factors import irreducible_factors
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.roots import substitute_square
 from lagcli.algebra.squares import sign_by_squares
@@ -103,21 +104,20 @@ def _sign(expression: Expr, positive: Sequence[Expr]) -> int | None:
     known = _known_factors(field, given)
     # no factor of what is positive is 0
     nonzero = [f for poly in given for f, _ in factorization(field.ring.lift(poly))[1]]
-    result, open_ = 1, list[Poly]()
-    for poly in (element.numerator, element.denominator):
-        content, factors = factorization(field.ring.lift(poly))
-        result *= 1 if int(content) > 0 else -1
-        for factor, exponent in factors:
-            found = _of_factor(field, factor, known)
-            if found is not None:
-                result *= found if exponent % 2 else 1
-                continue
-            # a square is positive where it is not 0, as what is divided by is not
-            never_zero = poly is element.denominator or _is_nonzero(field, factor, nonzero)
-            if exponent % 2:
-                open_.append(factor)
-            elif not never_zero:
-                return None
+    number, factors = irreducible_factors(element)
+    result, open_ = 1 if number > 0 else -1, list[Poly]()
+    for factor, exponent in factors:
+        found = _of_factor(field, factor, known)
+        if found is None and exponent < 0 and _is_nonnegative(field, factor):
+            found = 1
+        if found is not None:
+            result *= found if exponent % 2 else 1
+            continue
+        # a square is positive where it is not 0, as what is divided by is not
+        if exponent % 2:
+            open_.append(factor)
+        elif exponent > 0 and not _is_nonzero(field, factor, nonzero):
+            return None
     return _of_product(field, open_, given, result)
 
 
@@ -187,6 +187,12 @@ def sign_beside_zero(expression: Expr) -> int | None:
 def _is_nonzero(field: Field, factor: Poly, others: Sequence[Poly]) -> bool:
     known = factor in others or -factor in others
     return known or field.polynomial_to_sympy(factor).is_nonzero is True
+
+
+def _is_nonnegative(field: Field, factor: Poly) -> bool:
+    """Whether it is one generator that is nowhere negative: a root, a modulus."""
+    used = field.ring.used(factor)
+    return factor == field.ring.generator(used[0]) and field.generators[used[0]].nonnegative
 
 
 def sign_of_circle(factor: Expr) -> int | None:

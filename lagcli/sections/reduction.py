@@ -116,13 +116,7 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
 
 def _period(period: PeriodSeries, coordinate: str) -> Iterator[Block]:
     if period.root_of is not None:
-        yield Paragraph(
-            (
-                "Small oscillations about a ",
-                Name(coordinate),
-                " with",
-            )
-        )
+        yield Paragraph(("Small oscillations about any ", Name(coordinate), " with"))
         yield Equations((Row(ZERO, period.root_of),))
     elif period.amplitude:
         yield from state_blocks(period.at, "Oscillations about ")

@@ -60,3 +60,16 @@ def test_a_product_of_what_is_positive_is_positive(seed):
     assert sign(sympy.expand(side * chosen / sympy.Mul(*shared) ** 2), positive) == side
     for factor in {f for each in positive for f, _ in sympy.factor_list(each)[1]}:
         assert sign(sympy.expand(factor**2), positive) == 1
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_what_is_divided_by_a_root_has_one_sign(seed):
+    # a root is positive where it is divided by, whatever the sign of its radicand elsewhere
+    source = Random(seed)
+    a, b = sympy.symbols("a b", positive=True)
+    radicands = [a - source.randint(2, 9) * b, a**2 - source.randint(2, 9) * b**2, b - a * p]
+    chosen = source.sample(radicands, source.randint(1, 3))
+    below = [root(r) ** source.choice((1, 3, 5)) for r in chosen]
+    expected = source.choice((1, -1))
+    assert sign(expected * p * (a - b) ** 2 / sympy.Mul(*below, (a - b) ** 2)) == expected
+    assert sign((a - b) / sympy.Mul(*below)) is None

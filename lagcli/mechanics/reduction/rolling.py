@@ -170,7 +170,10 @@ class RollingMotions:
     def conditions(self) -> dict[int, Expr]:
         """What vanishes in a steady motion, by the coordinate of the equation."""
         still = {self.system.qdot[j]: S.Zero for j in self.coordinates}
-        pairs = zip(self.velocities, self._equations or (), strict=True)
+        rates: Sequence[Expr] = self._equations or ()
+        if rates and not self.dynamics.constraints.equations:
+            rates = [-force for force in self.dynamics.lagrange.forcing]  # M u' = forcing
+        pairs = zip(self.velocities, rates, strict=True)
         return {j: simplify(f.xreplace(still)) for j, f in pairs}
 
     @property
