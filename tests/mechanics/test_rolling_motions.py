@@ -97,3 +97,23 @@ constraints: {blade: x'*sin(phi) = y'*cos(phi)}
 """)
     )
     assert not section.complete
+
+
+@pytest.mark.parametrize("arm", [2, 3, 5])
+def test_the_conditions_are_the_balance_of_the_forces(arm):
+    # a ring dragged along a rod, with a pendulum: friction alone, and gravity's moment alone
+    section, missing = steady_motions(
+        derive(f"""
+coordinates: [x, theta]
+T: 2*x'^2 + {arm}*x'*theta'*cos(theta) + {arm**2}*theta'^2/2
+V: -{arm}*g*cos(theta)
+parameters: {{g: {{assume: positive}}, b: {{assume: positive}}}}
+dissipation: b*x'^2/2
+""")
+    )
+    assert not missing
+    for rate, angle in ((0.3, 0.0), (0.0, 0.7), (-1.1, 2.0)):
+        at = {"x": rate, "theta": angle, "g": 9.0, "b": 0.4}  # of x the rate alone occurs
+        dragged, turned = (value(tree, **at) for tree in section.conditions.values())
+        assert dragged == pytest.approx(0.4 * rate)
+        assert turned == pytest.approx(9.0 * sin(angle))  # without its number
