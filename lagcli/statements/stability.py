@@ -89,8 +89,8 @@ def _by_minimum(verdict: Verdict, stable: str) -> list[Part]:
     alone = verdict.hurwitz is None and verdict.spectrum is None
     potential = _potential(verdict.potential)
     name = f" ({verdict.theorem})" if alone and verdict.theorem else ""
-    parts: list[Part] = [f"{stable} where ", *conditions(verdict.minimum)]
-    parts += [", a minimum of ", potential, name]
+    parts: list[Part] = [stable, *_along(verdict), " where ", *conditions(verdict.minimum)]
+    parts += [", a minimum of ", potential, " across it" * verdict.across, name]
     return [*parts, *(_opposite(verdict.unstable) if alone else [". "]), *_critical(verdict)]
 
 
@@ -108,8 +108,8 @@ def _critical(verdict: Verdict) -> list[Part]:
 
 def _by_roots(verdict: Verdict, stable: str) -> list[Part]:
     if verdict.hurwitz:
-        lead: list[Part] = [stable, " up to displacements along the family" * verdict.across]
-        parts = [*lead, " where ", *conditions(verdict.hurwitz), f" ({verdict.theorem})"]
+        parts: list[Part] = [stable, *_along(verdict), " where ", *conditions(verdict.hurwitz)]
+        parts += [f" ({verdict.theorem})"]
         return [*parts, *_opposite(verdict.unstable)]
     spectrum = verdict.spectrum
     if spectrum is None:

@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import sympy
+from sympy import Dummy
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
@@ -20,6 +21,7 @@ from lagcli.document import Block
 from lagcli.expression import Name
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import says
+from lagcli.mechanics.stability.signs import weak_sign
 from lagcli.statements.motions import SteadyMotion
 
 
@@ -44,6 +46,9 @@ def two_rates(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
             continue
         scale = b.diff(p)
         square, bound = simplify((b / scale) ** 2), simplify(4 * a * c / scale**2)
+        sines = {s: Dummy(positive=True) for s in bound.atoms(sympy.sin)}  # of polar angles
+        if weak_sign(bound.xreplace(sines), ()) == -1:
+            continue  # it holds for every momentum
         rate = Name(rates[0], 1)
         yield says("For a given ", Name(p.name), " this is a quadratic equation for ", rate,
                    ", with real roots for ", write(square), " ≥ ", write(bound), ".")  # fmt: skip

@@ -134,9 +134,9 @@ def _judged(near: Near) -> Stability:
         lacking = near.hypotheses.lacking if near.has_energy else ""
         known = roots.stable is not None or roots.opposed or roots.exact
         return undecided(lacking) if lacking and not known else roots
-    if energy.minimum and roots.stable is None:
+    if energy.minimum and roots.stable is None and not (energy.across and roots.is_open):
         return replace(roots, minimum=None if roots.hurwitz is not None else energy.minimum)
-    return energy if roots.is_open and energy.reason else roots
+    return energy if roots.is_open and (energy.reason or energy.across) else roots
 
 
 def _without_roots(near: Near) -> Stability:

@@ -53,9 +53,12 @@ def by_minimum(near: Near) -> Stability | None:
     for curvatures in near.curvatures:
         signs = near.signs(curvatures)
         neutral = signs.count(0)
-        if set(signs) <= {0, 1} and set(signs[len(signs) - neutral :]) <= {0}:
+        last = set(signs[len(signs) - neutral :]) <= {0}
+        if set(signs) <= {0, 1} and last:
             return _minimum(near, neutral)
-        if -1 in signs or neutral or -1 in (weak_sign(e, near.positive) for e in curvatures):
+        if neutral and not (last and neutral == _even_dimension(near)):
+            continue
+        if -1 in signs or -1 in (weak_sign(e, near.positive) for e in curvatures):
             continue
         pairs = zip(curvatures, signs, strict=True)
         left = tuple(e for e, known in pairs if known is None)
@@ -70,8 +73,14 @@ def by_minimum(near: Near) -> Stability | None:
         asymptotic=near.complete,
         minimum=shortest,
         reverses=near.potential_decides,
+        across=near.dimension_released > 0,
         critical=order_at_critical_values(derivatives, near.positive),
     )
+
+
+def _even_dimension(near: Near) -> int:
+    """Of a family of equilibria along which V is even, without damping; else 0."""
+    return near.dimension_released if not near.linear.damped and near.is_even else 0
 
 
 def by_separate_curvatures(near: Near) -> Stability | None:
@@ -144,7 +153,8 @@ def _stable(why: str, by: Theorem = LAGRANGE_DIRICHLET) -> Stability:
 def always(found: Stability, name: str) -> Stability:
     """The verdict where the conditions for a `minimum`, or by `hurwitz`, turned out to hold."""
     theorem = found.by or LAGRANGE_DIRICHLET
-    lead = f"{_STRICT} there" if name == "minimum" else ALL_ROOTS
+    place = "across the family" if found.across else "there"
+    lead = f"{_STRICT} {place}" if name == "minimum" else ALL_ROOTS
     reason = f"{lead} ({theorem.name})"
     return replace(found, stable=True, reason=reason, minimum=(), hurwitz=None, spectrum=None)
 

@@ -1,0 +1,67 @@
+"""Conditions with parameters of any sign: they decide, and are left out where all values obey."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from lagcli.evaluation import evaluated
+from lagcli.mechanics.oscillations.small_oscillations import equilibria
+from lagcli.mechanics.reduction.steady_statement import steady_motions
+from lagcli.pipeline import explain
+
+from .derived import derive
+from .test_explanation import words
+
+
+def coupled(source: random.Random, field: int) -> str:
+    """Two masses on a line with a force between them alone, in skew coordinates, and a field."""
+    a, b, c, d = 1, *(source.randint(-2, 2) for _ in range(3))
+    if b * c == a * d:
+        d += 1
+    first, second = f"({a}*u + {b}*v)", f"({c}*u + {d}*v)"
+    rates = [each.replace("u", "u'").replace("v", "v'") for each in (first, second)]
+    stretch = f"({first} - {second})"
+    turning = f" + {field}*{stretch}*({rates[0]} + {rates[1]})"
+    V = source.choice((f"k*{stretch}^2/2", f"-k*cos({stretch})"))
+    return (
+        "coordinates: [u, v]\nparameters: {m: {assume: positive}, M: {assume: positive}, k: }\n"
+        f"L: m*{rates[0]}^2/2 + M*{rates[1]}^2/2{turning} - ({V})\n"
+    )
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("field", [0, 1])
+def test_the_sign_of_one_stiffness_decides_across_a_family(seed, field):
+    text = coupled(random.Random(f"coupled {seed}"), field)
+    rest, *_ = equilibria(derive(text).dynamics).equilibria
+    steady, *_ = steady_motions(derive(text))[0].motions
+    assert rest.verdict.across == bool(rest.free)
+    for verdict in (rest.verdict, rest.verdict if field else steady.verdict):
+        for k in (-1.5, 0.7):
+            known = {"k": k, "m": 1.3, "M": 0.4}
+            stable, unstable = (
+                [evaluated(c.left, known, {}) > evaluated(c.right, known, {}) for c in each]
+                for each in (verdict.minimum, verdict.unstable)
+            )
+            assert all(stable) == (k > 0), text
+            assert any(unstable) == (k < 0 and not field), text  # a field may stabilise
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("leaning", [True, False])
+def test_a_bound_that_every_momentum_obeys_is_not_stated(seed, leaning):
+    """A C of p(u) = A u + B + C/u: V grows with θ upright to lying, or falls."""
+    source = random.Random(f"bound {seed}")
+    c, n = source.randint(1, 5), source.choice((1, 3))
+    V = f"m*g*a*cos(theta)*{c}" if leaning else f"{c}*m*g*a*sin(theta)^{n}"
+    text = (
+        "coordinates: [phi, theta, psi]\nparameters: {m: {assume: positive}, "
+        "g: {assume: positive}, a: {assume: positive}}\n"
+        "T: m*a^2*(theta'^2 + sin(theta)^2*phi'^2)/2 + m*a^2*(psi' + cos(theta)*phi')^2/2\n"
+        f"V: {V}\n"
+    )
+    told = words(explain(derive(text), ["steady_motions"]), "Steady motions")
+    assert ("with real roots for" in told) == leaning
