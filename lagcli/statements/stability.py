@@ -27,13 +27,14 @@ def stability(
     if verdict.rapid is not None:
         return _on_average(verdict, verdict.rapid)
     stable = "Asymptotically stable" if verdict.asymptotic else "Stable"
+    along = _up_to(free, on) if free or on is not None else _along(verdict)
     reason = _with_potential(verdict.reason, verdict.potential)
     if verdict.stable is not None:
         words: list[Part] = [stable if verdict.stable else "Unstable"]
         if verdict.stable:
-            words += _up_to(free, on) if free or on is not None else _along(verdict)
+            words += along
         return [*words, *([": ", *reason] if reason else []), "."]
-    parts = [*_by_minimum(verdict, stable), *_by_roots(verdict, stable)]
+    parts = [*_by_minimum(verdict, [stable, *along]), *_by_roots(verdict, stable, along)]
     if not parts and verdict.unstable:
         parts = ["Unstable where ", *joined(verdict.unstable, " or "), ". "]
     if not parts:
@@ -83,14 +84,14 @@ def _with_potential(reason: str, name: str) -> list[Part]:
     return [part for part in parts if part != ""]
 
 
-def _by_minimum(verdict: Verdict, stable: str) -> list[Part]:
+def _by_minimum(verdict: Verdict, stable: Sequence[Part]) -> list[Part]:
     if not verdict.minimum:
         return []
     alone = verdict.hurwitz is None and verdict.spectrum is None
     potential = _potential(verdict.potential)
     name = f" ({verdict.theorem})" if alone and verdict.theorem else ""
-    parts: list[Part] = [stable, *_along(verdict), " where ", *conditions(verdict.minimum)]
-    parts += [", a minimum of ", potential, " across it" * verdict.across, name]
+    parts: list[Part] = [*stable, " where ", *conditions(verdict.minimum)]
+    parts += [", a minimum of ", potential, " across the family" * verdict.across, name]
     return [*parts, *(_opposite(verdict.unstable) if alone else [". "]), *_critical(verdict)]
 
 
@@ -106,9 +107,9 @@ def _critical(verdict: Verdict) -> list[Part]:
     return [*equality, stable, potential, f" then has a minimum of order {verdict.critical}. "]
 
 
-def _by_roots(verdict: Verdict, stable: str) -> list[Part]:
+def _by_roots(verdict: Verdict, stable: str, along: Sequence[Part]) -> list[Part]:
     if verdict.hurwitz:
-        parts: list[Part] = [stable, *_along(verdict), " where ", *conditions(verdict.hurwitz)]
+        parts: list[Part] = [stable, *along, " where ", *conditions(verdict.hurwitz)]
         parts += [f" ({verdict.theorem})"]
         return [*parts, *_opposite(verdict.unstable)]
     spectrum = verdict.spectrum

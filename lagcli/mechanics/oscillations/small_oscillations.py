@@ -213,7 +213,8 @@ class SmallOscillations:
         """One equilibrium as a statement."""
         verdict, potential = place.verdict, potential_of(RestPoints(self.dynamics))
         bound = place.held.firmly or place.held.grazes(place.point)
-        sought = verdict.is_open and not bound
+        one_sided = verdict.across and bool(verdict.minimum) and not verdict.reverses
+        sought = (verdict.is_open or one_sided) and not bound
         reduced = self.reduced.of(place.point) if sought else None
         if reduced is not None:
             verdict, potential = reduced, "U_eff" if self.reduced.cyclic else potential
