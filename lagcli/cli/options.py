@@ -21,8 +21,8 @@ def _to_file(output: Path | None) -> Path | None:
 
 def gathered(options: type[Wish], given: Mapping[str, Any], **others: Any) -> Wish:
     """The options of a command, from its parameters of the same names; without one, its default."""
-    fields = [name for name in options.__annotations__ if given.get(name) is not None]
-    values = {name: given[name] for name in fields}
+    fields = (name for kind in options.__mro__ for name in vars(kind).get("__annotations__", ()))
+    values = {name: given[name] for name in fields if given.get(name) is not None}
     lists = {name: tuple(value) for name, value in values.items() if isinstance(value, list)}
     return options(**values | lists | others)
 

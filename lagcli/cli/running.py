@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-import math
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from lagcli.cli.files import read_input, reason
 from lagcli.cli.telling import tell, tell_line
-from lagcli.diagnostics import Diagnostic, ProblemError, Source
-from lagcli.evaluation import value_of
-from lagcli.expression import Expression
+from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem_data import Problem
 from lagcli.reader.suggest import did_you_mean
 
-_USUAL_ACCURACY = 1e-9
+if TYPE_CHECKING:
+    from lagcli.studies.asking import Asking
 
 Options = TypeVar("Options")
 
@@ -65,75 +63,14 @@ def understood(
     return None if wanted is None else (problem, wanted)
 
 
-class NumericOptions:
-    """Options that are numbers, with those of the `file` where they are left out.
+def asking(problem: Problem) -> Asking:
+    """What reads the options of a run and prints every mistake."""
+    from lagcli.studies.asking import COMMAND_LINE, Asking
 
-    `good` is false once one of them is no number, or out of its range, which is told.
-    """
+    def told(error: ProblemError) -> None:
+        tell(error.source, error.diagnostics)
 
-    def __init__(self, file: Source) -> None:
-        self.file = file
-        self.good = True
-
-    def until(self, text: str | None, given: Expression | None) -> float | None:
-        """The end; None where there is none."""
-        until = self._number(text, given, "--until")
-        if until is not None and not 0 < until < math.inf:
-            self._wrong("--until", text, given, f"the end must be a time after 0{_not(until)}")
-        return until
-
-    def end(self, file: str, text: str | None, given: Expression | None) -> float | None:
-        """The end, which there must be; None where there is none."""
-        if text is None and given is None:
-            tell_line(
-                f"{file}: error: when does it end? give --until T, or simulation: {{until: T}}"
-            )
-            self.good = False
-        return self.until(text, given)
-
-    def accuracy(self, text: str | None, given: Expression | None) -> float:
-        """The requested accuracy, or the usual one."""
-        accuracy = self._number(text, given, "--accuracy")
-        if accuracy is not None and not 0 < accuracy < 1:
-            self._wrong("--accuracy", text, given, f"it lies between 0 and 1{_not(accuracy)}")
-        return _USUAL_ACCURACY if accuracy is None else accuracy
-
-    def formula(self, text: str | None, given: Expression | None, option: str) -> Expression | None:
-        """A number as it is written; None where there is none."""
-        from lagcli.reader.columns import read_number
-
-        try:
-            return given if text is None else read_number(text, option)
-        except ProblemError as error:
-            tell(error.source, error.diagnostics)
-            self.good = False
-            return None
-
-    def _number(self, text: str | None, given: Expression | None, option: str) -> float | None:
-        formula = self.formula(text, given, option)
-        return None if formula is None else _value(formula)
-
-    def _wrong(
-        self, option: str, text: str | None, given: Expression | None, sentence: str
-    ) -> None:
-        if text is None and given is not None:
-            message = f"'{option.removeprefix('--')}': {sentence}"
-            tell(self.file, [Diagnostic(message, given.span)])
-        else:
-            tell_line(f"lagcli: error: {option}: {sentence}")
-        self.good = False
-
-
-def _not(value: float) -> str:
-    return f", not {value:g}" if math.isfinite(value) else ", and a double"
-
-
-def _value(formula: Expression) -> float:
-    """A number; nan, which no option takes, where it is none."""
-    try:
-        return float(value_of(formula) or 0)
-    except (ArithmeticError, ValueError):
-        return math.nan
+    return Asking(problem, COMMAND_LINE, told)
 
 
 def is_known(option: str, name: str, names: tuple[str, ...]) -> bool:

@@ -3,51 +3,36 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import BINARY, TABLES
 from lagcli.cli.delivering import has_place, place
 from lagcli.cli.endings import TABLES as ENDINGS
-from lagcli.cli.running import NumericOptions, is_known, shared, understood
+from lagcli.cli.running import asking, is_known, shared, understood
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell, tell_line, tell_refusal
-from lagcli.diagnostics import ProblemError
-from lagcli.formatters.grammar import to_grammar
-from lagcli.problem_data import METHODS
+from lagcli.cli.telling import tell_line, tell_refusal
 from lagcli.record import record
+from lagcli.studies.asking import RunOptions
 
 if TYPE_CHECKING:
     from lagcli.numerics.hybrid.request import Asked
     from lagcli.problem_data import Problem
 
-Value = TypeVar("Value")
-
 
 @record(kw_only=True)
-class SimulateOptions:
-    """The command line, as it was written."""
+class SimulateOptions(RunOptions):
+    """The command line of a run, as it was written."""
 
     file: str
-    until: str | None = None
-    accuracy: str | None = None
-    samples: int
     settings: tuple[str, ...] = ()
     state: tuple[str, ...] = ()
-    show: tuple[str, ...] = ()
     format_name: str = "table"
     output: Path | None = None
-    project: bool = False
-    precision: int | None = None
-    method: str
-    stop_when: str | None = None
-    whole: bool = False
     rigorous: bool = False
     shadow: bool = False
-    beyond: bool = False
 
 
 def simulate_files(files: Sequence[str], wish: SimulateOptions) -> Status:
@@ -178,60 +163,8 @@ def _is_installed(package: str) -> bool:
 def asked_of(
     problem: Problem, wish: SimulateOptions, *, without_end: float | None = None
 ) -> Asked | None:
-    """The options as values; every mistake is reported.
+    """The run; None where there are mistakes, which are told.
 
     Where neither the options nor the file give an end, it is `without_end`, if that is given.
     """
-    from lagcli.numerics.equations.columns import Column
-    from lagcli.numerics.hybrid.request import Asked
-    from lagcli.reader.columns import (
-        pieces_of,
-        read_along,
-        read_columns,
-        usual_columns,
-    )
-
-    run, numbers = problem.simulation, NumericOptions(problem.source)
-    if without_end is None or wish.until is not None or run.until is not None:
-        until = numbers.end(wish.file, wish.until, run.until)
-    else:
-        until = without_end
-    accuracy = numbers.accuracy(wish.accuracy, run.accuracy)
-    method = run.method if wish.method == "auto" and run.method else wish.method
-    good = is_known("--method", method, METHODS) and numbers.good
-
-    def attempt(work: Callable[[], Value], otherwise: Value) -> Value:
-        nonlocal good
-        try:
-            return work()
-        except ProblemError as error:
-            tell(error.source, error.diagnostics)
-            good = False
-            return otherwise
-
-    shown = list(wish.show)
-    columns = usual_columns(problem)
-    if shown:
-        found = dict(columns[:1])
-        for piece in pieces_of(shown):
-            found |= dict(attempt(partial(read_columns, problem, [piece]), columns[:0]))
-        columns = list(found.items())
-    text = wish.stop_when
-    stop = None if text is None else attempt(lambda: read_along(problem, text, "--stop-when"), None)
-    if not good or until is None:
-        return None
-    return Asked(
-        until=until,
-        end=numbers.formula(wish.until, run.until, "--until"),
-        accuracy=accuracy,
-        samples=wish.samples,
-        columns=tuple(Column(name, expression) for name, expression in columns),
-        project=wish.project,
-        stop_when=stop,
-        stop_name=wish.stop_when or "",
-        method=method,
-        digits=wish.precision,
-        whole=wish.whole,
-        beyond=wish.beyond,
-        written=to_grammar,
-    )
+    return asking(problem).asked(wish, without_end=without_end)

@@ -88,6 +88,6 @@ def sweep(
 
     form = format_of(format_name, output, TABLES | PICTURES, "table")
     rows = samples if along else 2
-    wish = gathered(SimulateOptions, locals(), samples=rows, format_name=form)
+    wish = gathered(SimulateOptions, locals(), samples=rows, times=(), format_name=form)
     drawn = tuple(vary or ()), random, seed
     return sweep_file(wish, *drawn, along=along, times=times, jobs=jobs, scheduler=scheduler)

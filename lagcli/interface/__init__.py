@@ -192,7 +192,7 @@ def simulate(
         stop_when=stop_when,
         project=project,
         precision=precision,
-        whole_model=whole_model,
+        whole=whole_model,
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.interface.columns import Columns
@@ -74,7 +74,7 @@ def ensemble(
     jobs: int,
     samples: int,
     times: Sequence[float],
-    **options: object,
+    **options: Any,
 ) -> Sweep:
     """Run every member; see `lagcli.studies.sweep`.
 
@@ -92,7 +92,7 @@ def ensemble(
         raise ProblemError(problem.source, tuple(map(Diagnostic, error.lines))) from None
     if times:
         options["until"] = times[-1]
-    asked = asked_of(problem, samples=samples if along else 2, **options)  # type: ignore[arg-type]
+    asked = asked_of(problem, samples=samples if along else 2, **options)
     asked, along = at_times(asked, times), along or bool(times)
     with Journal(None, "") as journal:
         return Sweep(sweep(problem, asked, plan, journal, along=along, jobs=jobs), problem.title)

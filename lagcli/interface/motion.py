@@ -2,23 +2,18 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.interface.columns import Columns
 
 if TYPE_CHECKING:
-    from lagcli.expression import Expression
+    from lagcli.diagnostics import ProblemError
     from lagcli.interface.picture import Animation, Plot
     from lagcli.numerics.hybrid.events import Event
     from lagcli.numerics.hybrid.request import Asked
     from lagcli.numerics.hybrid.result import Certificate, Result
     from lagcli.problem_data import Problem
-
-_USUAL_ACCURACY = 1e-9
 
 
 class Motion(Columns):
@@ -159,82 +154,19 @@ def integrate(problem: Problem, **options: Any) -> Motion:
     return Motion(simulate(problem, asked), problem, asked)
 
 
-def asked_of(
-    problem: Problem,
-    *,
-    until: float | str | None = None,
-    accuracy: float | None = None,
-    samples: int = 101,
-    times: Sequence[float] = (),
-    show: Sequence[str] = (),
-    method: str = "auto",
-    stop_when: str | None = None,
-    project: bool = False,
-    precision: int | None = None,
-    whole_model: bool = False,
-) -> Asked:
-    """The options of a run as values.
+def asked_of(problem: Problem, **options: Any) -> Asked:
+    """The run that is asked for, by the names of `RunOptions`.
 
     Raises
     ------
-    ProblemError, ValueError
-        When one does not fit the problem.
+    ProblemError
+        When an option does not fit the problem.
     """
-    from lagcli.formatters.grammar import to_grammar
-    from lagcli.numerics.equations.columns import Column
-    from lagcli.numerics.hybrid.request import Asked
-    from lagcli.problem_data import METHODS
-    from lagcli.reader.columns import read_along, read_columns, usual_columns
+    from lagcli.studies.asking import PYTHON, Asking, RunOptions
 
-    run = problem.simulation
-    chosen = run.method if method == "auto" and run.method else method
-    if chosen not in METHODS:
-        raise ValueError(f"unknown method {chosen!r}: the methods are {', '.join(METHODS)}")
-    shown = read_columns(problem, list(show)) if show else usual_columns(problem)
-    return Asked(
-        until=_number(problem, _formula(until, run.until, "until"), "until"),
-        end=_formula(until, run.until, "until"),
-        accuracy=_number(
-            problem, _formula(accuracy, run.accuracy, "accuracy"), "accuracy", _USUAL_ACCURACY, 1
-        ),
-        samples=samples,
-        times=tuple(map(float, times)),
-        columns=tuple(Column(name, expression) for name, expression in shown),
-        project=project,
-        stop_when=None if stop_when is None else read_along(problem, stop_when, "stop_when"),
-        stop_name=stop_when or "",
-        method=chosen,
-        digits=precision,
-        whole=whole_model,
-        written=to_grammar,
-    )
+    def raised(error: ProblemError) -> None:
+        raise error
 
-
-def _formula(given: float | str | None, of_file: Expression | None, what: str) -> Expression | None:
-    """A number of the call, or else of the file, as it is written."""
-    from lagcli.reader.columns import read_number
-
-    if given is None:
-        return of_file
-    return read_number(repr(given) if isinstance(given, float) else str(given), what)
-
-
-def _number(
-    problem: Problem,
-    formula: Expression | None,
-    what: str,
-    usual: float | None = None,
-    below: float = math.inf,
-) -> float:
-    """Its value, which is positive."""
-    from lagcli.evaluation import value_of
-
-    if formula is None:
-        if usual is None:
-            raise ProblemError(problem.source, (Diagnostic(f"{what} is missing: give {what}=…"),))
-        return usual
-    value = value_of(formula)
-    if value is None or not 0 < float(value) < below:
-        wanted = "a positive number" if below == math.inf else f"between 0 and {below:g}"
-        raise ProblemError(problem.source, (Diagnostic(f"{what} must be {wanted}"),))
-    return float(value)
+    asked = Asking(problem, PYTHON, raised).asked(RunOptions(**options))
+    assert asked is not None  # else a mistake was raised
+    return asked

@@ -24,7 +24,7 @@ from lagcli.pictures.drawing import (
 )
 from lagcli.pictures.run import PicturedRun, largest_so_far, run_with, short
 from lagcli.problem_data import JACOBI_FUNCTION, Problem, charge_of
-from lagcli.reader.columns import Shown
+from lagcli.reader.columns import Column
 
 #: What is smaller cannot be told from 0 in doubles, and stands at the bottom.
 FLOOR = 1e-17
@@ -84,12 +84,13 @@ def largest_of_each(
     return Picture(title=run.problem.title, panels=(panel,), notes=(*run.notes(), *notes))
 
 
-def _candidates(problem: Problem) -> list[Shown]:
+def _candidates(problem: Problem) -> list[Column]:
     """The energy, the momenta and the charges of the file's symmetries, by their names."""
-    names: list[Shown] = [("energy", JACOBI_FUNCTION)]
-    names += [(f"p_{c.name}", Name(f"p_{c.name}")) for c in problem.coordinates]
+    names = [Column("energy", JACOBI_FUNCTION)]
+    names += [Column(f"p_{c.name}", Name(f"p_{c.name}")) for c in problem.coordinates]
     taken = {name for name, _ in names}
-    return names + [(s.name, charge_of(s)) for s in problem.symmetries if s.name not in taken]
+    charges = (Column(s.name, charge_of(s)) for s in problem.symmetries)
+    return [*names, *(charge for charge in charges if charge.name not in taken)]
 
 
 def _changes(run: PicturedRun, column: int) -> tuple[Piece, ...]:

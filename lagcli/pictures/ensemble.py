@@ -12,7 +12,6 @@ from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from lagcli.expression import Name
-from lagcli.numerics.equations.columns import Column
 from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,
@@ -29,6 +28,7 @@ from lagcli.pictures.drawing import (
 )
 from lagcli.pictures.labels import Labels, with_unit
 from lagcli.problem_data import Problem
+from lagcli.reader.columns import Column
 from lagcli.record import record
 
 #: More panels do not fit on a page.
@@ -118,7 +118,7 @@ def _over_the_first(labels: Labels, motions: Motions, place: int) -> Panel:
         item = Curve(pieces=tuple(_unbroken(motions, place)), role="series")
     column = motions.columns[place]
     span = extent([value for _, value in found] or [0.0])
-    y = labels.axis_over((column.name, column.expression), span)
+    y = labels.axis_over(column, span)
     x = _axis(labels, motions.varied[0], [row[0] for row in motions.rows])
     return Panel(x=x, y=y, items=(item,))
 

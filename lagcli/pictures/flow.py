@@ -34,7 +34,7 @@ from lagcli.pictures.run import PicturedRun, run_with
 from lagcli.pictures.starts import begun
 from lagcli.pictures.turning import is_periodic, wrapped
 from lagcli.problem_data import Expect, Problem
-from lagcli.reader.columns import Shown
+from lagcli.reader.columns import Column, phase_columns
 from lagcli.record import record, replace
 from lagcli.rewriting import rebuilt, rewritten
 
@@ -118,10 +118,7 @@ def flow(problem: Problem, asked: Asked, progress: Progress | None = None) -> tu
     labels = Labels(problem)
     made = Flow(problem, labels)
     rests = made.rests()
-    columns: list[Shown] = [
-        (made.name.name, made.name),
-        (f"{made.name.name}'", Name(made.name.name, 1)),
-    ]
+    columns = phase_columns(made.name.name)
     run = run_with(problem, asked, columns, progress) if asked.until > 0 else None
     (low, high), fastest, time = _window(made, rests, run)
     items: list[Item] = []
@@ -162,7 +159,7 @@ def _window(
 
 
 def _entering(
-    made: Flow, span: tuple[float, float], fastest: float, time: float, columns: list[Shown]
+    made: Flow, span: tuple[float, float], fastest: float, time: float, columns: list[Column]
 ) -> Iterator[tuple[tuple[tuple[float, float], ...], ...]]:
     """Motions from the edges of the window into it."""
     low, high = span
@@ -178,7 +175,7 @@ def _entering(
 
 
 def _manifolds(
-    made: Flow, rest: Rest, width: float, time: float, columns: list[Shown]
+    made: Flow, rest: Rest, width: float, time: float, columns: list[Column]
 ) -> Iterator[Item]:
     """What leaves a saddle, and what comes to it: the same with the time reversed."""
     assert rest.eigenvalues is not None
@@ -201,7 +198,7 @@ def _line(
     made: Flow,
     start: tuple[float, float],
     time: float,
-    columns: list[Shown],
+    columns: list[Column],
     sign: int = 1,
 ) -> tuple[tuple[tuple[float, float], ...], ...]:
     """A motion from a state; none where it cannot be run."""

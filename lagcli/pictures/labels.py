@@ -18,7 +18,7 @@ from lagcli.formatters.unicode import AsciiPrinter, UnicodePrinter
 from lagcli.formatters.units import latex_unit, unicode_unit
 from lagcli.pictures.drawing import Axis, DrawnName, Item, Panel, words
 from lagcli.problem_data import JACOBI_FUNCTION, Problem
-from lagcli.reader.columns import Shown
+from lagcli.reader.columns import Column
 from lagcli.units import Unit, read_unit
 
 #: A formula that is longer is called by what the user wrote.
@@ -76,7 +76,7 @@ class Labels:
             powers[name] = powers.get(name, Fraction(0)) - primes * power
         return Unit(tuple((n, p) for n, p in powers.items() if p), unit.number)
 
-    def axis_over(self, shown: Shown, span: tuple[float, float]) -> Axis:
+    def axis_over(self, shown: Column, span: tuple[float, float]) -> Axis:
         """The axis of a column over a range; an angle is marked as one."""
         name, expression = shown
         return Axis(
@@ -85,7 +85,7 @@ class Labels:
         )  # fmt: skip
 
     def panel(
-        self, columns: Sequence[Shown], spans: Sequence[tuple[float, float]], items: Sequence[Item]
+        self, columns: Sequence[Column], spans: Sequence[tuple[float, float]], items: Sequence[Item]
     ) -> Panel:
         """One column over another."""
         x, y = map(self.axis_over, columns, spans)

@@ -11,7 +11,6 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 
 from lagcli.algebra import terms
-from lagcli.expression import Expression, Name
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node
 from lagcli.mechanics.derivation import Derivation
@@ -24,6 +23,7 @@ from lagcli.pictures.contours import quiet
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pictures.starts import begun
 from lagcli.problem_data import Coordinate, Problem
+from lagcli.reader.columns import Column, phase_columns
 
 
 class EnergyNotConserved(CannotDraw):
@@ -121,10 +121,9 @@ class RemainingFreedom:
         return quiet(lambda q: float(self._slope(q, 0.0)[0]))
 
     @property
-    def columns(self) -> list[tuple[str, Expression | None]]:
+    def columns(self) -> list[Column]:
         """q and q'."""
-        name = self.coordinate.name
-        return [(name, Name(name)), (f"{name}'", Name(name, 1))]
+        return phase_columns(self.coordinate.name)
 
 
 def _not_conserved(name: str, why: str) -> str:

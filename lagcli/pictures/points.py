@@ -8,6 +8,7 @@ from lagcli.expression import ONE, Expression, Name
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pictures.labels import Labels
 from lagcli.problem_data import Problem
+from lagcli.reader.columns import Column
 from lagcli.record import record
 
 AXES = "xyz"
@@ -103,10 +104,10 @@ def column_name(track: Track, axis: str) -> str:
     return f"{track.name}.{axis}"
 
 
-def components(found: tuple[Track, ...]) -> list[tuple[str, Expression | None]]:
+def components(found: tuple[Track, ...]) -> list[Column]:
     """The columns of all components."""
     return [
-        (column_name(track, axis), formula)
+        Column(column_name(track, axis), formula)
         for track in found
         for axis, formula in zip(track.axes, track.position, strict=True)
     ]

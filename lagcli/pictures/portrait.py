@@ -12,7 +12,6 @@ from collections.abc import Callable
 
 from lagcli.expression import Name
 from lagcli.formatters.unicode import unicode_name
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.contours import Contours, grid
 from lagcli.pictures.drawing import (
@@ -31,6 +30,7 @@ from lagcli.pictures.one_freedom import EnergyNotConserved, RemainingFreedom
 from lagcli.pictures.run import run_with
 from lagcli.pictures.window import Window
 from lagcli.problem_data import Problem
+from lagcli.reader.columns import Column
 
 Progress = Callable[[float], None]
 
@@ -129,11 +129,11 @@ def plane(problem: Problem, asked: Asked, progress: Progress | None = None) -> t
             f"--kind phase draws one column over another, and {len(columns)} are given: "
             "--show x draws x' over x, --show x,y draws y over x"
         )
-    run = run_with(problem, asked, [(c.name, c.expression) for c in columns], progress)
+    run = run_with(problem, asked, columns, progress)
     items = run.in_the_plane(named=False)
     if not items:
         raise CannotDraw("the columns have no values together")
     spans = [extent(run.values(place)) for place in (1, 2)]
-    panel = run.labels.panel([(c.name, c.expression) for c in columns], spans, items)
+    panel = run.labels.panel(columns, spans, items)
     picture = Picture(title=problem.title, panels=(panel,), notes=run.notes())
     return picture, run.result.refusal

@@ -10,9 +10,7 @@ import math
 from collections.abc import Callable, Sequence
 from functools import cached_property
 
-from lagcli.expression import Expression
 from lagcli.numerics.certified.simulate import simulate
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.events import Event
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.numerics.hybrid.result import Result
@@ -20,6 +18,7 @@ from lagcli.pictures.drawing import Axis, Band, Curve, Item, Marks, Piece, Rule,
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.turning import wrapped
 from lagcli.problem_data import Problem
+from lagcli.reader.columns import Column
 from lagcli.record import replace
 
 Values = tuple[float | None, ...]
@@ -203,10 +202,11 @@ def largest_so_far(pieces: tuple[Piece, ...]) -> tuple[Piece, ...]:
 def run_with(
     problem: Problem,
     asked: Asked,
-    columns: Sequence[tuple[str, Expression | None]],
+    columns: Sequence[Column],
     progress: Progress | None = None,
     **changed: object,
 ) -> PicturedRun:
     """A run with other columns than those asked for; the time is added."""
-    shown = (Column("t", None), *(Column(name, expression) for name, expression in columns))
-    return PicturedRun(problem, replace(asked, columns=shown, **changed), progress)
+    return PicturedRun(
+        problem, replace(asked, columns=(Column("t", None), *columns), **changed), progress
+    )

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from itertools import combinations
+from itertools import combinations, starmap
 
 from lagcli.expression import Expression, Name
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import Piece
 from lagcli.pictures.forces import Arrow, arrows
@@ -20,6 +19,7 @@ from lagcli.pictures.points import AXES, mass_of, tracks
 from lagcli.pictures.run import WITHOUT_BOUND, PicturedRun
 from lagcli.pictures.surfaces import one_sided, surfaces
 from lagcli.problem_data import Problem
+from lagcli.reader.columns import Column
 from lagcli.record import record, replace
 
 Place = tuple[float, ...]
@@ -139,7 +139,7 @@ class _Maker:
         #: what has a value in each frame: column name -> formula
         self.formulas: dict[str, Expression] = {}
         self._gather()
-        columns = (Column("t", None), *(Column(n, f) for n, f in self.formulas.items()))
+        columns = (Column("t", None), *starmap(Column, self.formulas.items()))
         self.run = PicturedRun(problem, replace(asked, columns=columns), progress)
         self.rows = [row for piece in self.run.pieces for row in piece]
 

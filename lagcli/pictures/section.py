@@ -31,7 +31,7 @@ from lagcli.pictures.labels import Labels
 from lagcli.pictures.run import PicturedRun, run_with, short
 from lagcli.pictures.starts import other_starts
 from lagcli.problem_data import Problem
-from lagcli.reader.columns import Shown, read_along
+from lagcli.reader.columns import Column, phase_columns, read_along
 from lagcli.record import record
 
 Progress = Callable[[float], None]
@@ -124,16 +124,18 @@ def _plain(surface: SectionSurface) -> str | None:
     return expression.name if isinstance(expression, Name) and not expression.primes else None
 
 
-def _plane(problem: Problem, asked: Asked, surface: SectionSurface, *, chosen: bool) -> list[Shown]:
+def _plane(
+    problem: Problem, asked: Asked, surface: SectionSurface, *, chosen: bool
+) -> list[Column]:
     """The two columns of the picture: a coordinate that is not the section's, and its velocity."""
     if chosen:
-        shown: list[Shown] = [(c.name, c.expression) for c in asked.columns[1:]]
+        shown = list(asked.columns[1:])
         if len(shown) != 2:
             raise CannotDraw(f"a section has two axes, and {len(shown)} columns are given")
         return shown
     names = [c.name for c in problem.coordinates]
     name = next((n for n in names if n != _plain(surface)), names[0])
-    return [(name, Name(name)), (f"{name}'", Name(name, 1))]
+    return phase_columns(name)
 
 
 # -- passages ------------------------------------------------------------------------------------
@@ -143,7 +145,7 @@ def _passages(
     problem: Problem,
     asked: Asked,
     surface: SectionSurface,
-    columns: Sequence[Shown],
+    columns: Sequence[Column],
     progress: Progress | None,
 ) -> tuple[list[tuple[float | None, ...]], PicturedRun]:
     """The rows in the section, and the run they are of."""
@@ -166,7 +168,7 @@ def _run_at(
     problem: Problem,
     asked: Asked,
     times: Sequence[float],
-    columns: Sequence[Shown],
+    columns: Sequence[Column],
     progress: Progress | None,
 ) -> PicturedRun:
     """A run with rows at these times, the beginning and the end."""
@@ -178,7 +180,7 @@ def _crossings(
     problem: Problem, asked: Asked, expression: Expression, progress: Progress | None
 ) -> list[float]:
     """The times at which the expression passes 0 upwards."""
-    column: list[Shown] = [(_SECTION, expression)]
+    column = [Column(_SECTION, expression)]
     intervals = _intervals(problem, asked, column, progress)
     if not intervals:
         return []
@@ -196,7 +198,7 @@ def _crossings(
 
 
 def _intervals(
-    problem: Problem, asked: Asked, column: list[Shown], progress: Progress | None
+    problem: Problem, asked: Asked, column: list[Column], progress: Progress | None
 ) -> list[tuple[float, float]]:
     """Neighbouring rows between which the sign changes from minus to plus."""
     samples = max(asked.samples, 1001)
@@ -233,7 +235,7 @@ def _interpolated(times: Sequence[float], heights: Sequence[float], t: float) ->
 
 
 def _points(
-    rows: Sequence[tuple[float | None, ...]], labels: Labels, columns: Sequence[Shown]
+    rows: Sequence[tuple[float | None, ...]], labels: Labels, columns: Sequence[Column]
 ) -> list[Point]:
     turns = [labels.is_angle(formula) for _, formula in columns]
     found = []
@@ -251,7 +253,7 @@ def _within(value: float, turns: bool) -> float:
 def _picture(
     problem: Problem,
     labels: Labels,
-    columns: Sequence[Shown],
+    columns: Sequence[Column],
     surface: SectionSurface,
     points: Sequence[list[Point]],
     runs: Sequence[PicturedRun],

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from lagcli.expression import Name
-from lagcli.numerics.equations.columns import Column
 from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,
@@ -15,6 +14,7 @@ from lagcli.pictures.drawing import (
 )
 from lagcli.pictures.labels import Labels, with_unit
 from lagcli.pictures.run import PicturedRun
+from lagcli.reader.columns import Column
 
 #: More curves than these are not told apart in one panel.
 _MOST = 7

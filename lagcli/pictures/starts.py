@@ -26,7 +26,7 @@ from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.pictures.contours import quiet
 from lagcli.pictures.drawing import CannotDraw, Point
 from lagcli.problem_data import Problem
-from lagcli.reader.columns import Shown
+from lagcli.reader.columns import Column
 from lagcli.record import replace
 
 #: How much more than the first motion's rectangle is filled where no energy is the limit.
@@ -42,7 +42,7 @@ def other_starts(
     problem: Problem,
     cut: str | None,
     points: Sequence[Point],
-    columns: Sequence[Shown],
+    columns: Sequence[Column],
     count: int,
 ) -> Iterator[Problem]:
     """The problem with other initial states.

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from itertools import starmap
+from typing import TYPE_CHECKING, NamedTuple
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source
 from lagcli.expression import Diff, Expression, Name, Negative, Product, Sum, walk
@@ -15,12 +16,17 @@ from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.text import Mistake
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from lagcli.problem_data import Constraint, Contact, Problem, Symmetry
 
-#: A column's name and its expression; None is the time.
-Shown = tuple[str, Expression | None]
+
+class Column(NamedTuple):
+    """A name and what stands under it; None is the time."""
+
+    name: str
+    expression: Expression | None
+
 
 #: Words that stand for several columns.
 GROUPS = (
@@ -30,7 +36,7 @@ GROUPS = (
 _ENERGY = "energy"
 
 
-def read_columns(problem: Problem, words: list[str]) -> list[Shown]:
+def read_columns(problem: Problem, words: Sequence[str]) -> list[Column]:
     """The columns of `--show a,b,c`, the time first.
 
     Raises
@@ -39,24 +45,29 @@ def read_columns(problem: Problem, words: list[str]) -> list[Shown]:
         At the first column that is no expression of the problem.
     """
     scope = scope_of(problem)
-    shown: dict[str, Expression | None] = {"t": None}
+    shown = {"t": Column("t", None)}
     for word in pieces_of(words):
-        for name, expression in _columns(problem, scope, word):
-            if expression is not None and not isinstance(expression, Name):
-                _check_units(problem, word, expression)
-            shown[name] = expression
-    return list(shown.items())
+        for column in _columns(problem, scope, word):
+            if column.expression is not None and not isinstance(column.expression, Name):
+                _check_units(problem, word, column.expression)
+            shown[column.name] = column
+    return list(shown.values())
 
 
-def pieces_of(words: list[str]) -> list[str]:
+def pieces_of(words: Sequence[str]) -> list[str]:
     """The pieces of `--show a,b,c --show d`."""
     return [piece for text in words for piece in _split(text)]
 
 
-def usual_columns(problem: Problem) -> list[Shown]:
+def usual_columns(problem: Problem) -> list[Column]:
     """t, the coordinates and the velocities."""
     names = [Name(c.name, primes) for primes in (0, 1) for c in problem.coordinates]
-    return [("t", None), *((str(name), name) for name in names)]
+    return [Column("t", None), *(Column(str(name), name) for name in names)]
+
+
+def phase_columns(coordinate: str) -> list[Column]:
+    """q and q'."""
+    return [Column(str(name), name) for name in (Name(coordinate), Name(coordinate, 1))]
 
 
 def read_along(problem: Problem, text: str, option: str) -> Expression:
@@ -86,14 +97,14 @@ def scope_of(problem: Problem) -> Scope:
     return scope
 
 
-def _columns(problem: Problem, scope: Scope, word: str) -> Iterator[Shown]:
+def _columns(problem: Problem, scope: Scope, word: str) -> Iterator[Column]:
     """What one word of `--show` stands for."""
     if word in GROUPS and word not in scope.kinds:
         yield from _group(problem, word)
         return
     named = named_columns(scope, _holding(problem), problem.symmetries)
     if word in named:
-        yield word, named[word]
+        yield Column(word, named[word])
         return
     try:
         expression = _read(word, "--show", scope, ALONG)
@@ -104,7 +115,7 @@ def _columns(problem: Problem, scope: Scope, word: str) -> Iterator[Shown]:
         [first, *_] = error.diagnostics
         message = f"there is no column '{word}'"
         raise ProblemError(error.source, (Diagnostic(message, first.span, hint),)) from None
-    yield word, None if expression == Name("t") else expression
+    yield Column(word, None if expression == Name("t") else expression)
 
 
 def _check_units(problem: Problem, text: str, expression: Expression) -> None:
@@ -120,25 +131,27 @@ def _check_units(problem: Problem, text: str, expression: Expression) -> None:
         raise ProblemError(Source(f"--show {text}", text), tuple(mistakes))
 
 
-def _group(problem: Problem, word: str) -> Iterator[Shown]:
+def _group(problem: Problem, word: str) -> Iterator[Column]:
     orders = {"coordinates": 0, "velocities": 1, "accelerations": 2}
     match word:
         case "multipliers":
-            yield from ((c.multiplier, Name(c.multiplier)) for c in _holding(problem))
+            yield from (Column(c.multiplier, Name(c.multiplier)) for c in _holding(problem))
         case "constraint_forces":
-            yield from named_columns(scope_of(problem), _holding(problem), ()).items()
+            yield from starmap(
+                Column, named_columns(scope_of(problem), _holding(problem), ()).items()
+            )
         case "charges":
             taken = scope_of(problem).kinds.keys() - {_ENERGY}
-            yield _ENERGY, JACOBI_FUNCTION
+            yield Column(_ENERGY, JACOBI_FUNCTION)
             for symmetry in problem.symmetries:
                 if symmetry.name not in taken | {_ENERGY}:
-                    yield symmetry.name, charge_of(symmetry)
+                    yield Column(symmetry.name, charge_of(symmetry))
         case "momenta":
-            yield from ((f"p_{c.name}", Name(f"p_{c.name}")) for c in problem.coordinates)
+            yield from (Column(f"p_{c.name}", Name(f"p_{c.name}")) for c in problem.coordinates)
         case _:
             for coordinate in problem.coordinates:
                 name = Name(coordinate.name, orders[word])
-                yield str(name), name
+                yield Column(str(name), name)
 
 
 def _holding(problem: Problem) -> tuple[Constraint | Contact, ...]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import Name
 from lagcli.mechanics.explaining.words import difference
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.equations.parameter_formulas import numbers_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked
@@ -13,6 +12,7 @@ from lagcli.numerics.rigorous import prove
 from lagcli.numerics.rigorous.result import Proof
 from lagcli.numerics.rigorous.writing import proved_digits
 from lagcli.problem_data import Lasting, Problem, Reaching
+from lagcli.reader.columns import Column
 from lagcli.record import replace
 from lagcli.statements.questions import Proved
 

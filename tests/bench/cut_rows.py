@@ -29,12 +29,11 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 from lagcli.diagnostics import ProblemError
 from lagcli.evaluation import value_of
 from lagcli.numerics.certified.simulate import Simulation
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem_data import Problem
-from lagcli.reader.columns import read_columns, usual_columns
+from lagcli.reader.columns import Column, read_columns, usual_columns
 from lagcli.record import replace
 from tests.bench.measure import ROOT, Row, show
 from tests.bench.scenes import scenes
@@ -90,14 +89,14 @@ def _cases() -> Iterator[tuple[str, str, Case]]:
         if problem is None:
             continue
         name = str(path.relative_to(ROOT / "problems"))
-        usual = tuple(Column(*each) for each in usual_columns(problem))
+        usual = tuple(usual_columns(problem))
         yield "constraints", name, (problem, usual, usual)
         if len(problem.coordinates) > 1:
             yield "one column", name, (problem, usual[:2], _all(problem))
     for name, text, count in scenes():
         problem = _with_numbers(text.encode())
         if problem is not None:
-            asked = [Column(*each) for each in usual_columns(problem)][: 1 + count]
+            asked = usual_columns(problem)[: 1 + count]
             yield "scene", name, (problem, tuple(asked), _all(problem))
 
 

@@ -154,7 +154,7 @@ def test_a_run_that_cannot_reach_its_accuracy_says_why():
 
 
 @pytest.mark.parametrize(
-    ("until", "message"), [(None, "give until="), (-1, "positive"), ("x", "unknown name")]
+    ("until", "message"), [(None, "give until=T"), (-1, "after 0, not -1"), ("x", "unknown name")]
 )
 def test_a_wrong_end_is_a_mistake(until, message):
     free = lagcli.loads("{coordinates: [x], T: x'^2/2, initial: {x': 1}}")
@@ -279,5 +279,5 @@ def test_latex_has_labels_on_choice(pendulum):
 @pytest.mark.parametrize("accuracy", [2, 1, 0, -1e-6, "1.5"])
 def test_an_accuracy_lies_between_0_and_1(accuracy) -> None:
     problem = lagcli.loads("{coordinates: [x], T: x'^2/2, V: x^2/2, initial: {x: 1}}")
-    with pytest.raises(lagcli.ProblemError, match="accuracy must be between 0 and 1"):
+    with pytest.raises(lagcli.ProblemError, match="it lies between 0 and 1"):
         lagcli.simulate(problem, until=1, accuracy=accuracy)

@@ -3,10 +3,9 @@
 from pathlib import Path
 
 from lagcli.numerics.certified.simulate import simulate
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pipeline import Request, read, with_lagrangian
-from lagcli.reader.columns import read_along, read_columns, usual_columns
+from lagcli.reader.columns import Column, read_along, read_columns, usual_columns
 
 ROOT = Path(__file__).parents[2]
 

@@ -22,7 +22,6 @@ from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.parameter_values import parameter_values, random_value
 from lagcli.mechanics.reduction.steady_statement import steady_motions
 from lagcli.numerics.certified.simulate import simulate
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.problem_data import Problem
@@ -204,7 +203,7 @@ def _farthest(claim: Claim, until: float, source: random.Random) -> float | None
             Name(k.rstrip("'"), 1 if k.endswith("'") else 0): _number(v) for k, v in beside.items()
         },
     )
-    columns = tuple(Column(*each) for each in usual_columns(problem))
+    columns = tuple(usual_columns(problem))
     asked = Asked(
         until=until,
         accuracy=1e-6,

@@ -10,12 +10,12 @@ import pytest
 
 from lagcli import load
 from lagcli.cli.run import run
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pictures.page import to_html
 from lagcli.pictures.scene import scene
 from lagcli.problem_data import Scenery
+from lagcli.reader.columns import Column
 from lagcli.record import replace
 from tests.pictures.problems import problem_of
 

@@ -5,13 +5,13 @@ from math import asin, pi, sqrt
 import pytest
 
 from lagcli.expression import signed
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import Curve, Marks
 from lagcli.pictures.flow import Flow, reversed_in_time
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.portrait import portrait
 from lagcli.pictures.run import run_with
+from lagcli.reader.columns import Column
 from lagcli.record import replace
 from tests.pictures.problems import problem_of
 
@@ -60,7 +60,7 @@ def test_the_manifolds_of_a_saddle_are_its_straight_lines():
 def test_with_the_time_reversed_a_motion_runs_back():
     problem = problem_of(PENDULUM)
     asked = Asked(until=1.5, accuracy=1e-10, samples=31, columns=())
-    columns = [(str(name), name) for name in problem.initial]
+    columns = [Column(str(name), name) for name in problem.initial]
     there = run_with(problem, asked, columns).result.rows
     names = list(problem.initial)
     end = dict(zip(names, (signed(there[-1][1]), signed(-there[-1][2])), strict=True))

@@ -5,7 +5,6 @@ import pytest
 from lagcli import load
 from lagcli.formatters.display_width import display_width
 from lagcli.library import entries
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.equations.parameter_formulas import numbers_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked
@@ -39,7 +38,7 @@ def drawn(path, *, written):
         return None
     end = problem.simulation.until
     until = _END if end is None else numbers_of(problem, [end])[0][0]
-    columns = tuple(Column(name, formula) for name, formula in usual_columns(problem))
+    columns = tuple(usual_columns(problem))
     method = problem.simulation.method or "auto"
     assert method in METHODS
     asked = Asked(until=until, accuracy=1e-6, samples=101, columns=columns, method=method)

@@ -155,7 +155,6 @@ def test_a_title_is_never_a_formula(plot, tmp_path):
 
 def test_the_error_stays_below_the_bound_of_the_certificate():
     from lagcli import load
-    from lagcli.numerics.equations.columns import Column
     from lagcli.numerics.hybrid.request import Asked
     from lagcli.pictures.drawing import Curve, Rule
     from lagcli.pictures.error import error
@@ -163,7 +162,7 @@ def test_the_error_stays_below_the_bound_of_the_certificate():
     from lagcli.reader.columns import usual_columns
 
     problem = load(KEPLER)
-    columns = tuple(Column(name, formula) for name, formula in usual_columns(problem))
+    columns = tuple(usual_columns(problem))
     picture, _ = error(problem, Asked(until=30.0, accuracy=1e-7, samples=201, columns=columns))
     items = picture.panels[0].items
     largest = [i.pieces[-1][-1][1] for i in items if isinstance(i, Curve)]

@@ -4,12 +4,12 @@ from math import acos, cos, pi, sqrt
 
 import pytest
 
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import CannotDraw, Curve, Marks
 from lagcli.pictures.one_freedom import RemainingFreedom
 from lagcli.pictures.portrait import plane, portrait
 from lagcli.pictures.potential import potential
+from lagcli.reader.columns import Column
 from tests.pictures.problems import problem_of
 
 PENDULUM = """

@@ -4,11 +4,11 @@ from math import cos, pi, remainder, sin, sqrt
 
 import pytest
 
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.drawing import CannotDraw, Marks
 from lagcli.pictures.section import section
 from lagcli.pictures.starts import other_starts
+from lagcli.reader.columns import Column
 from tests.pictures.problems import problem_of
 
 TWO = """

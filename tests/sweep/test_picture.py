@@ -8,9 +8,9 @@ import pytest
 
 import lagcli
 from lagcli.cli.run import run
-from lagcli.numerics.equations.columns import Column
 from lagcli.pictures.drawing import CannotDraw, Cells, Curve, Marks
 from lagcli.pictures.ensemble import Motions, ensemble
+from lagcli.reader.columns import Column
 from lagcli.reader.expressions import parse_text
 
 BEGINNING = {".svg": b"<?xml", ".png": b"\x89PNG", ".pdf": b"%PDF"}

@@ -18,7 +18,6 @@ from lagcli.graph.nodes import Node, Sum, Symbol, mask_of, with_values
 from lagcli.graph.sharing import written_out
 from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.contact import with_contacts
 from lagcli.numerics.equations.coupling import coupling, groups
@@ -28,6 +27,7 @@ from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.problem_data import Problem
+from lagcli.reader.columns import Column
 from lagcli.statements.answers import ModelSection
 
 #: States at which it is seen whether L depends on a coordinate, and what counts as 0 there.

@@ -19,18 +19,9 @@ from lagcli.graph.substitution import Substitution
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.motion import Function, Motion
 from lagcli.problem_data import JACOBI_FUNCTION
-from lagcli.record import record
 
 #: t, q, q'
 State = tuple[Any, Sequence[Any], Sequence[Any]]
-
-
-@record
-class Column:
-    """A name and what stands under it; None is the time."""
-
-    name: str
-    expression: Expression | None
 
 
 #: What `energy` stands for where the file has no such name.

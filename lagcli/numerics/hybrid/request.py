@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from lagcli.expression import Expression
-from lagcli.numerics.equations.columns import Column
+from lagcli.reader.columns import Column
 from lagcli.record import record
 
 

@@ -9,13 +9,14 @@ from itertools import pairwise
 from typing import Any, Self
 
 from lagcli.graph.nodes import Node
-from lagcli.numerics.equations.columns import Column, Reading
+from lagcli.numerics.equations.columns import Reading
 from lagcli.numerics.equations.contact import one_sided, with_contacts
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.numerics.hybrid.result import Cut
 from lagcli.problem_data import Problem, charge_of
+from lagcli.reader.columns import Column
 
 #: The least number of intervals at which two runs are compared.
 _COMPARED = 100

@@ -6,13 +6,13 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from lagcli.expression import Expression, Name
 from lagcli.numerics.certified.simulate import simulate
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.equations.parameter_formulas import numbers_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.numerics.hybrid.result import Result
 from lagcli.numerics.rigorous import prove
 from lagcli.problem_data import Known, KnownRow, Problem, Trajectory
+from lagcli.reader.columns import Column
 from lagcli.studies.check.findings import CheckOutcome, Finding
 
 _TOLERANCE = 1e-9

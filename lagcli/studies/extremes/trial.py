@@ -12,7 +12,6 @@ from lagcli.numerics.certified.precise import precision
 from lagcli.numerics.certified.scales import relative
 from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.arithmetic import Balls
-from lagcli.numerics.equations.columns import Column
 from lagcli.numerics.equations.jacobian import jacobian
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
@@ -162,7 +161,7 @@ def _moved(case: Case, measured: CaseTrial, end: float, wanted: Wanted) -> CaseT
         until=measured.until,
         accuracy=wanted.accuracy,
         samples=_SAMPLES,
-        columns=tuple(Column(*column) for column in usual_columns(case.problem)),
+        columns=tuple(usual_columns(case.problem)),
         project=bool(case.problem.constraints),
         furthest=False,
     )

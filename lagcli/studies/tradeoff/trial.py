@@ -106,7 +106,6 @@ def trial(given: Given) -> dict[str, Any]:
 
 def asked_of(given: Given) -> tuple[Problem, Asked]:
     """The problem, and the request for its coordinates and velocities."""
-    from lagcli.numerics.equations.columns import Column
     from lagcli.numerics.hybrid.request import Asked
     from lagcli.pipeline import Request, read, with_lagrangian
     from lagcli.reader.columns import usual_columns
@@ -119,7 +118,7 @@ def asked_of(given: Given) -> tuple[Problem, Asked]:
         until=given.until,
         accuracy=given.accuracy or min(0.1, max(_LEAST, 100 * (given.tolerance or 0.0))),
         samples=given.samples,
-        columns=tuple(Column(*column) for column in usual_columns(problem)),
+        columns=tuple(usual_columns(problem)),
         project=given.project,
         method="auto" if given.method == PROOF else given.method,
         whole=given.whole,
