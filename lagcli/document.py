@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from lagcli.expression import Expression
+from lagcli.expression import ZERO, Expression, Negative, opposite, sum_of, terms_of
 from lagcli.record import field, record
 from lagcli.units import Unit
 
@@ -111,6 +111,15 @@ def equations_of(
 ) -> Equations:
     """A display with one equation for each pair of sides, with a word on it or without."""
     return Equations(tuple(Row(*each) for each in sides))
+
+
+def vanishing(values: Iterable[Expression]) -> Equations:
+    """A display of 0 = each value, without a minus before all of it."""
+    found = list(map(terms_of, values))
+    return equations_of(
+        (ZERO, sum_of(map(opposite, t) if all(isinstance(x, Negative) for x in t) else t))
+        for t in found
+    )
 
 
 @record

@@ -50,7 +50,7 @@ class Writer:
         coefficient, pairs = _upright(*_flattened(coefficient, factors))
         coefficient, pairs = _single_angles(coefficient, _merged(pairs))
         pairs = self._joined_exponentials(self._into_exponentials(_tangents(pairs)))
-        pairs = self._into_roots(_without_moduli(pairs))
+        pairs = _powers_of_moduli(self._into_roots(_without_moduli(pairs)))
         coefficient, pairs = self._joined_roots(coefficient, pairs)
         if coefficient < 0:
             coefficient, pairs = self._turned(coefficient, pairs)
@@ -327,6 +327,17 @@ def _modulus(node: Expression) -> Expression:
 
 def _all_negative(node: Sum) -> bool:
     return all(isinstance(term, Negative) for term in node.terms)
+
+
+def _powers_of_moduli(pairs: list[Factor]) -> list[Factor]:
+    """p² |p| as |p|³, |p|/p² as 1/|p|."""
+    exponents = dict(pairs)
+    for base, _ in pairs:
+        if isinstance(base, Call) and base.function == "abs":
+            (inner,) = base.arguments
+            if exponents.get(inner, Fraction(1)) % 2 == 0:
+                exponents[base] += exponents.pop(inner)
+    return [pair for pair in exponents.items() if pair[1]]
 
 
 def _without_moduli(pairs: list[Factor]) -> list[Factor]:

@@ -83,6 +83,11 @@ class UnicodePrinter(GrammarPrinter):
             return (*text(_NAMES[node.function]), *self.arguments(node.arguments))
         if node.function == "integral":
             return self._definite(node)
+        if node.function == "abs":
+            inner = self.show(node.arguments[0])
+            if "|" not in joined(inner):  # which bar opens and which closes is seen
+                bars = (TextPiece("|", 1, nesting=side) for side in (1, -1))
+                return (next(bars), *inner, next(bars))
         return (
             *text(_with_primes(self.spelled(node.function, 0), node.primes)),
             *self.arguments(node.arguments),

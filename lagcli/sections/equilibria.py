@@ -6,8 +6,8 @@ import itertools
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Formula, Paragraph, equations_of
-from lagcli.expression import ZERO, Name
+from lagcli.document import Block, Formula, Paragraph, vanishing
+from lagcli.expression import Name
 from lagcli.formatters.json_values import Object, list_or_null, place, plain
 from lagcli.problem_data import ExpectEquilibrium
 from lagcli.reader.shapes import PLACE, STABILITY, by_coordinate, equation, list_of, record_of
@@ -63,7 +63,7 @@ def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
     if section.equilibria and not section.complete:
         yield Paragraph(("There may be others" + (", which solve" if section.open else "."),))
         if section.open:
-            yield equations_of((ZERO, each) for each in section.open)
+            yield vanishing(section.open)
 
 
 def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:

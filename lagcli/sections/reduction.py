@@ -6,8 +6,18 @@ import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Equations, Heading, Integral, Label, Paragraph, Row, equations_of
-from lagcli.expression import ZERO, Name
+from lagcli.document import (
+    Block,
+    Equations,
+    Heading,
+    Integral,
+    Label,
+    Paragraph,
+    Row,
+    equations_of,
+    vanishing,
+)
+from lagcli.expression import Name
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.notation.letters import own
 from lagcli.problem_data import ExpectReduction
@@ -117,7 +127,7 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
 def _period(period: PeriodSeries, coordinate: str) -> Iterator[Block]:
     if period.root_of is not None:
         yield Paragraph(("Small oscillations about any ", Name(coordinate), " with"))
-        yield Equations((Row(ZERO, period.root_of),))
+        yield vanishing((period.root_of,))
     elif period.amplitude:
         yield from state_blocks(period.at, "Oscillations about ")
         yield Paragraph((Name(period.amplitude), " is half the distance of the turning points:"))

@@ -7,7 +7,16 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Equations, Formula, Heading, Paragraph, Row, equations_of
+from lagcli.document import (
+    Block,
+    Equations,
+    Formula,
+    Heading,
+    Paragraph,
+    Row,
+    equations_of,
+    vanishing,
+)
 from lagcli.expression import ZERO, Name, Number, Power
 from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
 from lagcli.notation.letters import own
@@ -62,7 +71,7 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
         held = "The conditions of a steady motion hold everywhere."
         yield Paragraph(("A steady motion has" if wanted else held,))
         if wanted:
-            yield equations_of((ZERO, value) for value in wanted)
+            yield vanishing(wanted)
     if section.motions is None:
         yield Paragraph((f"Not found: {section.reason}.",))
         return

@@ -135,8 +135,8 @@ class SteadySection:
     `where` restricts what was sought, in words.
 
     Under velocity constraints, and where a force acts along what L does not contain, the
-    conditions are accelerations (`acting`), where the `eliminated` velocities follow from the
-    constraints; each motion is then `rolling`.
+    conditions are what is left of the equations of motion (`acting`: "inertia"), along the
+    constraints, from which the `eliminated` velocities follow; each motion is then `rolling`.
     """
 
     conditions: Mapping[str, Expression]

@@ -7,7 +7,10 @@ import pytest
 import sympy
 
 from lagcli.algebra import simplify
+from lagcli.algebra.equations import written
 from lagcli.algebra.signs import sign
+from lagcli.expression import Call, walk
+from lagcli.formatters.grammar import to_grammar
 
 k, m, g, w = sympy.symbols("k m g w", real=True)
 p = sympy.Symbol("p", positive=True)
@@ -73,3 +76,17 @@ def test_what_is_divided_by_a_root_has_one_sign(seed):
     expected = source.choice((1, -1))
     assert sign(expected * p * (a - b) ** 2 / sympy.Mul(*below, (a - b) ** 2)) == expected
     assert sign((a - b) / sympy.Mul(*below)) is None
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_powers_of_one_modulus_are_one_power(seed):
+    source = Random(seed)
+    u = source.choice((k, k - m, sympy.cos(k)))
+    odd, even = source.choice((1, -1)), source.choice((-4, -2, 2, 4))
+    tree = written(simplify(g * abs(u) ** odd * u**even), ["k", "m", "g"])
+    shown = [node for node in walk(tree) if isinstance(node, Call) and node.function == "abs"]
+    assert len(shown) == 1
+    (inner,) = shown[0].arguments
+    assert sum(node == inner for node in walk(tree)) == 1  # no power of it apart from the modulus
+    back = sympy.sympify(to_grammar(tree).replace("^", "**"), {"k": k, "m": m, "g": g})
+    assert sympy.simplify((back - g * abs(u) ** odd * u**even).subs({k: 3, m: 5})) == 0

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from lagcli.expression import Name
+from lagcli.expression import Call, Name, Negative, Sum
 from lagcli.formatters.built_in.text import render
 from lagcli.formatters.display_width import display_width
 from lagcli.formatters.layout import joined
@@ -70,6 +70,12 @@ def test_names_are_read_as_on_paper(name, primes, text):
 )
 def test_formulas_are_read_without_doubt(node, text):
     assert shown(node) == text
+
+
+def test_bars_are_those_of_one_modulus():
+    inside = Call("abs", (Sum((Name("x"), Negative(Name("a")))),))
+    assert shown(inside) == "|x − a|"
+    assert shown(Call("abs", (Sum((inside, Name("b"))),))) == "abs(|x − a| + b)"
 
 
 @pytest.mark.long

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, cast
 
 from sympy import S
 
-from lagcli.document import Block, Equations, Heading, Label, equations_of
-from lagcli.expression import ZERO, Expression
+from lagcli.document import Block, Equations, Heading, Label, vanishing
+from lagcli.expression import Expression
 from lagcli.mechanics.explaining.reduction import averaged_potential
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
@@ -79,7 +79,7 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
             "value, in either direction: what it acts on is at rest in a whole range of places."
         )
     elif conditions:
-        yield equations_of((ZERO, condition) for condition in conditions)
+        yield vanishing(conditions)
     if any(each.kinked for each in found or ()):
         yield says("Where a force jumps, it takes every value between those on the two sides.")
     if teller.system.problem.contacts:

@@ -10,7 +10,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, nullspace, shape, simplify
 from lagcli.algebra.signs import sign
-from lagcli.document import Block, Equations, Label, Row, equations_of
+from lagcli.document import Block, Equations, Label, Row, equations_of, vanishing
 from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, operation_count, sum_of
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
@@ -164,7 +164,7 @@ def _damped(teller: Teller, place: Place) -> Iterator[Block]:
     written = sum_of(falling)
     if operation_count(written) <= _LONG:
         yield says("This gives")
-        yield shows(ZERO, written)
+        yield vanishing((written,))
 
 
 def _one(teller: Teller, M: Expr, C: Expr, K: Expr) -> Iterator[Block]:

@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import cast
 
-from lagcli.document import Block, Equations, Label, equations_of
-from lagcli.expression import ZERO, Expression, Name, Number, Power, Product, walk
+from lagcli.document import Block, Equations, Label, equations_of, vanishing
+from lagcli.expression import Expression, Name, Number, Power, Product, walk
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.mechanics.reduction.averaged import averaged
@@ -141,7 +141,7 @@ def _period(each: PeriodSeries) -> Iterator[Block]:
         yield Equations(place_rows(each.at, None))
     elif each.root_of is not None:
         yield says("About a minimum of ", POTENTIAL, ", where this vanishes,")
-        yield shows(ZERO, each.root_of)
+        yield vanishing((each.root_of,))
     if each.amplitude:
         a, order = Name(each.amplitude), Number(Fraction(each.order))
         yield says(f"{_TWICE} With ", a, " half their distance it is, to the order ",

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import cast
 
-from lagcli.document import Block, Equations, Heading, Row, equations_of
+from lagcli.document import Block, Equations, Heading, Row, equations_of, vanishing
 from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.mechanics.explaining.given_momenta import two_rates
 from lagcli.mechanics.explaining.teller import Teller
@@ -40,7 +40,7 @@ _NO_MOMENTUM = "No coordinate can be eliminated by a constant momentum"
 def steady(teller: Teller, section: Section) -> Iterator[Block]:
     """The relative equilibria: cyclic velocities constant, the other coordinates at rest."""
     found = cast(SteadySection, section)
-    if "accelerations" in found.acting:
+    if "inertia" in found.acting:
         yield says(*_with_constant_velocities(found))
         yield from _steady_states(teller, found)
         return
@@ -73,7 +73,10 @@ def steady(teller: Teller, section: Section) -> Iterator[Block]:
 def _with_constant_velocities(found: SteadySection) -> list[Part]:
     """What vanishes where rates are sought that no constant momentum gives."""
     end = ":" if any(each != ZERO for each in found.conditions.values()) else "."
-    rest = f" the coordinates that the accelerations depend on, and the accelerations vanish{end}"
+    rest = (
+        " the coordinates that the accelerations depend on. What is left of the equations of "
+        f"motion vanishes{end}"
+    )
     if not found.eliminated:
         return [f"In a steady motion the velocities are constant. So are{rest}"]
     given = [*names(found.eliminated, 1), " in terms of the other velocities, which are constant"]
@@ -92,7 +95,7 @@ def _steady_without_momenta(teller: Teller, found: SteadySection) -> str:
 def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
     wanted = [each for each in dict.fromkeys(found.conditions.values()) if each != ZERO]
     if wanted:
-        yield equations_of((ZERO, each) for each in wanted)
+        yield vanishing(wanted)
     elif found.conditions and not found.eliminated:
         yield says("These are 0 everywhere.")
     if found.motions is None:

@@ -21,7 +21,7 @@ from itertools import combinations
 import sympy
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import is_zero, simplify
+from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.linear import rank, solve_linear
@@ -168,13 +168,26 @@ class RollingMotions:
 
     @cached_property
     def conditions(self) -> dict[int, Expr]:
-        """What vanishes in a steady motion, by the coordinate of the equation."""
-        still = {self.system.qdot[j]: S.Zero for j in self.coordinates}
-        rates: Sequence[Expr] = self._equations or ()
-        if rates and not self.dynamics.constraints.equations:
-            rates = [-force for force in self.dynamics.lagrange.forcing]  # M u' = forcing
-        pairs = zip(self.velocities, rates, strict=True)
-        return {j: simplify(f.xreplace(still)) for j, f in pairs}
+        """What vanishes in a steady motion, by the coordinate of the equation.
+
+        d'Alembert's principle with u' = 0: B^T (M B' u - forcing), where q' = B u.
+        """
+        if self._chart is None or self._equations is None:
+            return {}
+        system, lagrange = self.system, self.dynamics.lagrange
+        kept, others = self._chart
+        still = {system.qdot[j]: S.Zero for j in self.coordinates}
+        along = [others.get(v, v).xreplace(still) for v in system.qdot]
+        bent = [dot((v.diff(q) for q in system.q), along) for v in along]
+        left = [
+            dot(row, bent) - force
+            for row, force in zip(lagrange.mass_matrix, lagrange.forcing, strict=True)
+        ]
+        flow = {system.qdot[j]: v for j, v in enumerate(along)}
+        left = [each.xreplace(flow) for each in left]
+        free = [system.qdot[j] for j in kept]
+        slopes = [[others.get(v, v).diff(u) for v in system.qdot] for u in free]
+        return {j: simplify(dot(slope, left)) for j, slope in zip(kept, slopes, strict=True)}
 
     @property
     def unless(self) -> tuple[Expr, ...] | None:
@@ -274,8 +287,11 @@ class RollingMotions:
         return {**{x: at(value, new) for x, value in values.items()}, **new}
 
     def _holds(self, values: Mapping[Symbol, Expr]) -> bool:
+        """Whether F vanishes there; it has no value where the coordinates are singular."""
+        still = {self.system.qdot[j]: S.Zero for j in self.coordinates}
         try:
-            return all(is_zero(at(c, values)) is True for c in self.conditions.values())
+            rates = (f.xreplace(still) for f in self._equations or ())
+            return all(is_zero(at(f, values)) is True for f in rates)
         except ZeroDivisionError:
             return False
 

@@ -23,7 +23,7 @@ def rolling_section(found: RollingMotions) -> SteadySection:
         motions=tuple(_motion(found, motion) for motion in found.motions or ()),
         complete=found.complete,
         unless=() if found.motions else unless_written(found.unless, order),
-        acting=("accelerations",),
+        acting=("inertia",),
         eliminated=tuple(n for j, n in enumerate(names) if j not in found.velocities),
     )
 
@@ -32,7 +32,7 @@ def _numerator(condition: Expr) -> Expr:
     """What vanishes with it, without the inertia below and without a number before it."""
     field = Field([condition])
     _, rest = field.polynomial_to_sympy(field(condition).numerator).primitive()
-    return simplify(-rest if rest.could_extract_minus_sign() else rest)
+    return simplify(rest)
 
 
 def _motion(found: RollingMotions, motion: RollingMotion) -> SteadyMotion:
