@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from lagcli.evaluation import evaluated
-from lagcli.expression import Call, walk
+from lagcli.expression import Call, Expression, walk
 from lagcli.values import numbers_of_parameters
 
 if TYPE_CHECKING:
-    from lagcli.interface.formula import Formula
     from lagcli.problem_data import Problem
 
 _FUNCTIONS: dict[str, Callable[..., Any]] = {
@@ -27,12 +26,13 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
 
 
 def numeric_function(
-    formula: Formula,
+    expression: Expression,
+    names: Sequence[str],
     problem: Problem,
     arguments: Sequence[str] | None,
     values: Mapping[str, float],
 ) -> Callable[..., Any]:
-    """A NumPy function of a formula; see `Formula.to_numpy`.
+    """A NumPy function of an expression in these names; see `Formula.to_numpy`.
 
     Raises
     ------
@@ -40,23 +40,23 @@ def numeric_function(
         When a name has neither a place among the arguments nor a value.
     """
     if arguments is None:
-        arguments = [name for name in formula.arguments if name not in values]
+        arguments = [name for name in names if name not in values]
         known: dict[str, Any] = dict(values)
     else:
         known = {**numbers_of_parameters(problem), **values}
-    missing = [name for name in formula.arguments if name not in {*arguments, *known}]
+    missing = [name for name in names if name not in {*arguments, *known}]
     if missing:
         raise ValueError(f"no argument and no value: {', '.join(missing)}")
-    called = {node.function for node in walk(formula.expression) if isinstance(node, Call)}
+    called = {node.function for node in walk(expression) if isinstance(node, Call)}
     if called - set(_FUNCTIONS):
-        names = ", ".join(sorted(called - set(_FUNCTIONS)))
-        raise ValueError(f"left unspecified by the file, so without numbers: {names}")
+        unspecified = ", ".join(sorted(called - set(_FUNCTIONS)))
+        raise ValueError(f"left unspecified by the file, so without numbers: {unspecified}")
     names_of_arguments = tuple(arguments)
 
     def function(*given: Any) -> Any:
         if len(given) != len(names_of_arguments):
             raise TypeError(f"the arguments are {', '.join(names_of_arguments)}")
         values = known | dict(zip(names_of_arguments, given, strict=True)) | {"pi": np.pi}
-        return evaluated(formula.expression, values, _FUNCTIONS)
+        return evaluated(expression, values, _FUNCTIONS)
 
     return function

@@ -120,4 +120,6 @@ class Formula:
         """
         from lagcli.interface.array_function import numeric_function
 
-        return numeric_function(self, self._problem, arguments, dict(values or {}))
+        return numeric_function(
+            self.expression, self.arguments, self._problem, arguments, dict(values or {})
+        )

@@ -21,12 +21,12 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
 from lagcli.mechanics.legendre import LegendreTransform
-from lagcli.mechanics.oscillations.characteristic import determinant
 from lagcli.mechanics.reduction.readable import deciding
 from lagcli.mechanics.system import System
 

@@ -6,12 +6,12 @@ import re
 from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Point, Problem
-from lagcli.reader.growth import Growth, growth
+from lagcli.reader.growth import growth
 from lagcli.reader.habits import colon_advice
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.names import depends_on_time, derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
-from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Role
+from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Growth, Role
 from lagcli.reader.sections import Required
 from lagcli.reader.suggest import did_you_mean
 

@@ -6,7 +6,7 @@ arithmetic holds the exponent.  A polynomial of degree 10^400 has no arithmetic 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import (
@@ -24,23 +24,12 @@ from lagcli.expression import (
 )
 from lagcli.reader.constants import magnitude
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS, thousands
+from lagcli.reader.scope import Growth, Scope
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from lagcli.reader.scope import Scope
-
 _GROWING = frozenset({"exp", "sinh", "cosh"})
-
-
-class Growth(NamedTuple):
-    """Levels of exponentials, and the degree in whatever has a name or is a call."""
-
-    exponentials: int = 0
-    degree: float = 0
-
-
-SMALL = Growth()
 
 
 def growth(expression: Expression, scope: Scope) -> tuple[Growth, Diagnostic | None]:

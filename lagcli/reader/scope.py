@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from lagcli.expression import RESERVED
-from lagcli.reader.growth import SMALL, Growth
 from lagcli.reader.habits import name_meant
 
 if TYPE_CHECKING:
@@ -68,6 +67,16 @@ ANSWER = Role(order=1, why="an answer is free of accelerations", integrals=True)
 EQUATION = Role(order=2, why="the equations of motion are of second order", multipliers=True)
 PHASE_SPACE = Role(order=0, why="a Hamiltonian has momenta p_x, no velocities", momenta=True)
 MOTION = Role(order=CONSTANT, why="a trajectory depends on t and parameters")
+
+
+class Growth(NamedTuple):
+    """Levels of exponentials, and the degree in whatever has a name or is a call."""
+
+    exponentials: int = 0
+    degree: float = 0
+
+
+SMALL = Growth()
 
 
 @dataclass(slots=True, eq=False, repr=False)

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import cached_property
 from random import Random
-from typing import TYPE_CHECKING
 
 from flint import arb
 
@@ -17,8 +16,8 @@ from lagcli.verification.linear import dot
 from lagcli.verification.reference import Reference
 from lagcli.verification.sweeps import StepValues, column
 
-if TYPE_CHECKING:
-    from lagcli.verification.states import Environment
+#: Numbers of names, each with its primes.
+Environment = dict[tuple[str, int], arb]
 
 _HAMILTONIAN = "H"
 

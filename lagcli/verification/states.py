@@ -20,15 +20,13 @@ from lagcli.problem_data import Coordinate, Parameter, Problem
 from lagcli.verification.functions import ball
 from lagcli.verification.linear import Unclear
 from lagcli.verification.newton import settled
-from lagcli.verification.phase_points import PhasePoint, PhaseState, with_momenta
+from lagcli.verification.phase_points import Environment, PhasePoint, PhaseState, with_momenta
 from lagcli.verification.reference import DynamicsAtState, Reference
 from lagcli.verification.sweeps import Unknown
 
 _NEWTON_STEPS = 40
 #: Attempts for each state: a linkage closes for some one in five of random lengths.
 _ATTEMPTS = 24
-
-Environment = dict[tuple[str, int], arb]
 
 
 class State:

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import mpmath
 from mpmath import mpf
@@ -34,9 +33,6 @@ from lagcli.mechanics.parameter_values import parameter_values
 from lagcli.mechanics.states import State
 from lagcli.platform.effort import Work
 
-if TYPE_CHECKING:
-    from lagcli.mechanics.finding.passing import Passing
-
 #: Units of work for one question.
 UNITS = 12_000_000
 _STATES = 3
@@ -54,8 +50,6 @@ class AlongTheMotion:
         self.work = Work(float("inf"))
         self.why_not = ""
         self._named: dict[Symbol, Expr] = {}
-        #: the motions of single coordinates, which the questions of a file share
-        self.passings: dict[Symbol, Passing] = {}
 
     @cached_property
     def initial(self) -> InitialState | None:

@@ -9,6 +9,7 @@ from sympy import Expr, Symbol, sqrt
 from lagcli.algebra import simplify
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.finding.along_the_motion import UNITS, AlongTheMotion
+from lagcli.mechanics.finding.passings import Passings
 from lagcli.mechanics.noether import Noether
 from lagcli.platform.effort import Work
 from lagcli.problem_data import Lasting, Reaching, Rewrite
@@ -24,6 +25,7 @@ def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:
         When no state with the given initial values satisfies the constraints.
     """
     along = AlongTheMotion(dynamics, noether)
+    passings = Passings(along)
     answers: dict[str, Answer] = {}
     for question in dynamics.system.problem.find:
         along.work = Work(UNITS)
@@ -32,11 +34,11 @@ def answer_questions(dynamics: Dynamics, noether: Noether) -> FindSection:
         elif isinstance(question, Lasting | Reaching):
             from lagcli.mechanics.finding.lasting import LastingAnswer
 
-            answers[question.name] = LastingAnswer(along, question).answer()
+            answers[question.name] = LastingAnswer(passings, question).answer()
         else:
             from lagcli.mechanics.finding.where import WhereSearch
 
-            answers[question.name] = WhereSearch(along, question).solutions()
+            answers[question.name] = WhereSearch(passings, question).solutions()
     return FindSection(answers=answers)
 
 

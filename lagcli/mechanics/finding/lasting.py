@@ -16,9 +16,9 @@ from lagcli.algebra import is_zero
 from lagcli.algebra.build import Builder
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
 from lagcli.mechanics.finding.line import FunctionsOnLine, NotAlgebraic
-from lagcli.mechanics.finding.passing import Passing, passing_of
+from lagcli.mechanics.finding.passing import Passing
+from lagcli.mechanics.finding.passings import Passings
 from lagcli.mechanics.finding.ranges import Bounds, Undecided, Values, ranges
 from lagcli.mechanics.finding.special_values import DIGITS, NoClosedForm, SpecialValues
 from lagcli.mechanics.finding.walk import Start, Walk
@@ -32,9 +32,9 @@ _SMALL = mpf(10) ** -60
 class LastingAnswer:
     """One question."""
 
-    def __init__(self, along: AlongTheMotion, question: Lasting | Reaching) -> None:
-        self.along = along
-        self.system = along.system
+    def __init__(self, passings: Passings, question: Lasting | Reaching) -> None:
+        self.passings, self.along = passings, passings.along
+        self.system = self.along.system
         self.question = question
         self.p = self.system.symbol_of(question.unknown.name)
         self.notes: list[str] = []
@@ -88,7 +88,7 @@ class LastingAnswer:
         for u, rate in zip(self.system.q, self.system.qdot, strict=True):
             if is_zero(rate, relations) is True:
                 continue
-            passing = passing_of(self.along, u)
+            passing = self.passings[u]
             if passing.square is None or is_zero(passing.square) is True:
                 continue
             formula = self.along.rewritten(margin, [u])
@@ -151,7 +151,7 @@ class LastingAnswer:
 
     def _reaching(self, question: Reaching, values: dict[Symbol, Expr]) -> list[Bounds]:
         u = self.system.symbol_of(question.coordinate.name)
-        passing = passing_of(self.along, u)
+        passing = self.passings[u]
         if passing.square is None:
             raise Undecided(self._why_not or f"the conservation laws do not give {u}'^2")
         target = self.system.build(question.value)

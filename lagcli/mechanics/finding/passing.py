@@ -40,13 +40,6 @@ class Passage:
     asked: Expr | None = None
 
 
-def passing_of(along: AlongTheMotion, u: Symbol) -> Passing:
-    """The motion of one coordinate, found once for all questions."""
-    if u not in along.passings:
-        along.passings[u] = Passing(along, u)
-    return along.passings[u]
-
-
 class Passing:
     """The motion of one coordinate from the initial state."""
 

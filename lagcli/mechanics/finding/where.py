@@ -13,8 +13,8 @@ from sympy import Expr, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.equations import Roots, is_decimal, solve_for
 from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
-from lagcli.mechanics.finding.passing import Passage, Passing, admissible, passing_of
+from lagcli.mechanics.finding.passing import Passage, Passing, admissible
+from lagcli.mechanics.finding.passings import Passings
 from lagcli.mechanics.finding.reach import real_value
 from lagcli.mechanics.finding.remarks import Remark, as_parts, in_words, real_where
 from lagcli.mechanics.parameter_values import admissible_values, exact_values
@@ -30,9 +30,9 @@ _ROUNDED = mpf(10) ** -10  # for roots given as decimals
 class WhereSearch:
     """One question."""
 
-    def __init__(self, along: AlongTheMotion, question: WhereQuestion) -> None:
-        self.along = along
-        self.system = along.system
+    def __init__(self, passings: Passings, question: WhereQuestion) -> None:
+        self.passings, self.along = passings, passings.along
+        self.system = self.along.system
         self.unknown = self.system.symbol_of(str(question.unknown))
         build = self.system.build
         self.equation = build(question.equation.left) - build(question.equation.right)
@@ -62,7 +62,7 @@ class WhereSearch:
     # -- a coordinate -----------------------------------------------------------------------
 
     def _coordinate(self) -> list[Expr] | None:
-        passing = passing_of(self.along, self.unknown)
+        passing = self.passings[self.unknown]
         places = self._places(passing)
         if places is None:
             return None
@@ -131,7 +131,7 @@ class WhereSearch:
     def _velocity(self) -> list[Expr] | None:
         """u' where the equation holds: at the places u that solve it, else by elimination."""
         u = self.system.q[self.system.qdot.index(self.unknown)]
-        passing = passing_of(self.along, u)
+        passing = self.passings[u]
         if passing.square is not None:
             places = self._places(passing)
             if places is not None and places[0].values:
@@ -201,7 +201,7 @@ class WhereSearch:
         for others in ((), *((x,) for x in q), q):
             formula = self.along.rewritten(self.equation, [*keep, *others])
             if formula is None and len(others) == 1 and not keep:
-                line = self._in_one(passing_of(self.along, others[0]))
+                line = self._in_one(self.passings[others[0]])
                 formula = None if line is None else line[0]
             if formula is not None and self.unknown in formula.free_symbols:
                 found = self._roots(formula, self.unknown)

@@ -6,35 +6,14 @@ det(s^2 M + s C + K) = 0,  s^2 = -W,     with gyroscopic terms, where only s^2 o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from functools import cached_property
 
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import Field, solve_linear
-from lagcli.algebra.equations import coefficients, factor_roots
+from lagcli.algebra import Field
+from lagcli.algebra.determinants import determinant_in
+from lagcli.algebra.equations import factor_roots
 from lagcli.mechanics.oscillations.linearization import Linearization
-
-
-def determinant(matrix: Sequence[Sequence[Expr]]) -> Expr | None:
-    """The determinant; None where it is too long, 0 for a singular matrix."""
-    solution = solve_linear(matrix, [S.Zero] * len(matrix))
-    if solution is None:
-        return None
-    return S.Zero if solution.determinant is None else solution.determinant
-
-
-def determinant_in(symbol: Symbol, matrix: Sequence[Sequence[Expr]]) -> list[Expr] | None:
-    """The coefficients of a determinant by powers of a symbol, the constant term first."""
-    whole = determinant(matrix)
-    if whole is None:
-        return None
-    field = Field([whole])
-    element, number = field(whole), field.number_of(symbol)
-    if number is None:
-        return [whole]
-    below = field.polynomial(element.denominator)
-    return [field.to_sympy(part / below) for part in coefficients(field, element.numerator, number)]
 
 
 class Characteristic:

@@ -20,9 +20,9 @@ from lagcli.algebra.systems import SolvedSystem, SystemSolution, divisors, solve
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.family import Family, exists_where, family
 from lagcli.mechanics.oscillations.kinks import at_cusps, at_kinks
-from lagcli.mechanics.oscillations.rest_conditions import RestConditions
+from lagcli.mechanics.oscillations.rest_conditions import RestConditions, RestPoint
+from lagcli.mechanics.oscillations.singular import is_pressed_to_an_edge, survives
 from lagcli.mechanics.reduction.readable import weak_sign
-from lagcli.record import record
 from lagcli.statements.wording import FINITE_MASS, INDEPENDENT, NOT_ZERO
 
 _MAX_EVIDENT = 64
@@ -50,23 +50,6 @@ def _finite_where(values: Iterable[Expr]) -> Iterator[Expr]:
     order = sympy.default_sort_key
     found = (divisor for value in values for divisor in sorted(divisors(value), key=order))
     yield from (f**2 for f in dict.fromkeys(found) if f.free_symbols and sign(f**2) is None)
-
-
-@record
-class RestPoint:
-    """An equilibrium: values of coordinates as formulas in the free ones and parameters.
-
-    It is there where each of `positive` is > 0.  With a `family` it is one branch of that.
-    """
-
-    values: Mapping[Symbol, Expr]
-    free: tuple[Symbol, ...]
-    positive: tuple[Expr, ...] = ()
-    family: Family | None = None
-
-    def depends_on_time(self, t: Symbol) -> bool:
-        """Whether it is there while a condition with the time holds: an open contact moves."""
-        return any(x.has(t) for x in self.positive)
 
 
 class RestPoints(RestConditions):
@@ -121,8 +104,6 @@ class RestPoints(RestConditions):
         return self._in_regular_coordinates(found)
 
     def _in_regular_coordinates(self, found: list[RestPoint]) -> tuple[RestPoint, ...] | None:
-        from lagcli.mechanics.oscillations.singular import is_pressed_to_an_edge, survives
-
         kept = tuple(point for point in found if survives(self, point))
         if any(point not in kept and is_pressed_to_an_edge(self, point) for point in found):
             self.reason, self.complete = _AT_AN_EDGE, False

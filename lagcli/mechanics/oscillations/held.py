@@ -33,8 +33,9 @@ from lagcli.diagnostics import ProblemError
 from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
+from lagcli.mechanics.oscillations.equilibria import RestPoints
 from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.oscillations.rest_conditions import RestPoint
 from lagcli.mechanics.reduction.minimal import with_lagrangian
 from lagcli.mechanics.stability.signs import sign_of, weak_sign
 from lagcli.problem_data import Constraint, pushing_sign

@@ -25,7 +25,7 @@ from lagcli.algebra import dot, is_zero, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
 from lagcli.algebra.place import at, where_positive
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
+from lagcli.mechanics.oscillations.rest_conditions import RestConditions, RestPoint
 from lagcli.mechanics.verify import conjunction
 
 Matrix = list[list[Expr]]
@@ -40,7 +40,7 @@ class Linearization:
         The columns of B, each a displacement of all coordinates.
     """
 
-    def __init__(self, rest: RestPoints, point: RestPoint, *, released: bool = False) -> None:
+    def __init__(self, rest: RestConditions, point: RestPoint, *, released: bool = False) -> None:
         self.dynamics: Dynamics = rest.dynamics
         self.system = rest.system
         self.point = point

@@ -14,8 +14,9 @@ from sympy import S
 from lagcli.algebra.place import at
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
+from lagcli.mechanics.oscillations.equilibria import RestPoints
 from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.oscillations.rest_conditions import RestPoint
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady import SteadyMotions
 from lagcli.mechanics.reduction.steady_motion import Steady

@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import chain, combinations
+from typing import TYPE_CHECKING
 
 import sympy
 from sympy import Expr, S, Symbol
@@ -30,8 +31,29 @@ from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.translations import constant_nullspace
+from lagcli.record import record
+
+if TYPE_CHECKING:
+    from lagcli.mechanics.oscillations.family import Family
 
 _LONGEST = 60  # operations of conditions that are quoted
+
+
+@record
+class RestPoint:
+    """An equilibrium: values of coordinates as formulas in the free ones and parameters.
+
+    It is there where each of `positive` is > 0.  With a `family` it is one branch of that.
+    """
+
+    values: Mapping[Symbol, Expr]
+    free: tuple[Symbol, ...]
+    positive: tuple[Expr, ...] = ()
+    family: Family | None = None
+
+    def depends_on_time(self, t: Symbol) -> bool:
+        """Whether it is there while a condition with the time holds: an open contact moves."""
+        return any(x.has(t) for x in self.positive)
 
 
 class RestConditions:

@@ -20,12 +20,12 @@ from mpmath import mpf
 from sympy import Dummy, Expr, S, Symbol
 
 from lagcli.algebra import dot, is_zero, nullspace, simplify
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.oscillations.characteristic import determinant
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
+from lagcli.mechanics.oscillations.rest_conditions import RestConditions, RestPoint
 from lagcli.mechanics.parameter_values import admissible_values
 
 _DIGITS = 60
@@ -74,7 +74,7 @@ def is_singular(linear: Linearization) -> bool:
     return bool(linear.M) and not linear.regular
 
 
-def survives(rest: RestPoints, point: RestPoint) -> bool:
+def survives(rest: RestConditions, point: RestPoint) -> bool:
     """Whether it is an equilibrium in regular coordinates; True where M is regular."""
     if point.family is not None:
         return True
@@ -92,7 +92,7 @@ def survives(rest: RestPoints, point: RestPoint) -> bool:
     return True
 
 
-def is_pressed_to_an_edge(rest: RestPoints, point: RestPoint) -> bool:
+def is_pressed_to_an_edge(rest: RestConditions, point: RestPoint) -> bool:
     """Whether the coordinates fold there, as x = u^2 at u = 0, and no force leads away.
 
     With v the null vector of M, det M grows as s^2 along q0 + s v, where it stays 0 at a pole.
@@ -114,7 +114,7 @@ def is_pressed_to_an_edge(rest: RestPoints, point: RestPoint) -> bool:
 class _Square:
     """a^T M a of the acceleration from rest, near a place."""
 
-    def __init__(self, rest: RestPoints) -> None:
+    def __init__(self, rest: RestConditions) -> None:
         self.rest, lagrange = rest, rest.dynamics.lagrange
         self.system = rest.system
         kept = rest.dynamics.independent_constraints

@@ -23,13 +23,14 @@ from lagcli.algebra.equations import written
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import REACHED, TIMED, RestPoint, RestPoints
+from lagcli.mechanics.oscillations.equilibria import REACHED, TIMED, RestPoints
 from lagcli.mechanics.oscillations.exceptions import unless_written
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.held import HeldCombination, held
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
 from lagcli.mechanics.oscillations.reduced_verdict import ReducedVerdict
+from lagcli.mechanics.oscillations.rest_conditions import RestPoint
 from lagcli.mechanics.oscillations.singular import OnMeridians, is_singular
 from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.stability.judge import (

@@ -11,12 +11,12 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import dot, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
-from lagcli.mechanics.oscillations.characteristic import determinant
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_motion import Steady
 

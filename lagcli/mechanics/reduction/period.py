@@ -27,7 +27,8 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
+from lagcli.mechanics.oscillations.equilibria import RestPoints
+from lagcli.mechanics.oscillations.rest_conditions import RestPoint
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom
 from lagcli.mechanics.reduction.readable import weak_sign

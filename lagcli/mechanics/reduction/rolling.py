@@ -23,16 +23,17 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.determinants import determinant, determinant_in
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.linear import rank, solve_linear
 from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.oscillations.characteristic import determinant, determinant_in
-from lagcli.mechanics.oscillations.equilibria import RestPoint, RestPoints
+from lagcli.mechanics.oscillations.equilibria import RestPoints
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.oscillations.rest_conditions import RestPoint
 from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
 from lagcli.mechanics.reduction.minimal import integrated, minimal
 from lagcli.mechanics.stability.judge import ACCELERATES, judge

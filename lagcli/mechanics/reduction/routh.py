@@ -24,12 +24,12 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import dot, is_zero, shape, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.place import at
 from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.legendre import Inverse, LegendreTransform
-from lagcli.mechanics.oscillations.characteristic import determinant
 from lagcli.mechanics.reduction.minimal import minimal, with_lagrangian
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Constraint, Parameter

@@ -23,11 +23,11 @@ from lagcli.mechanics.oscillations.equilibria import (
     NO_VALUE_AT_REST,
     REACHED,
     TIMED,
-    RestPoint,
     RestPoints,
 )
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.held import held
+from lagcli.mechanics.oscillations.rest_conditions import RestPoint
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_contacts import SteadyContacts

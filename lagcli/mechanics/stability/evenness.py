@@ -14,8 +14,8 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.oscillations.characteristic import determinant
 
 _TURNING = (sympy.sin, sympy.cos)
 

@@ -17,7 +17,7 @@ import sympy
 from sympy import Expr, S
 
 from lagcli.algebra import simplify
-from lagcli.mechanics.oscillations.characteristic import determinant
+from lagcli.algebra.determinants import determinant
 
 _MOST_DEGREE = 8
 _MOST_OPERATIONS = 400

@@ -10,12 +10,9 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import dot, nullspace, rank, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.determinants import determinant, determinant_in
 from lagcli.algebra.place import at
-from lagcli.mechanics.oscillations.characteristic import (
-    Characteristic,
-    determinant,
-    determinant_in,
-)
+from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.stability.evenness import even
 from lagcli.mechanics.stability.hurwitz import hurwitz_conditions

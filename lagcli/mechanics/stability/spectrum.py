@@ -19,7 +19,7 @@ import sympy
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import simplify
-from lagcli.mechanics.oscillations.characteristic import determinant, determinant_in
+from lagcli.algebra.determinants import determinant, determinant_in
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 
 _MOST = 4  # coordinates that are coupled

@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 from sympy import Expr, S
 
 from lagcli.algebra import is_zero
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.equations import written
-from lagcli.mechanics.oscillations.characteristic import determinant
 from lagcli.mechanics.oscillations.equilibria import RestPoints
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.reduction.readable import above, conditions, opposites

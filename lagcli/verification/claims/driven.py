@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 from flint import arb
 
+from lagcli.verification.claims.action import Action
 from lagcli.verification.linear import dot
 from lagcli.verification.states import State
 from lagcli.verification.sweeps import StepValues
-
-if TYPE_CHECKING:
-    from lagcli.verification.claims.separation import Action
 
 
 def solves_in_time(action: Action) -> bool:

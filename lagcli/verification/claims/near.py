@@ -14,8 +14,8 @@ from flint import arb, arb_mat
 
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, rank, size, solve
+from lagcli.verification.phase_points import Environment
 from lagcli.verification.reference import DynamicsAtState
-from lagcli.verification.states import Environment
 
 _STEP = arb(2) ** -100
 _BESIDE = arb(2) ** -30

@@ -17,7 +17,7 @@ from lagcli.statements.motions import OneFreedom, PeriodSeries
 from lagcli.verification.claims.rest import BITS, conditions
 from lagcli.verification.examination import LOOKED_AT, Examination
 from lagcli.verification.linear import size
-from lagcli.verification.states import Environment
+from lagcli.verification.phase_points import Environment
 
 #: Of the amplitude, where the powers of the series are told apart: a^5 is nothing beside a^4.
 _AMPLITUDE = arb(2) ** -24

@@ -10,19 +10,17 @@ refuted by a motion on which its sides pass each other.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
 
 from flint import arb
 
 from lagcli.expression import Expression
 from lagcli.problem_data import Inequality, Lasting, Reaching, Where
 from lagcli.statements.questions import Ranges
+from lagcli.verification.claims.reached import Reached
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, size, solve
-from lagcli.verification.states import Environment, State
-
-if TYPE_CHECKING:
-    from lagcli.verification.claims.find import Reached
+from lagcli.verification.phase_points import Environment
+from lagcli.verification.states import State
 
 _STEP, _STEPS = arb(1) / 10, 150
 #: Relative distance from a bound; the rule is right to some 1e-4 on the way.

@@ -16,8 +16,8 @@ from lagcli.verification.claims.near import NOTHING, LinearMotion
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import size
 from lagcli.verification.newton import settled
+from lagcli.verification.phase_points import Environment
 from lagcli.verification.program import Key
-from lagcli.verification.states import Environment
 
 #: States looked at until the printed conditions hold at `WANTED` of them.
 LOOKED_AT = 24

@@ -18,7 +18,8 @@ from lagcli.units.table import meaning
 from lagcli.verification.examination import Examination
 from lagcli.verification.functions import ball, power
 from lagcli.verification.linear import dot
-from lagcli.verification.states import Environment, State
+from lagcli.verification.phase_points import Environment
+from lagcli.verification.states import State
 
 #: Independent numbers for the base units.
 _SCALES = {

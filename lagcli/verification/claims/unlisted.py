@@ -21,7 +21,8 @@ from lagcli.verification.claims.near import LinearMotion, eigenvalues
 from lagcli.verification.claims.rest import RestPlace
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear, least_step, size
-from lagcli.verification.states import Environment, State
+from lagcli.verification.phase_points import Environment
+from lagcli.verification.states import State
 from lagcli.verification.sweeps import column
 
 #: Starts of Newton's method at each of `_STATES` choices of the parameters.

@@ -21,7 +21,8 @@ from lagcli.verification.claims.charges import change_in_form
 from lagcli.verification.claims.near import LinearMotion
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear, dot, rank, size, solve
-from lagcli.verification.states import Environment, State
+from lagcli.verification.phase_points import Environment
+from lagcli.verification.states import State
 
 #: More coordinates make too many functions: 3 (n^2 + n + 1) of them, n (n + 1)^2 (n + 2)/4.
 _MOST = 3

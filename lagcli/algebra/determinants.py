@@ -1,0 +1,32 @@
+"""Determinants, whole and by powers of a symbol."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra.entry import Field
+from lagcli.algebra.equations import coefficients
+from lagcli.algebra.linear import solve_linear
+
+
+def determinant(matrix: Sequence[Sequence[Expr]]) -> Expr | None:
+    """The determinant; None where it is too long, 0 for a singular matrix."""
+    solution = solve_linear(matrix, [S.Zero] * len(matrix))
+    if solution is None:
+        return None
+    return S.Zero if solution.determinant is None else solution.determinant
+
+
+def determinant_in(symbol: Symbol, matrix: Sequence[Sequence[Expr]]) -> list[Expr] | None:
+    """The coefficients of a determinant by powers of a symbol, the constant term first."""
+    whole = determinant(matrix)
+    if whole is None:
+        return None
+    field = Field([whole])
+    element, number = field(whole), field.number_of(symbol)
+    if number is None:
+        return [whole]
+    below = field.polynomial(element.denominator)
+    return [field.to_sympy(part / below) for part in coefficients(field, element.numerator, number)]
