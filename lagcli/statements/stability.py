@@ -11,7 +11,9 @@ from lagcli.statements.wording import Part, conditions, joined
 
 #: A condition of more operations is not written beside the frequency that it says of.
 _LONG = 24
-_BOUNDED = ", since the equations of motion are linear and all their solutions are then bounded"
+_LINEAR = ", since the equations of motion are linear and "
+_BOUNDED = "all their solutions are then bounded"
+_DRIFT = "beside a slow drift along the family "
 _THEOREM = "(Kelvin, Tait and Chetaev)"
 
 
@@ -116,7 +118,9 @@ def _by_roots(verdict: Verdict, stable: str, along: Sequence[Part]) -> list[Part
     if spectrum is None:
         return []
     if verdict.exact:
-        parts = [*(["Stable where ", *conditions(spectrum)] if spectrum else ["Stable"]), _BOUNDED]
+        where: list[Part] = [" where ", *conditions(spectrum)] if spectrum else []
+        drift = _DRIFT if verdict.across else ""
+        parts = ["Stable", *along, *where, f"{_LINEAR}{drift}{_BOUNDED}"]
     else:
         parts = ["Stable to first order, all frequencies being real and distinct"]
         parts += [", where ", *conditions(spectrum)] if spectrum else []

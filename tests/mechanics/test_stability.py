@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+
 import mpmath
 import pytest
 import sympy
@@ -167,3 +169,23 @@ def test_the_opposite_keeps_a_square_that_may_be_0_together_with_others():
     found = opposites([k * (a + b) ** 2, c * (a + b) ** 2], ["a", "b", "c", "k"])
     assert {to_grammar(each.right) for each in found} == {"(a + b)^2*k", "(a + b)^2*c"}
     assert {to_grammar(each.left) for each in found} == {"0"}
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_linear_motion_stays_near_a_family_just_where_its_exact_solutions_do(seed):
+    # x and y turn into each other and z oscillates; y is free: a family of equilibria
+    source = random.Random(seed)
+    n, k, c, w = (source.randint(-4, 4) or 1 for _ in range(4))
+    text = f"""
+coordinates: [x, y, z]
+L: (x'^2 + y'^2 + z'^2)/2 + {n}*(x*y' - y*x') - ({k}*x^2 + 2*{c}*x*z + {w * w}*z^2)/2
+"""
+    found = origin(text).verdict
+    A = mpmath.matrix(6, 6)
+    A[0, 3] = A[1, 4] = A[2, 5] = 1
+    A[3, 0], A[3, 2], A[3, 4] = -k, -c, 2 * n
+    A[4, 3] = -2 * n
+    A[5, 0], A[5, 2] = -c, -w * w
+    late = mpmath.expm(A * 2000)
+    away = max(abs(late[i, j]) for i in range(6) if i != 1 for j in range(6))  # y may drift
+    assert found.stable is (away < 500), away

@@ -315,6 +315,17 @@ class Near:
         """Whether no displacement drifts away: as many null vectors of K as roots 0."""
         return len(nullspace(self.linear.K)) == self.zeros
 
+    @cached_property
+    def drifts_along_family(self) -> bool:
+        """Whether the roots 0 only carry it along the equilibria, at a small constant velocity.
+
+        The solutions a + b t, with K b = 0 and C b + K a = 0, are then as many as the roots 0.
+        """
+        C, K = self.linear.C, self.linear.K
+        rows = [[*k, *c] for k, c in zip(K, C, strict=True)]
+        rows += [[*([S.Zero] * len(k)), *k] for k in K]
+        return self.dimension == len(nullspace(K)) and len(nullspace(rows)) == self.zeros
+
     def semisimple(self, W: Expr, multiplicity: int) -> bool:
         """Whether the root has as many modes: the null space of K - W M + i ω C."""
         M, C, K = self.linear.M, self.linear.C, self.linear.K

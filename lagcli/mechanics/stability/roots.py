@@ -67,13 +67,16 @@ def _negative(open_: tuple[Expr, ...], *, across: bool) -> Stability:
 
 def _imaginary(near: Near, open_: tuple[Expr, ...]) -> Stability:
     exact = near.linear.exact
-    if near.zeros and not (exact and near.semisimple_zeros):
+    across = bool(near.zeros) and exact and not near.semisimple_zeros
+    if near.zeros and not exact or across and not near.drifts_along_family:
         return undecided(NEUTRAL)
     if exact and not open_:
-        reason = "the equations of motion are linear, and all their solutions are bounded"
-        return Stability(stable=True, reason=reason, spectrum=(), exact=True)
+        beside = "beside a slow drift along the family " if across else ""
+        reason = f"the equations of motion are linear, and {beside}all their solutions are bounded"
+        return Stability(stable=True, reason=reason, spectrum=(), exact=True, across=across)
     fed = not exact and not (near.linear.rest.energy_never_grows and near.linear.has_potential)
-    return Stability(spectrum=open_, exact=exact, reason=_MAY_FEED if fed else "")
+    reason = _MAY_FEED if fed else ""
+    return Stability(spectrum=open_, exact=exact, reason=reason, across=across)
 
 
 def _multiple(near: Near) -> Stability:
