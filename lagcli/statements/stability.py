@@ -119,8 +119,8 @@ def _by_roots(verdict: Verdict, stable: str, along: Sequence[Part]) -> list[Part
         return []
     if verdict.exact:
         where: list[Part] = [" where ", *conditions(spectrum)] if spectrum else []
-        drift = _DRIFT if verdict.across else ""
-        parts = ["Stable", *along, *where, f"{_LINEAR}{drift}{_BOUNDED}"]
+        drift: list[Part] = [*along] if verdict.across else []
+        parts = ["Stable", *drift, *where, f"{_LINEAR}{_DRIFT * bool(drift)}{_BOUNDED}"]
     else:
         parts = ["Stable to first order, all frequencies being real and distinct"]
         parts += [", where ", *conditions(spectrum)] if spectrum else []

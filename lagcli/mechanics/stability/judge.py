@@ -62,7 +62,8 @@ def judge(linear: Linearization, characteristic: Characteristic | None = None) -
         if reason := _without_polynomial(near):
             return undecided(reason)
         found = by_a_growing_root(near) or _judged(near)
-        return _among_equilibria(near) or found if found.is_open else found
+        open_ = found.is_open or (found.exact and found.across)
+        return _among_equilibria(near) or found if open_ else found
     except ZeroDivisionError:
         return undecided(_NO_MOTION)
 
