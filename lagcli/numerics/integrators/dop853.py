@@ -16,29 +16,24 @@ Hairer, Norsett, Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., s
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.equations.refusal import told
 from lagcli.numerics.equations.straight_line import run_generated
 from lagcli.numerics.equations.surface import Surface
+from lagcli.numerics.integrators.controlled import Controlled, State, Trial
 from lagcli.numerics.integrators.steps import (
     DEPENDENT,
     SINGULAR_MASS,
     CannotGoOn,
+    Inside,
     Method,
     MotionOfMode,
-    Step,
-    StepSize,
-    Stretch,
-    Tolerance,
 )
-from lagcli.numerics.integrators.switching import Kinks
 from lagcli.numerics.integrators.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES, Row
 
 ORDER = 8
-State = tuple[float, list[float], list[float]]
 _END = 13  # the stage at the end of the step
 _LAST = 16
 _FIRST = 1e-4  # of the longest step, for the first
@@ -47,7 +42,7 @@ _FIRST = 1e-4  # of the longest step, for the first
 _CRAWLS, _NOWHERE, _SINGULAR = 128, 1e-4, 1e-8
 
 
-class Dop853:
+class Dop853(Controlled):
     """The steps of one run.
 
     Parameters
@@ -60,134 +55,77 @@ class Dop853:
         What `generated_step` has made for the same motion before.
     """
 
-    name = "dop853"
-    sees = even = False
+    name, power, first = "dop853", ORDER, _FIRST
 
     def __init__(
         self, motion: Motion, surface: Surface | None, generated: tuple[Any, Any] | None = None
     ) -> None:
-        self.motion, self.surface, self.n = motion, surface, motion.n
-        self.evaluations = 0
-        self.rejected = 0
-        self.reached: int | None = None
-        self.generated = generated or generated_step(motion.n, motion.accelerations)
-        self._step, self._dense = self.generated
+        super().__init__(motion, surface)
+        self._step, self._dense = generated or generated_step(motion.n, motion.accelerations)
 
-    def steps(self, stretch: Stretch, tolerance: Tolerance) -> Iterator[Step]:
-        """Accepted steps to the end, or to where friction sticks (`reached`).
+    def begin(self) -> None:
+        """Nothing has been tried."""
+        self._lost = [0.0] * (2 * self.n)  # what rounding takes from the sums (Kahan)
+        self._attempts, self._since = 0, self.stretch.begin
 
-        Raises
-        ------
-        CannotGoOn
-            Where the step becomes shorter than rounding, with the reason.
-        """
-        q, v, until, t = stretch
-        n = self.n
-        motion, kinks = self.motion, Kinks(self.motion, tolerance)
-        self.reached = None
-        if motion.kinks:
-            kinks.begin(t, q, v)
-        rate = self._rate(t, q, v)
-        size = StepSize(tolerance.first_step(stretch, rate, _FIRST), ORDER, until)
-        lost = [0.0] * (2 * n)  # what rounding takes from the sums (Kahan)
-        attempts, since, start_of_all = 0, t, (t, q, v)
-        while t < until:
-            attempts += 1
-            if attempts % _CRAWLS == 0:
-                if t - since < _NOWHERE * until:
-                    self._look_at_pivots(start_of_all, (t, q, v))
-                since = t
-            h, last = size.from_time(t)
-            reason = ""
-            try:
-                change, end, five, three, stages = self._step(t, h, q, v, rate)
-                tolerance.see(q, v, change)
-                error = self._error(h, five, three, tolerance)
-                if error <= 1:
-                    end_q, end_v, left = added(q, v, change, lost)
-                    if self.surface is not None:
-                        end_q, end_v = self.surface.project(t + h, end_q, end_v)
-                        next_rate = self._rate(t + h, end_q, end_v)
-                    else:
-                        next_rate = end
-            except (ArithmeticError, ValueError) as failure:
-                error, reason = math.inf, told(failure)
-            self.evaluations += 12
-            if not error <= 1:
-                self.rejected += 1
-                if size.is_nothing(error, t):
-                    raise CannotGoOn(t, q, v, reason)
-                if error < math.inf:
-                    tolerance.rejected(five)
-                tolerance.forget()
-                continue
-            tolerance.accepted()
-            previous = (q, v, rate)
-            inside = self._inside(t, h, previous, change, end, stages)
-            if motion.kinks:
-                shorter = kinks.first(t, h, end_q, end_v, inside)
-                if shorter is not None:  # the step is made again, up to the kink
-                    size.h = shorter
-                    if kinks.stuck(t + shorter, until):
-                        raise CannotGoOn(t, q, v, kinks.why())
-                    continue
-            start = t
-            t = until if last else t + h
-            q, v, rate = end_q, end_v, next_rate
-            lost = left
-            yield Step(start, h, t, q, v, inside)
-            if kinks.reached is not None:
-                if kinks.sticks(t, q, v):
-                    self.reached = kinks.reached
-                    return
-                v = kinks.pass_through(t, q, v)
-                rate = self._rate(t, q, v)
-            size.grow(error, tolerance.longest)
-
-    def _look_at_pivots(self, first: State, here: State) -> None:
+    def _look_at_pivots(self, t: float, state: State) -> None:
         """End where a pivot has vanished, beside which steps are those of rounding."""
-        (mass, held), (t, q, v), (t_0, q_0, v_0) = self.motion.pivots, here, first
+        self._attempts += 1
+        if self._attempts % _CRAWLS:
+            return
+        crawls, self._since = t - self._since < _NOWHERE * self.stretch.until, t
+        if not crawls:
+            return
+        (mass, held), (q, v, _) = self.motion.pivots, state
         whole = mass(t, *q, *v)
         if any(abs(x) < _SINGULAR * abs(y) for x, y in zip(whole[::2], whole[1::2], strict=True)):
-            raise CannotGoOn(*here, SINGULAR_MASS)
+            raise CannotGoOn(t, q, v, SINGULAR_MASS)
+        q_0, v_0, _, t_0 = self.stretch
         both = zip(held(t, *q, *v)[::2], held(t_0, *q_0, *v_0)[::2], strict=True)
         if any(abs(x) < _SINGULAR * abs(y) for x, y in both):
-            raise CannotGoOn(*here, DEPENDENT)
+            raise CannotGoOn(t, q, v, DEPENDENT)
 
-    def _rate(self, t: float, q: Sequence[float], v: Sequence[float]) -> tuple[float, ...]:
-        self.evaluations += 1
-        return self.motion.accelerations(t, *q, *v)
+    def tried(self, t: float, h: float, state: State) -> Trial:
+        """A step."""
+        self._look_at_pivots(t, state)
+        q, v, rate = state
+        self.calls += 12
+        change, end, five, three, stages = self._step(t, h, q, v, rate)
+        self.tolerance.see(q, v, change)
+        error = self._error(h, five, three)
+        if not error <= 1:
+            return Trial(error, None, five if error < math.inf else ())
+        end_q, end_v, left = added(q, v, change, self._lost)
+        next_rate = end
+        if self.surface is not None:
+            end_q, end_v = self.surface.project(t + h, end_q, end_v)
+            next_rate = self.rate(t + h, end_q, end_v)
+        return Trial(error, (end_q, end_v, next_rate), five, (left, change, end, stages))
 
-    def _error(
-        self, h: float, five: Sequence[float], three: Sequence[float], tolerance: Tolerance
-    ) -> float:
+    def accepted(self, trial: Trial, ratio: float) -> None:  # noqa: ARG002
+        """Keep what rounding took from the sums."""
+        self._lost = trial.kept[0]
+
+    def _error(self, h: float, five: Sequence[float], three: Sequence[float]) -> float:
         """The error in units of the tolerance: e5^2 / sqrt(e5^2 + e3^2/100)."""
         a = b = 0.0
-        for x, y, scale in zip(five, three, tolerance.scales, strict=True):
+        for x, y, scale in zip(five, three, self.tolerance.scales, strict=True):
             a += (x / scale) ** 2
             b += (y / scale) ** 2
         if not (a < math.inf and b < math.inf):
             return math.inf
         if a == 0.0:
             return 0.0
-        return h * a / math.sqrt((a + 0.01 * b) * len(five)) / tolerance.value
+        return h * a / math.sqrt((a + 0.01 * b) * len(five)) / self.tolerance.value
 
-    def _inside(
-        self,
-        t: float,
-        h: float,
-        start: tuple[list[float], list[float], Sequence[float]],
-        change: Sequence[float],
-        end: Sequence[float],
-        stages: Any,
-    ) -> Callable[[float], tuple[list[float], list[float], list[float]]]:
+    def inside(self, t: float, h: float, state: State, trial: Trial) -> Inside:
         """Positions, velocities and rates of the velocities by the dense output."""
-        q, v, rate = start
+        (q, v, rate), (_, change, end, stages) = state, trial.kept
         polynomials: list[list[float]] = []
 
         def at(time: float) -> tuple[list[float], list[float], list[float]]:
             if not polynomials:
-                self.evaluations += 3
+                self.calls += 3
                 polynomials.extend(self._dense(t, h, q, v, rate, change, end, stages))
             x = (time - t) / h
             values, slopes = zip(*(_interpolated(p, x) for p in polynomials), strict=True)

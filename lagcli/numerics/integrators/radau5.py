@@ -14,22 +14,17 @@ Hairer, Wanner, *Solving Ordinary Differential Equations II*, 2nd ed., section I
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.equations.refusal import told
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.collocation import radau
+from lagcli.numerics.integrators.controlled import Controlled, State, Trial, Vector
 from lagcli.numerics.integrators.implicit import Stages
 from lagcli.numerics.integrators.steps import (
-    CannotGoOn,
     Inside,
     Method,
     MotionOfMode,
-    Step,
-    StepSize,
-    Stretch,
-    Tolerance,
 )
 
 ORDER = 5
@@ -38,10 +33,8 @@ _ESTIMATE = 4  # the power of h in the error that is estimated
 _FIRST = 1e-6  # of the longest step, for the first
 _NEWTON = 1e-3  # of the tolerance
 
-Vector = list[float]
 
-
-class Radau5:
+class Radau5(Controlled):
     """The steps of one run.
 
     Parameters
@@ -54,15 +47,12 @@ class Radau5:
         Those made for the same motion before.
     """
 
-    name = "radau5"
-    sees = even = False
+    name, power, first = "radau5", _ESTIMATE, _FIRST
 
     def __init__(self, motion: Motion, surface: Surface | None, stages: Stages) -> None:
-        self.motion, self.surface, self.n = motion, surface, motion.n
-        self.reached: int | None = None
         self._stages = stages
         self._before = stages.evaluations
-        self._more = 0
+        super().__init__(motion, surface)
         method = stages.method
         self._gamma = method.eigenvalues[0].real
         self._embedded = [
@@ -72,72 +62,40 @@ class Radau5:
     @property
     def evaluations(self) -> int:
         """Of the accelerations; a Jacobian counts as one."""
-        return self._stages.evaluations - self._before + self._more
+        return self._stages.evaluations - self._before + self.calls
 
-    def steps(self, stretch: Stretch, tolerance: Tolerance) -> Iterator[Step]:
-        """Accepted steps to the end.
+    def begin(self) -> None:
+        """Nothing has been tried."""
+        self._guess: list[Vector] | None = None
+        self._fresh = True
 
-        Raises
-        ------
-        CannotGoOn
-            Where the step becomes shorter than rounding, with the reason.
-        """
-        (q, v, until, t), stages = stretch, self._stages
+    def tried(self, t: float, h: float, state: State) -> Trial:
+        """A step."""
+        (q, v, rate), stages, tolerance = state, self._stages, self.tolerance
         allowed = max(0.1 * tolerance.value ** (2 / 3), 1e-14)
-        rate = self._rate(t, q, v)
-        size = StepSize(tolerance.first_step(stretch, rate, _FIRST), _ESTIMATE, until)
-        guess = [list(rate) for _ in range(_STAGES)]
-        fresh = True
-        while t < until:
-            h, last = size.from_time(t)
-            reason = ""
-            try:
-                if fresh:
-                    stages.linearize(t, q, v)
-                    fresh = False
-                k = stages.solve(t, h, q, v, guess, tolerance.scales, _NEWTON * allowed)
-                by_q, by_v = stages.changes(h, v, k)
-                tolerance.see(q, v, [*by_q, *by_v])
-                error = (
-                    self._error(t, h, (q, v, rate), k, tolerance, again=size.is_shortened) / allowed
-                )
-                if error <= 1:
-                    end_q = [x + d for x, d in zip(q, by_q, strict=True)]
-                    end_v = [x + d for x, d in zip(v, by_v, strict=True)]
-                    if self.surface is not None:
-                        end_q, end_v = self.surface.project(t + h, end_q, end_v)
-                    end = self._rate(t + h, end_q, end_v)
-            except (ArithmeticError, ValueError) as failure:
-                error, reason = math.inf, told(failure)
-            if not error <= 1:
-                tolerance.forget()
-                guess = [list(rate) for _ in range(_STAGES)]
-                if size.is_nothing(error, t):
-                    raise CannotGoOn(t, q, v, reason)
-                continue
-            tolerance.accepted()
-            inside = self._inside(t, h, q, v, k, tolerance)
-            start, taken = t, h
-            t = until if last else t + h
-            q, v, rate, fresh = end_q, end_v, end, True
-            yield Step(start, taken, t, q, v, inside)
-            size.grow(error, tolerance.longest)
-            guess = self._continued(k, size.h / taken)
+        guess, self._guess = self._guess or [list(rate) for _ in range(_STAGES)], None
+        if self._fresh:
+            stages.linearize(t, q, v)
+            self._fresh = False
+        k = stages.solve(t, h, q, v, guess, tolerance.scales, _NEWTON * allowed)
+        by_q, by_v = stages.changes(h, v, k)
+        tolerance.see(q, v, [*by_q, *by_v])
+        error = self._error(t, h, state, k) / allowed
+        if not error <= 1:
+            return Trial(error)
+        end_q = [x + d for x, d in zip(q, by_q, strict=True)]
+        end_v = [x + d for x, d in zip(v, by_v, strict=True)]
+        if self.surface is not None:
+            end_q, end_v = self.surface.project(t + h, end_q, end_v)
+        return Trial(error, (end_q, end_v, self.rate(t + h, end_q, end_v)), kept=k)
 
-    def _rate(self, t: float, q: Sequence[float], v: Sequence[float]) -> tuple[float, ...]:
-        self._more += 1
-        return self.motion.accelerations(t, *q, *v)
+    def accepted(self, trial: Trial, ratio: float) -> None:
+        """Keep the stages that the polynomial of the last step foretells."""
+        method = self._stages.method
+        self._guess = [method.interpolated(1 + c * ratio, trial.kept) for c in method.nodes]
+        self._fresh = True
 
-    def _error(
-        self,
-        t: float,
-        h: float,
-        state: tuple[Vector, Vector, Sequence[float]],
-        k: list[Vector],
-        tolerance: Tolerance,
-        *,
-        again: bool,
-    ) -> float:
+    def _error(self, t: float, h: float, state: State, k: list[Vector]) -> float:
         """(I - h g J)^-1 (g h f0 + h sum e_i f_i) in units of the scales."""
         q, v, rate = state
         stages, n, g = self._stages, self.n, self._gamma
@@ -152,31 +110,27 @@ class Radau5:
         def size(parts: tuple[Vector, Vector]) -> float:
             squares = sum(
                 (x / scale) ** 2
-                for x, scale in zip((*parts[0], *parts[1]), tolerance.scales, strict=True)
+                for x, scale in zip((*parts[0], *parts[1]), self.tolerance.scales, strict=True)
             )
             return math.sqrt(squares / (2 * n))
 
         found = stages.filtered(h, combined(v, velocities), combined(rate, k))
         error = size(found)
-        if again and error > 0.0:  # what is stiff and still there is filtered once more
+        if (
+            self.size.is_shortened and error > 0.0
+        ):  # what is stiff and still there is filtered once more
             moved_q = [x + d for x, d in zip(q, found[0], strict=True)]
             moved_v = [x + d for x, d in zip(v, found[1], strict=True)]
-            other = self._rate(t, moved_q, moved_v)
+            other = self.rate(t, moved_q, moved_v)
             found = stages.filtered(h, combined(moved_v, velocities), combined(other, k))
             error = min(error, size(found))
         return error
 
-    def _continued(self, k: list[Vector], ratio: float) -> list[Vector]:
-        """The stages that the polynomial of the last step foretells."""
-        method = self._stages.method
-        return [method.interpolated(1 + c * ratio, k) for c in method.nodes]
-
-    def _inside(
-        self, t: float, h: float, q: Vector, v: Vector, k: list[Vector], tolerance: Tolerance
-    ) -> Inside:
+    def inside(self, t: float, h: float, state: State, trial: Trial) -> Inside:
         """A shorter step from the same beginning; the slope is that of the polynomial."""
-        scales = list(tolerance.scales)
-        precision = 1e-3 * _NEWTON * tolerance.value
+        (q, v, _), k = state, trial.kept
+        scales = list(self.tolerance.scales)
+        precision = 1e-3 * _NEWTON * self.tolerance.value
 
         def at(time: float) -> tuple[Vector, Vector, Vector]:
             stages, short = self._stages, time - t
