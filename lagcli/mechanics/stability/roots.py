@@ -68,7 +68,7 @@ def _negative(open_: tuple[Expr, ...], *, across: bool) -> Stability:
 def _imaginary(near: Near, open_: tuple[Expr, ...]) -> Stability:
     exact = near.linear.exact
     across = bool(near.zeros) and exact and not near.semisimple_zeros
-    if near.zeros and not exact or across and not near.drifts_along_family:
+    if (near.zeros and not exact) or (across and not near.drifts_along_family):
         return undecided(NEUTRAL)
     if exact and not open_:
         beside = "beside a slow drift along the family " if across else ""
