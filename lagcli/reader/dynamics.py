@@ -9,6 +9,7 @@ from lagcli.problem_data import Point, Problem
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import colon_advice
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
+from lagcli.reader.misshapen import as_list
 from lagcli.reader.names import depends_on_time, derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Growth, Role
@@ -132,9 +133,7 @@ def _by_axes(node: DocumentNode) -> str:
 
 def _components(sections: Sections, node: DocumentNode, what: str, hint: str) -> list[DocumentNode]:
     if isinstance(node, Scalar) and not node.is_empty:
-        sections.error(f"{what} must be a list of components", node.span,
-                       f"write [{_shown(node.value)}]")  # fmt: skip
-        return []
+        hint = f"write {as_list(_shown(node.value))}"
     return sections.items(node, what, hint)
 
 

@@ -8,6 +8,7 @@ instead of several that nobody would understand.
 from __future__ import annotations
 
 from lagcli.diagnostics import Diagnostic
+from lagcli.reader.misshapen import as_list
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 
 
@@ -51,13 +52,11 @@ def _mend(
             first = values[i]
             end = rest[last].end
             whole = first.text.source.text[first.start : end]
-            mistakes.append(
-                Diagnostic(
-                    "inside { } and [ ] a comma ends the value",
-                    first.text.span(first.start, end),
-                    f'put it in quotes: "{" ".join(whole.split())}"',
-                )
-            )
+            one = " ".join(whole.split())
+            is_list = as_list(one) != f"[{one}]"
+            hint = f"write a list as {as_list(one)}" if is_list else f'put it in quotes: "{one}"'
+            message = "inside { } and [ ] a comma ends the value"
+            mistakes.append(Diagnostic(message, first.text.span(first.start, end), hint))
             if isinstance(first, Scalar):
                 first.broken = True
             keep[i + 1 : last + 1] = [False] * (last - i)

@@ -45,6 +45,7 @@ IN_FULL = {
     **dict.fromkeys(("integrate", "Integral", "int", "integral"), "write the antiderivative"),
     **dict.fromkeys(("sum", "Sum", "prod", "Product"), "write each term"),
     **dict.fromkeys(("dot", "norm", "cross"), "write the sum over the components"),
+    **dict.fromkeys(("grad", "gradient", "nabla"), "a force that V has is found from V"),
 }  # fmt: skip
 _VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "⅛": "1/8"}
 
@@ -65,7 +66,7 @@ def meanings(table: str) -> dict[str, str]:
 
 def key_meant(word: str, known: tuple[str, ...]) -> str | None:
     """The key of a problem that a word stands for elsewhere, also with arguments: `V(x)`."""
-    word = re.sub(r"\s*\(.*\)$", "", word)
+    word = re.sub(r"\s*\(.*\)$|^[$*_]+|[$*_]+$|\\math\w+|[{}]", "", word)
     if word in known:
         return word
     keys = habits()["keys"]
@@ -74,12 +75,6 @@ def key_meant(word: str, known: tuple[str, ...]) -> str | None:
             if written in keys.get(key, ()):
                 return key
     return None
-
-
-def same_key(word: str, known: tuple[str, ...]) -> str | None:
-    """The key that a word is but for capitals, blanks and hyphens."""
-    plain = word.casefold().replace(" ", "_").replace("-", "_")
-    return next((key for key in known if len(key) > 1 and key.casefold() == plain), None)
 
 
 def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
@@ -105,11 +100,18 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
     return ""
 
 
+_PROGRAM = re.compile(r"\s*((import|from|def|class|return|print|using|function|end)\b|\\\w|#inc)")
+
+
 def colon_advice(line: str) -> str:
     """`write V: k*x` for a line such as `V k*x`, `V = k*x`, `V:k*x` or `V：k*x`."""
     found = re.match(r"\s*([^\W\d]\w*)(?:\s*[=:：]\s*|\s+)([^-+*/^].*)", line)
-    if re.match(r"\s*/[/*]", line):
+    if re.match(r"\s*(/[/*]|['\"]{3})", line):
         return COMMENT
+    if _PROGRAM.match(line):
+        return "leave it out: a problem has keys with their values, no program"
+    if re.match(r"\s*\|", line):
+        return "write key: value, without a table"
     if "''" in line:
         return DERIVED
     if found:
@@ -127,6 +129,8 @@ def is_constant(word: str, value: str) -> bool:
 
 def name_meant(name: str) -> str:
     """A valid name for one with raised or lowered digits, LaTeX or blanks; `theta_1` for θ₁."""
+    if declared := re.fullmatch(r"\s*(\w+)\s*=\s*[\w.]+\(.*", name):
+        return declared[1]
     given = re.fullmatch(r"\s*(\w+'?)\s*[=:]\s*(\S+)\s*", name)
     if given:
         return f"{given[1]}: {given[2]}"
@@ -148,7 +152,7 @@ def _on_the_line(character: str) -> str:
 
 def unit_behind(text: str) -> str:
     """The unit in `10 kg` or `9.81 m/s^2`; nothing where a number stands alone."""
-    found = _WITH_UNIT.fullmatch(text.strip())
+    found = _WITH_UNIT.fullmatch(re.sub(r"\s*(?:\[(.*)\]|\((.*)\))$", r" \1\2", text.strip()))
     return found["unit"] if found else ""
 
 
@@ -183,6 +187,8 @@ def function_meant(name: str, arguments: list[str]) -> str:
     """What to write instead of a function of other programs."""
     if name in {"Derivative", "derivative", "D", "ddt", "dt", "Dt"} and arguments:
         x = arguments[0]
+        if arguments[2:] == ["2"] and _plain(x):
+            return f"the acceleration of {x} is {x}'': write {x}''"
         return f"the velocity of {x} is {x}': write {x}'" if _plain(x) else ""
     if name in {"pow", "power", "Pow"} and len(arguments) == 2:
         return f"write {_group(arguments[0])}^{_group(arguments[1])}"
@@ -190,6 +196,8 @@ def function_meant(name: str, arguments: list[str]) -> str:
         return f"write {_group(arguments[0])}^2"
     if name in CASES:
         return CASE
+    if name in {"norm", "hypot"} and arguments[1:]:
+        return "write sqrt(" + " + ".join(f"{_group(each)}^2" for each in arguments) + ")"
     if name in IN_FULL:
         return IN_FULL[name]
     written_out = habits()["written_out"].get(name, "")
@@ -198,6 +206,9 @@ def function_meant(name: str, arguments: list[str]) -> str:
     if name in {"max", "min"} and len(arguments) == 2:
         a, b = arguments
         return f"write ({a} + {b} {'+' if name == 'max' else '-'} abs({a} - {b}))/2"
+    if name in {"max", "min"}:
+        two = f"(a + b {'+' if name == 'max' else '-'} abs(a - b))/2"
+        return f"compare two at a time: {name}(a, b) is {two}"
     return ""
 
 
@@ -235,9 +246,17 @@ def latex_meant(text: str) -> str:
         return f"write sqrt({first})"
     if name in {"cdot", "times"}:
         return "write '*'"
+    if name in {"partial", "nabla"}:
+        return "write diff(expression, name); a force that V has is found from V"
+    if name in {"sum", "int", "prod"}:
+        return IN_FULL[name]
+    if name in {"vec", "mathbf", "boldsymbol", "begin", "end", "pmatrix"}:
+        return "a vector is written by its components"
+    if name in {"mathrm", "operatorname", "text"} and first != "x":
+        return f"write {first}"
     if name in {"left", "right", "bigl", "bigr", "mathrm", "text", ""}:
         return f"leave out \\{name}"
-    return f"write {name}"
+    return f"write {meanings('functions').get(name, name)}"
 
 
 def _arguments(text: str, count: int) -> list[str]:

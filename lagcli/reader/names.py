@@ -21,7 +21,7 @@ from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
 from lagcli.reader.habits import IN_FULL, function_meant, meanings, product_meant, velocity_meant
 from lagcli.reader.scope import CONSTANT, Role, Scope
-from lagcli.reader.suggest import closest, did_you_mean
+from lagcli.reader.suggest import alike, closest, did_you_mean
 from lagcli.reader.undeclared import UNDECLARED
 
 if TYPE_CHECKING:
@@ -219,7 +219,8 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     if not role.parameters and not role.definitions and role.order < 0:
         return role.why
     for function in FUNCTIONS:
-        if (inner := name.removeprefix(function)) != name and inner in scope.usable(role):
+        inner = alike(name.removeprefix(function), scope.usable(role))
+        if name.startswith(function) and inner:
             return f"write {function}({inner})"
     if product := len(name) < 9 and product_meant(name, scope.usable(role)):
         return "did you mean " + product + "'" * primes + "?"

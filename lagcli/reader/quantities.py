@@ -147,7 +147,8 @@ def is_decimal_part(key: Scalar, value: DocumentNode | None) -> bool:
 
 
 def _list_advice(text: str) -> str:
-    """`[x, y]` for `x, y`, and `m: 1` for `m = 1`."""
+    """`[x, y]` for `x, y` and for `symbols("x y")`, and `m: 1` for `m = 1`."""
+    text = re.sub(r"^(?:.*=)?\s*(?:\w+\.)?\w+\(\s*(['\"])(.*)\1.*\)\s*$", r"\2", text)
     given = re.findall(r"(\w+)\s*=\s*([^\s,]+)", text)
     if given:
         listed = ", ".join(f"{name}: {value}" for name, value in given)
@@ -173,7 +174,8 @@ def _pairs(node: DocumentNode) -> str:
     elif isinstance(node, Sequence):
         source = [item.text.source.text[item.start : item.end] for item in node.items]
         given = [re.fullmatch(r"(\w+)\s*[=:]\s*(\S.*?)\s*", text) for text in source]
-    if not all(given):
+        given = [] if any(each and re.search(r"\(['\"]", each[2]) for each in given) else given
+    if not given or not all(given):
         return ""
     return ", ".join(f"{each[1]}: {each[2]}" for each in given if each)
 

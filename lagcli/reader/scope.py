@@ -144,7 +144,7 @@ def name_mistake(name: str) -> tuple[str, str] | None:
         meaning = {"t": "the time", "pi": "the number", "diff": "the partial derivative"}
         meant = meaning.get(name, "a function")
         return f"'{name}' is {meant} and cannot be declared", f"choose another name: {name}_1"
-    if any(prime in name for prime in "'’′″‴"):
+    if "=" not in name and any(prime in name for prime in "'’′″‴"):
         return f"'{name}' is not a name", "declare it without primes; x' is the velocity of x"
     if not name:
         return "a name is missing", ""

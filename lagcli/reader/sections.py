@@ -5,11 +5,10 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import TYPE_CHECKING, NamedTuple, TypeVar, get_args
+from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
-from lagcli.problem_data import Assumption
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import (
@@ -18,11 +17,11 @@ from lagcli.reader.habits import (
     key_advice,
     key_meant,
     name_meant,
-    same_key,
     unit_at_end,
     unit_behind,
 )
 from lagcli.reader.limits import MISTAKES
+from lagcli.reader.misshapen import as_list, as_map, one_sum
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.scope import NUMBERS, VALUES, Kind, Role, Scope, name_mistake
@@ -110,6 +109,8 @@ class Sections:
         if len(stated) > 1 or (stated and isinstance(node, Sequence)):
             return "write {" + ", ".join(f"{name}: {value}" for name, value in stated) + "}"
         given = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+        if isinstance(node, Scalar) and (one := as_list(node.value)) != f"[{node.value.strip()}]":
+            given = one[1:-1].split(", ")
         if len(given) == 2 * len(names):
             names += [f"{name}'" for name in names]
         values = [each.rpartition("=")[2].strip() or "…" for each in given]
@@ -121,6 +122,10 @@ class Sections:
         """The items of a list; a mistake when it is none."""
         if isinstance(node, Sequence):
             return node.items
+        if isinstance(node, Scalar):
+            if node.broken:
+                return []
+            hint = hint or f"write {as_list(node.value)}"
         self.error(f"{what} must be a list, not {kind(node)}", node.span, hint)
         return []
 
@@ -158,7 +163,7 @@ class Sections:
         """
         found = {}
         names = tuple(known)
-        entries = list(self.entries(node, what, _as_map(node, names)))
+        entries = list(self.entries(node, what, as_map(node, names)))
         given = {key.label for key, _ in entries}
         if required is not None and isinstance(node, Mapping):
             near = {key_meant(label, names) or closest(label, names) for label in given}
@@ -176,15 +181,15 @@ class Sections:
                     self.error(message, key.span, "begin the line with blanks")
                 self.scope.refused.append(key.label)
             else:
-                self._unknown_key(key, value, what, names)
-                meant = key_meant(key.label, names) or same_key(key.label, names)
+                meant = self._unknown_key(key, value, what, names)
                 if meant and meant not in given:
                     found[meant] = (key, value)  # what is in it is read on
         return found
 
     def _unknown_key(
         self, key: Scalar, value: DocumentNode, what: str, names: tuple[str, ...]
-    ) -> None:
+    ) -> str | None:
+        """A mistake at a key; the one that was meant, where that is clear."""
         written = value.value if isinstance(value, Scalar) else ""
         meant = key_meant(key.label, names)
         advice = f"the key is {meant}" if meant else key_advice(key.label, written, names)
@@ -192,10 +197,13 @@ class Sections:
         if "=" in key.label:
             hint = f"write {name_meant(key.label)}"
         elif key.in_flow and value.is_empty:
+            is_number = key.label.isdigit()
             hint = "inside { } a comma ends the value: put a text with commas in quotes"
+            hint = "a decimal point is written '.'" if is_number else hint
         if "parameters" in names and is_constant(key.label, written):
             self.scope.refused.append(key.label)
         self.error(f"unknown key '{key.label}' in {what}", key.span, hint)
+        return meant or (closest(key.label, names) if hint.startswith("did you mean") else None)
 
     # Formulas.
 
@@ -228,7 +236,7 @@ class Sections:
 
     def _misplaced_unit(self, node: DocumentNode, what: str, unit: str) -> None:
         assert isinstance(node, Scalar)
-        number = node.value.strip().removesuffix(unit).strip()
+        number = node.value.partition(unit)[0].strip(" [(")
         hint = f"write {number}: numbers are in the units of the file"
         if unit in {"min", "h"}:
             hint = f"write {number}*{60 if unit == 'min' else 3600} for seconds"
@@ -270,7 +278,7 @@ class Sections:
     def _read(self, node: DocumentNode, what: str, read: Callable[[Excerpt], _T]) -> _T | None:
         if not isinstance(node, Scalar):
             hint = "one function for all coordinates, such as c*x'^2/2"
-            hint = hint if what == "dissipation" else _one_sum(node, what)
+            hint = hint if what == "dissipation" else one_sum(node, what)
             self.error(f"{what} must be an expression, not {kind(node)}", node.span, hint)
             return None
         if self.is_full or self.scalar(node, what) is None:
@@ -305,52 +313,3 @@ class Sections:
         self.scope.kinds[name] = kind
         self.scope.spans[name] = span
         return True
-
-
-def _one_sum(node: DocumentNode, what: str) -> str:
-    """`write a + b` for the list `[a, b]` and the map `{spring: a, weight: b}`."""
-    terms = node.items if isinstance(node, Sequence) else []
-    if isinstance(node, Mapping):
-        pairs = [(value, key) for key, value in node.entries]
-        terms = [k if isinstance(v, Scalar) and v.is_empty else v for v, k in pairs]
-    written = [term.value.strip() for term in terms if isinstance(term, Scalar)]
-    if what.startswith("the initial") and len(written) == 2:
-        return "write x: {}, x': {}".format(*written)
-    if what == "'until'" and written:
-        return f"a motion begins at t = 0: write {written[-1]}"
-    return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""
-
-
-def _as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
-    """How a text or a list is written as the map that it should be."""
-    written = node.text.source.text[node.start : node.end].strip()
-    if isinstance(node, Scalar) and names[0] == "where" and "=" in written:
-        return f"write {{where: {written}, for: x}}"
-    if isinstance(node, Scalar) and written in get_args(Assumption) and "assume" in names:
-        return f"write {{assume: {written}}}"
-    if isinstance(node, Scalar) and unit_behind(f"1 {written}") == written and "unit" in names:
-        return f"write {{unit: {written}}}"
-    if isinstance(node, Sequence) and names[0] == "unit" and unit_behind(f"1 {written[1:-1]}"):
-        return f"write {{unit: {written[1:-1]}}}"
-    if isinstance(node, Sequence) and names[0] == "unit" and "value" not in names:
-        return "a coordinate has no range: leave it out"
-    if isinstance(node, Sequence) and "value" in names:
-        return "one value each; several are run by lagcli sweep --vary"
-    if isinstance(node, Scalar) and names[0] == "unit" and is_constant("x", written):
-        return "a state stands under initial, as in initial: {x: 1}"
-    if isinstance(node, Scalar) and names[0] == "unit" and written == "angle":
-        return "write {unit: rad}"
-    if isinstance(node, Scalar) and names[0] == "unit" and "value" not in names:
-        return f"write {{description: {written}}}"
-    if isinstance(node, Scalar) and names[0] == "where":
-        return f"write {{value: {written or '…'}, in_terms_of: [x]}}"
-    if isinstance(node, Sequence) and names[0] == "until" and node.items:
-        return f"write {{until: {written.strip('[]').split(',')[-1].strip()}}}"
-    if isinstance(node, Scalar) and names[0] == "position" and re.fullmatch(r"\(.*\)", written):
-        return f"write {{position: [{written[1:-1]}]}}"
-    if (words := written.split(None, 1)) and words[0] in names and words[1:]:
-        return f"write {{{words[0]}: {words[1]}}}"
-    fits = {"until": Scalar, "position": Sequence}.get(names[0])
-    if fits and isinstance(node, fits) and written:
-        return f"write {{{names[0]}: {written}}}"
-    return f"it has the keys {', '.join(names)}"

@@ -31,14 +31,18 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
     return f"did you mean '{best}'{shown}?" if best else ""
 
 
+def alike(name: str, known: Iterable[str]) -> str:
+    """The known name that looks or sounds the same, such as θ for theta; else nothing."""
+    return next((each for each in known if _folded(each) == _folded(name)), "")
+
+
 def closest(name: str, known: Iterable[str]) -> str:
     """The known name nearest to `name`, or nothing."""
     names = list(known)
     if (usual := meanings("functions").get(name)) in names:
         return usual
-    for alike in names:
-        if _folded(alike) == _folded(name):
-            return alike
+    if same := alike(name, names):
+        return same
     for ending in _VELOCITY_ENDINGS:
         stem = name.removesuffix(ending)
         if stem != name and stem in names:

@@ -11,6 +11,7 @@ from lagcli.reader.habits import (
     CASE,
     CASES,
     COMMENT,
+    IN_FULL,
     fraction,
     function_meant,
     latex_meant,
@@ -25,6 +26,11 @@ if TYPE_CHECKING:
 
 _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 _END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
+#: A number in powers of ten that is not written as one: 2.0e, 2e - 3, 1.5d-3; 6.67 x 10^-11.
+_EXPONENT = re.compile(r"([\d.]+)(?:\s*([eE])\s*|([dD])(?=[-+\d]))([-+]?)\s*(\d*)(?![\w(.'])")
+_TIMES_TEN = re.compile(r"([\d.]+)\s*[xX]\s*10\s*(?:\^|\*\*|[eE])?\s*[({]?\s*(-?)[\s+]*(\d+)")
+#: A derivative as a method: x.diff(t), x.diff(t, 2), V.diff(x).
+_METHOD = re.compile(r"\.(?:diff|dt|ddt|dot)\b(?:\(\s*(\w*)\s*(?:,\s*(\w+)\s*)?\))?")
 
 
 def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str) -> Diagnostic:
@@ -60,6 +66,8 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
             function = tokens[place - 4]
             hint = f"the inverse function is a{function}(…)"
             return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt), hint)
+        if CASES & {str(previous), str(token)} and (name := _called(tokens[:place])) in IN_FULL:
+            return Diagnostic("a formula has no loops", _span(token, excerpt), IN_FULL[name])
         return _missing_product(previous, token, following, excerpt)
     if token.type == "COMPARISON" and CASES & {str(other) for other in tokens}:
         return Diagnostic("a formula has no cases", _span(token, excerpt), CASE)
@@ -79,7 +87,13 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
     span = excerpt.span(at, at + 1)
     shown = f"'{character}'" if character.isprintable() else f"U+{ord(character):04X}"
     if character == "'":
+        grouped = re.match(r"'(\d{3}(?:'\d{3})*)", excerpt.value[at:])
+        if grouped and tokens and tokens[-1].type == "NUMBER":
+            hint = f"write {tokens[-1]}{grouped[1].replace(character, '')}"
+            return Diagnostic("digits are not grouped by a prime", span, hint)
         return Diagnostic("a prime without a name", span, _prime_advice(tokens))
+    if not character.isprintable():
+        return Diagnostic(f"{shown} has no meaning in an expression", span, "leave it out")
     if character in '"“”„' and not tokens:
         return Diagnostic("quotes are not part of a formula", span, "leave them out")
     if character in "°˚":
@@ -112,9 +126,17 @@ def _meant(rest: str, tokens: list[Token]) -> str:
     unit = re.match(r"\[([^\[\]]+)\]\s*$", rest)
     if unit and before in _END_VALUE and unit_behind(f"1 {unit[1]}"):
         return f"leave out '{unit[0].strip()}': units stand where names are declared"
-    word = re.match(r"\.([A-Za-z]\w*)", rest)
+    name = next((str(each) for each in reversed(tokens) if each.type == "NAME" and each != "t"), "")
+    if (derived := _METHOD.match(rest)) and before in {"NAME", "RPAR"}:
+        variable, again = derived.groups("")
+        if variable not in {"", "t"}:
+            return f"write diff({name}, {variable})"
+        return f"write {name}" + ("''" if again in {"2", "t"} else "'")
+    word = re.match(r"\.([A-Za-z]\w*)(?:\(([^()]*)\))?", rest)
     if word and before == "NAME":
-        return f"write {word[1]}"
+        arguments = [each.strip() for each in (word[2] or "").split(",") if each.strip()]
+        usual = meanings("functions").get(word[1], word[1])
+        return function_meant(word[1], arguments) or f"write {usual}"
     return latex_meant(rest)
 
 
@@ -123,6 +145,10 @@ def _prime_advice(tokens: list[Token]) -> str:
         tokens[-2] == "t"
     ):
         return f"a coordinate is a function of t by itself: write {tokens[-4]}'"
+    if [token.type for token in tokens[-3:]] == ["LPAR", "NAME", "RPAR"]:
+        return f"write {tokens[-2]}'"
+    if [token.type for token in tokens[-3:]] == ["NAME", "_POWER", "NUMBER"]:
+        return f"write {tokens[-3]}'^{tokens[-1]}"
     if tokens and tokens[-1].type == "RPAR":
         return "a prime stands behind a name; give the expression a name under 'definitions'"
     return "a prime stands right behind a name, without a blank"
@@ -162,6 +188,15 @@ def _missing_product(
         return Diagnostic("a formula has no conditions", span, "values stand under 'parameters'")
     if {str(left), str(right)} & CASES:
         return Diagnostic("a formula has no cases", span, CASE)
+    rest = excerpt.value[left.start_pos :]
+    if right.type == "NAME" and (number := _EXPONENT.match(rest)):
+        value, e, d, sign, digits = number.groups()
+        hint = f"write {value}e{sign}{digits}" if digits else f"as in {value}e-3"
+        message = "an exponent is written e and a whole number, without blanks"
+        return Diagnostic(message, span, f"{hint}; a product is {value}*{e or d}")
+    if right.type == "NAME" and (number := _TIMES_TEN.match(rest)):
+        hint = f"write {number[1]}e{number[2]}{number[3]}"
+        return Diagnostic("a power of ten is written with e", span, hint)
     before = _written(left) if left.type != "RPAR" else "(…)"
     if str(right) in {"rad", "radian", "radians"}:
         return Diagnostic("angles are in radians", span, f"leave out '{right}'")
@@ -207,6 +242,9 @@ def _unexpected(
             return "'==' has no meaning", "an equation is written with one '='"
         if start == "equation" and inside is None and previous is not None:
             return "an equation has one '='", "write an equation of its own for each"
+        if name := _called(before):
+            hint = IN_FULL.get(name, "write the value alone")
+            return "an argument of a function has no name", hint
         if start == "equation" and inside is not None:
             return "'=' stands inside parentheses", "is a ')' missing before it?"
         alone = len(before) == 1 and previous is not None and previous.type == "NAME"
@@ -223,7 +261,9 @@ def _unexpected(
 
 
 def _contact_advice(written: str) -> str:
-    gap = re.sub(r"([<>])(?!=)", r"\1=", written.strip()) if len(written) <= 40 else "y >= 0"
+    gap = re.sub(r"([<>])(?!=)", r"\1=", written.strip())
+    if len(written) > 40 or len(re.findall("[<>≤≥]", written)) > 1:
+        gap = "y >= 0"
     return f"a one-sided contact stands under contacts, as in floor: {gap}"
 
 
@@ -236,6 +276,13 @@ def _open_parenthesis(tokens: list[Token]) -> Token | None:
         elif token.type == "RPAR" and opened:
             opened.pop()
     return opened[-1] if opened else None
+
+
+def _called(tokens: list[Token]) -> str:
+    """The function inside of whose innermost parenthesis the tokens end; nothing outside."""
+    inside = _open_parenthesis(tokens)
+    before = [each for each in tokens if inside is not None and each.end_pos == inside.start_pos]
+    return str(before[0]) if before and before[0].type == "NAME" else ""
 
 
 def _span(token: Token, excerpt: Excerpt) -> Span:

@@ -101,7 +101,7 @@ def _without_inertia(problem: Problem, kinetic: Expression) -> list[Diagnostic]:
     moving = {name.name for name in _names(kinetic) if name.primes}
     missing = "the coordinate '{0}' is missing in T: {0}' does not occur there".format
     return [
-        _warning(missing(one.name), one.span, "it has no inertia")
+        _warning(missing(one.name), one.span, f"no inertia: its velocity is {one.name}'")
         for one in problem.coordinates
         if one.name not in moving | held
     ]

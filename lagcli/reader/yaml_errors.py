@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.reader.habits import MAPS, SIGNS, colon_advice, habits, meanings
+from lagcli.reader.habits import CASE, COMMENT, MAPS, SIGNS, colon_advice, habits, meanings
 
 if TYPE_CHECKING:
     from lagcli.reader.text import SourceText
@@ -44,12 +44,25 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         offset = start.index
         span = text.span(offset, offset + 1)
     lines = text.source.text.split("\n")
-    line = lines[text.position(offset)[0] - 1]
+    number = text.position(offset)[0] - 1
+    line = lines[number]
+    near = "\n".join(lines[max(0, number - 1) : number + 1])
+    if blank := re.search(r"^\s*\w+:([^\S \t\r])", near, re.MULTILINE):
+        at = text.source.text.index(blank[1])
+        message = f"the blank U+{ord(blank[1]):04X} is none that YAML knows"
+        return Diagnostic(message, text.span(at, at + 1), "type a usual blank there")
+    if (at := _cut_by_comment(lines, number)) is not None:
+        place = text.line_starts[at] + lines[at].index("#")
+        span = text.span(place, place + len(lines[at].rstrip()) - lines[at].index("#"))
+        hint = "put it on a line above the key"
+        return Diagnostic("a comment ends the value that goes on below it", span, hint)
     if quoted := _QUOTED.fullmatch(line):
         hint = f"leave out the outer quotes: {quoted[1]}: {quoted[3]}"
         return Diagnostic("this quote ends before the text does", span, hint)
     if "mapping values are not allowed" in said:
         return _second_colon(offset, text)
+    if re.match(r"\s*('''|\"\"\")", line):
+        return Diagnostic("this line is none of the file", span, COMMENT)
     if line.startswith("```"):
         return Diagnostic("this line is none of the file", span, f"leave out '{line}'")
     if text.source.text.startswith("?", offset):
@@ -62,8 +75,25 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
     if valued := re.search(r":\s*([-\d.]+)\s*\[([^\W\d][^\]]*)\]", line):
         hint = f"write {{value: {valued[1]}, unit: {valued[2]}}}"
         return Diagnostic("a unit does not stand behind a number", span, hint)
+    if index := re.search(r"\[\s*([^\W\d]\w*)\[(\d+)\]", line):
+        return Diagnostic("a name has no brackets", span, f"write {index[1]}_{index[2]}")
     if index := re.search(r"(\w+?)_\{(\w+)\}", line):
         return Diagnostic("a name has no braces", span, f"write {index[1]}_{index[2]}")
+    if marks := re.match(r"\s*(\*{1,2}|[-+]\s\*+)\s*(\w+)(?:\*\*)?:", line):
+        return Diagnostic(
+            "a key stands by itself", span, f"leave out '{marks[1]}': write {marks[2]}:"
+        )
+    if re.match(r"\s*[\w ]+:\s+&=?\s", line):
+        return Diagnostic("'&' has no meaning in an expression", span, "leave out '&' and '='")
+    if re.match(r"\s*(title|source|description):\s+[\[{]", line):
+        return Diagnostic(
+            "a text cannot begin with a bracket", span, "put the whole text in quotes"
+        )
+    if marks := _EMPHASIS.match(line):
+        hint = f"leave out '{marks[1]}': write {marks[2]}"
+        return Diagnostic("marks of emphasis are no part of a formula", span, hint)
+    if _BRACED.match(line):
+        return Diagnostic("'{' has no meaning in an expression", span, "group with parentheses ( )")
     first = next((each for each in lines if each.strip()), "")
     if "<document start>" in said and first[:1] == " " != line[:1]:
         key = first.split(":")[0].strip()
@@ -81,7 +111,24 @@ _MIDDLE = re.compile(r"\s*([-+*^]|/(?![/*])|\w+[-+*/^(])")
 _CONTINUED = "a line that continues the one above it begins with blanks"
 #: A text in quotes with one of them inside.
 _QUOTED = re.compile(r"\s*([\w ]+):\s*(['\"])([^#]*\2[^#]*)\2\s*(?:#.*)?")
+#: A formula within marks of Markdown: **m*x**, `m*x`.
+_EMPHASIS = re.compile(r"\s*[\w ]+:\s+(\*\*?|`+)([^\s*`].*[^\s*`])\1\s*(?:#.*)?$")
+#: A formula that begins with a group in braces.
+_BRACED = re.compile(r"\s*[\w ]+:\s+\{[^{}:,]*\}\s*[-+*/^]")
 _BEFORE = re.compile(r"(?P<indent>\s*)(?P<key>[^\W\d][\w ]*)(?P<colon>:\s+\S)?")
+
+
+def _cut_by_comment(lines: list[str], here: int) -> int | None:
+    """The line with the comment that cuts a value in two, where line `here` goes on with it."""
+    if re.match(r"\s*([^\W\d][\w']*\s*:|#|$)|\S", lines[here]):
+        return None
+    above = here - 1
+    while above >= 0 and re.match(r"\s*#", lines[above]):
+        above -= 1
+    begins = re.match(r"[^#'\"]+:\s+[^\s#'\"|>][^#]*?(?P<comment>\s#|\s*$)", lines[above])
+    if above < 0 or begins is None or not (begins["comment"].strip() or above < here - 1):
+        return None
+    return above if begins["comment"].strip() else above + 1
 
 
 def _second_colon(offset: int, text: SourceText) -> Diagnostic:
@@ -104,6 +151,8 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
             message = f"a {missing} is missing behind '{above['key'].split()[0]}'"
             return Diagnostic(message, text.span(start, end), colon_advice(lines[place]))
     span = text.span(offset, offset + 1)
+    if re.search(r"\S\s+\?\s+\S", lines[line - 1]):
+        return Diagnostic("a formula has no cases", span, CASE)
     word = re.search(r":\s.*\S\s+(\w+)\s*$", lines[line - 1][: column - 1])
     inner = re.match(r"\s*(\w+):\s+([^\W\d]\w*'*:.*\S)", lines[line - 1])
     if inner and inner[1] in MAPS:

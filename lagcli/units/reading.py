@@ -9,6 +9,7 @@ A product by a blank behind a `/` is refused: `J/kg m` is read in two ways.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from fractions import Fraction
 from typing import NamedTuple
@@ -99,8 +100,13 @@ class _Reader:
     def whole(self) -> Unit:
         powers = self.product(depth=0)
         if (token := self.token) is not None:
-            raise self.mistake(f"'{token.text}' has no place in a unit", token)
+            raise self.misplaced(token)
         return Unit(tuple((name, power) for name, power in powers.items() if power))
+
+    def misplaced(self, token: _Token) -> UnitMistake:
+        power = re.match(r"-\d+", self.text[token.start :])
+        hint = f"a power is written with '^': ^{power[0]}" if power else ""
+        return self.mistake(f"'{token.text}' has no place in a unit", token, hint)
 
     @property
     def token(self) -> _Token | None:
@@ -151,7 +157,7 @@ class _Reader:
             self.one(token)
             powers = {}
         else:
-            raise self.mistake(f"'{token.text}' has no place in a unit", token)
+            raise self.misplaced(token)
         exponent = self.exponent()
         return {name: power * exponent for name, power in powers.items()}
 

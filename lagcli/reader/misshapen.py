@@ -1,0 +1,69 @@
+"""How a value of another shape is written as the map, the list or the sum that it should be."""
+
+from __future__ import annotations
+
+import re
+from typing import get_args
+
+from lagcli.problem_data import Assumption
+from lagcli.reader.habits import is_constant, unit_behind
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+
+
+def as_list(written: str) -> str:
+    """`[x, y]` for `x, y` and for `(x, y)`."""
+    within = re.fullmatch(r"\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)\s*", written)
+    is_tuple = within is not None and "," in re.sub(r"\([^()]*\)", "", within[1])
+    return f"[{within[1] if within and is_tuple else written.strip()}]"
+
+
+def one_sum(node: DocumentNode, what: str) -> str:
+    """`write a + b` for the list `[a, b]` and the map `{spring: a, weight: b}`."""
+    terms = node.items if isinstance(node, Sequence) else []
+    if isinstance(node, Mapping):
+        pairs = [(value, key) for key, value in node.entries]
+        terms = [k if isinstance(v, Scalar) and v.is_empty else v for v, k in pairs]
+    written = [term.value.strip() for term in terms if isinstance(term, Scalar)]
+    if what.startswith("the initial") and len(written) == 2:
+        return "write x: {}, x': {}".format(*written)
+    if what == "'until'" and written:
+        return f"a motion begins at t = 0: write {written[-1]}"
+    return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""
+
+
+def as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
+    """How a text or a list is written as the map that it should be."""
+    written = node.text.source.text[node.start : node.end].strip()
+    if isinstance(node, Scalar) and names[0] == "where" and "=" in written:
+        return f"write {{where: {written}, for: x}}"
+    if isinstance(node, Scalar) and written in get_args(Assumption) and "assume" in names:
+        return f"write {{assume: {written}}}"
+    if isinstance(node, Scalar) and unit_behind(f"1 {written}") == written and "unit" in names:
+        return f"write {{unit: {written}}}"
+    if isinstance(node, Sequence) and names[0] == "unit" and unit_behind(f"1 {written[1:-1]}"):
+        return f"write {{unit: {written[1:-1]}}}"
+    if isinstance(node, Sequence) and names[0] == "unit" and "value" not in names:
+        return "a coordinate has no range: leave it out"
+    if isinstance(node, Sequence) and "value" in names:
+        number, _, unit = (each.strip() for each in written[1:-1].partition(","))
+        if unit and unit_behind(f"1 {unit}"):
+            return f"write {{value: {number}, unit: {unit}}}"
+        return "one value each; several are run by lagcli sweep --vary"
+    if isinstance(node, Scalar) and names[0] == "unit" and is_constant("x", written):
+        return "a state stands under initial, as in initial: {x: 1}"
+    if isinstance(node, Scalar) and names[0] == "unit" and written == "angle":
+        return "write {unit: rad}"
+    if isinstance(node, Scalar) and names[0] == "unit" and "value" not in names:
+        return f"write {{description: {written}}}"
+    if isinstance(node, Scalar) and names[0] == "where":
+        return f"write {{value: {written or '…'}, in_terms_of: [x]}}"
+    if isinstance(node, Sequence) and names[0] == "until" and node.items:
+        return f"write {{until: {written.strip('[]').split(',')[-1].strip()}}}"
+    if isinstance(node, Scalar) and names[0] == "position" and re.fullmatch(r"\(.*\)", written):
+        return f"write {{position: [{written[1:-1]}]}}"
+    if (words := written.split(None, 1)) and words[0] in names and words[1:]:
+        return f"write {{{words[0]}: {words[1]}}}"
+    fits = {"until": Scalar, "position": Sequence}.get(names[0])
+    if fits and isinstance(node, fits) and written:
+        return f"write {{{names[0]}: {written}}}"
+    return f"it has the keys {', '.join(names)}"
