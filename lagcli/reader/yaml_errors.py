@@ -48,9 +48,9 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
     line = lines[number]
     near = "\n".join(lines[max(0, number - 1) : number + 1])
     if blank := re.search(r"^\s*\w+:([^\S \t\r])", near, re.MULTILINE):
-        at = text.source.text.index(blank[1])
+        here = text.source.text.index(blank[1])
         message = f"the blank U+{ord(blank[1]):04X} is none that YAML knows"
-        return Diagnostic(message, text.span(at, at + 1), "type a usual blank there")
+        return Diagnostic(message, text.span(here, here + 1), "type a usual blank there")
     if (at := _cut_by_comment(lines, number)) is not None:
         place = text.line_starts[at] + lines[at].index("#")
         span = text.span(place, place + len(lines[at].rstrip()) - lines[at].index("#"))
