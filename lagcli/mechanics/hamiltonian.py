@@ -22,12 +22,12 @@ from sympy import Expr, Symbol
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant
+from lagcli.algebra.positivity import deciding
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
 from lagcli.mechanics.legendre import LegendreTransform
-from lagcli.mechanics.reduction.readable import deciding
 from lagcli.mechanics.system import System
 
 

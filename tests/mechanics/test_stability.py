@@ -10,8 +10,8 @@ import sympy
 from sympy import Rational
 
 from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.conditions import opposites
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
-from lagcli.mechanics.reduction.readable import opposites
 from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
 
 from .derived import derive

@@ -10,8 +10,8 @@ import pytest
 import sympy
 
 from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.oscillations.equilibria import RestPoints
-from lagcli.mechanics.reduction.readable import conditions
 from lagcli.pipeline import Request, state
 
 from .derived import derive

@@ -6,8 +6,8 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra.real_roots import not_negative_where_real
+from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.noether import NoetherCharge
-from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.system import System
 from lagcli.statements.motions import Above
 

@@ -17,11 +17,11 @@ from sympy import Dummy
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.positivity import weak_sign
 from lagcli.document import Block
 from lagcli.expression import Name
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import says
-from lagcli.mechanics.stability.signs import weak_sign
 from lagcli.statements.motions import SteadyMotion
 
 

@@ -12,9 +12,9 @@ from lagcli.algebra import is_zero, nullspace, shape, simplify
 from lagcli.algebra.signs import sign
 from lagcli.document import Block, Equations, Label, Row, equations_of, vanishing
 from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, operation_count, sum_of
+from lagcli.mechanics.conditions import above
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
-from lagcli.mechanics.reduction.readable import above
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
 from lagcli.statements.wording import linear_equations, place_rows
 

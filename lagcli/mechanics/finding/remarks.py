@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterable, Iterator
 from sympy import Add, Expr
 
 from lagcli.algebra import simplify
+from lagcli.algebra.positivity import deciding
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign_beside_zero
 from lagcli.expression import Expression
-from lagcli.mechanics.reduction.readable import deciding
 
 Remark = str | tuple[str | Expr, ...]
 

@@ -15,6 +15,7 @@ from lagcli.algebra import simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, SystemSolution, divisors, solve_system
 from lagcli.mechanics.dynamics import Dynamics
@@ -22,7 +23,6 @@ from lagcli.mechanics.oscillations.family import Family, exists_where, family
 from lagcli.mechanics.oscillations.kinks import at_cusps, at_kinks
 from lagcli.mechanics.oscillations.rest_conditions import RestConditions, RestPoint
 from lagcli.mechanics.oscillations.singular import is_pressed_to_an_edge, survives
-from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.statements.wording import FINITE_MASS, INDEPENDENT, NOT_ZERO
 
 _MAX_EVIDENT = 64

@@ -27,6 +27,7 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import is_zero, shape, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.place import at
+from lagcli.algebra.positivity import sign_of, weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.diagnostics import ProblemError
@@ -37,7 +38,6 @@ from lagcli.mechanics.oscillations.equilibria import RestPoints
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.oscillations.rest_conditions import RestPoint
 from lagcli.mechanics.reduction.minimal import with_lagrangian
-from lagcli.mechanics.stability.signs import sign_of, weak_sign
 from lagcli.problem_data import Constraint, pushing_sign
 from lagcli.record import record, replace
 

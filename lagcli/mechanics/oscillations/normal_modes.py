@@ -12,11 +12,11 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import nullspace, simplify
 from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.positivity import weak_sign, without_moduli
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.parameter_values import admissible_values
-from lagcli.mechanics.reduction.readable import weak_sign, without_moduli
 from lagcli.record import record
 
 _DIGITS = 60

@@ -21,6 +21,7 @@ from sympy import Expr, I, Symbol
 from lagcli.algebra import is_zero
 from lagcli.algebra.equations import written
 from lagcli.expression import Expression
+from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.equilibria import REACHED, TIMED, RestPoints
@@ -32,7 +33,6 @@ from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
 from lagcli.mechanics.oscillations.reduced_verdict import ReducedVerdict
 from lagcli.mechanics.oscillations.rest_conditions import RestPoint
 from lagcli.mechanics.oscillations.singular import OnMeridians, is_singular
-from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.stability.judge import (
     DRIFTS,
     EXCLUDED,

@@ -8,8 +8,8 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import simplify
+from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.reduction.readable import weak_sign
 
 
 class KnownSigns:

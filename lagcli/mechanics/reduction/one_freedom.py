@@ -24,9 +24,9 @@ from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
+from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.parameter_values import DIGITS, admissible_values
-from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_contacts import SteadyContacts
 from lagcli.mechanics.stability.inequalities import contradictory

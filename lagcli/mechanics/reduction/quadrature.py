@@ -16,8 +16,8 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of, square_part
+from lagcli.algebra.positivity import deciding, weak_sign
 from lagcli.mechanics.reduction.known_signs import KnownSigns
-from lagcli.mechanics.reduction.readable import deciding, weak_sign
 from lagcli.mechanics.reduction.root_integrals import ROOT, Integrals, Part, root_of
 from lagcli.mechanics.reduction.substitutions import IntegralSubstitution, substitutions
 from lagcli.record import record

@@ -8,8 +8,8 @@ from lagcli.algebra import simplify
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import written
 from lagcli.expression import Expression
+from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.oscillations.exceptions import unless_written
-from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.rolling import RollingMotion, RollingMotions
 from lagcli.mechanics.stability.statement import stated
 from lagcli.statements.motions import SteadyMotion, SteadySection

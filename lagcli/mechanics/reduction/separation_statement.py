@@ -8,12 +8,12 @@ from sympy import Expr
 from lagcli.algebra import shape, terms
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Call, Expression, Name, operation_count
+from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.hamiltonian_form import hamiltonian_form
 from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.reduction.driven import Driven
 from lagcli.mechanics.reduction.quadrature import ElementaryAction, closed_forms
-from lagcli.mechanics.reduction.readable import conditions
 from lagcli.mechanics.reduction.root_integrals import ROOT
 from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.statement import Missing

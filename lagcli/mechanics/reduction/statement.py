@@ -32,12 +32,13 @@ from lagcli.expression import (
     terms_of,
     walk,
 )
+from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.reduction.effective_potential import effective_potential
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Motion
 from lagcli.mechanics.reduction.one_freedom import free_name
 from lagcli.mechanics.reduction.period import AmplitudeSeries as Found
 from lagcli.mechanics.reduction.period import Periods
-from lagcli.mechanics.reduction.readable import conditions, effective_potential
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.statements.answers import EquationsSection, LagrangeEquation, ReductionSection
 from lagcli.statements.motions import Irreducible, OneFreedom, PeriodSeries

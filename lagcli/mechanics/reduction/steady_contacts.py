@@ -15,9 +15,9 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
 from lagcli.algebra.place import at
+from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.oscillations.held import one_sided
-from lagcli.mechanics.reduction.readable import weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_motion import Steady
 from lagcli.record import replace

@@ -22,10 +22,10 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.place import at
+from lagcli.algebra.positivity import deciding, weak_sign
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
-from lagcli.mechanics.reduction.readable import deciding, weak_sign
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_motion import Steady
 

@@ -13,7 +13,9 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import rounded, written
 from lagcli.algebra.place import at
+from lagcli.algebra.positivity import is_positive, without_moduli
 from lagcli.expression import Expression
+from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.equilibria import RestPoints
@@ -24,7 +26,6 @@ from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import beats, choices, shorter
 from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
-from lagcli.mechanics.reduction.readable import conditions, without_moduli
 from lagcli.mechanics.reduction.rolling import RollingMotions
 from lagcli.mechanics.reduction.rolling_statement import rolling_section
 from lagcli.mechanics.reduction.routh import Routh
@@ -34,7 +35,6 @@ from lagcli.mechanics.reduction.steady_motion import Steady
 from lagcli.mechanics.stability.judge import GRAZES, judge
 from lagcli.mechanics.stability.lagrange_dirichlet import by_derivatives, by_routh
 from lagcli.mechanics.stability.near import Hypotheses
-from lagcli.mechanics.stability.signs import is_positive
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.mechanics.stability.verdict import Stability, undecided
 from lagcli.record import replace

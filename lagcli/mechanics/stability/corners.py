@@ -11,9 +11,9 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import simplify
 from lagcli.algebra.place import at
+from lagcli.algebra.positivity import sign_of
 from lagcli.mechanics.stability.lagrange_dirichlet import DECREASES, at_strict_minimum
 from lagcli.mechanics.stability.near import Near
-from lagcli.mechanics.stability.signs import sign_of
 from lagcli.mechanics.stability.verdict import Stability, unstable
 
 #: Derivatives that are looked at.

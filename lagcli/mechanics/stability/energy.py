@@ -17,9 +17,9 @@ from sympy import sign as sign_function
 from lagcli.algebra import dot, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant
+from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.reduction.readable import weak_sign
 
 _MOST = 6
 

@@ -21,8 +21,8 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.place import at
+from lagcli.algebra.positivity import sign_of
 from lagcli.mechanics.oscillations.linearization import Linearization
-from lagcli.mechanics.stability.signs import sign_of
 
 #: Of the potential; no textbook's equilibrium needs a higher one.
 _HIGHEST = 6

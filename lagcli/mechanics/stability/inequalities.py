@@ -12,8 +12,7 @@ from sympy.core.function import AppliedUndef
 
 from lagcli.algebra import simplify
 from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.reduction.readable import deciding
-from lagcli.mechanics.stability.signs import sign_of
+from lagcli.algebra.positivity import deciding, sign_of
 
 _DRAWS = 400  # a region that takes a hundredth of the values is missed once in 50 times
 _DIGITS = 15

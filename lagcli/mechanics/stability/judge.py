@@ -14,6 +14,7 @@ Where signs depend on values, the conditions are given instead.
 from __future__ import annotations
 
 from lagcli.algebra.place import at
+from lagcli.algebra.positivity import sign_of
 from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.oscillations.singular import OnMeridians
@@ -28,7 +29,6 @@ from lagcli.mechanics.stability.lagrange_dirichlet import (
 from lagcli.mechanics.stability.lyapunov import FALLS, by_a_growing_root, falls
 from lagcli.mechanics.stability.near import Near
 from lagcli.mechanics.stability.roots import by_roots
-from lagcli.mechanics.stability.signs import sign_of
 from lagcli.mechanics.stability.uniform import displaced_it_accelerates
 from lagcli.mechanics.stability.verdict import Stability, undecided, unstable
 from lagcli.record import replace

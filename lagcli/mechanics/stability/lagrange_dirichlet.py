@@ -19,6 +19,7 @@ from collections.abc import Sequence
 
 from sympy import Expr, count_ops
 
+from lagcli.algebra.positivity import sign_of, weak_sign
 from lagcli.mechanics.stability.higher import (
     order_at_critical_values,
     order_of_minimum,
@@ -28,7 +29,6 @@ from lagcli.mechanics.stability.inequalities import contradictory
 from lagcli.mechanics.stability.lyapunov import FALLING
 from lagcli.mechanics.stability.near import Hypotheses, Near
 from lagcli.mechanics.stability.roots import ALL_ROOTS, NEUTRAL, by_roots
-from lagcli.mechanics.stability.signs import sign_of, weak_sign
 from lagcli.mechanics.stability.verdict import Stability, undecided, unstable
 from lagcli.mechanics.theorems import (
     HURWITZ,

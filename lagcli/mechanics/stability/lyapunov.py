@@ -16,8 +16,8 @@ from collections.abc import Sequence
 
 from sympy import Expr, Float, I, im
 
+from lagcli.algebra.positivity import sign_of, weak_sign
 from lagcli.mechanics.stability.near import Near
-from lagcli.mechanics.stability.signs import sign_of, weak_sign
 from lagcli.mechanics.stability.verdict import Stability, unstable
 from lagcli.mechanics.theorems import KELVIN_TAIT_CHETAEV
 

@@ -9,9 +9,9 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import simplify
+from lagcli.algebra.positivity import deciding
 from lagcli.expression import Equation, Expression, Name
 from lagcli.formatters.grammar import to_grammar
-from lagcli.mechanics.reduction.readable import deciding
 from lagcli.mechanics.verify import conjunction, disjunction
 from lagcli.problem_data import (
     ExpectEquilibrium,

@@ -1,0 +1,142 @@
+"""Signs for all values that the assumptions allow, where nothing that is divided by is 0."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import sympy
+from sympy import Expr, S
+
+from lagcli.algebra.entry import Field
+from lagcli.algebra.equations import coefficients
+from lagcli.algebra.factors import factors_of
+from lagcli.algebra.one_ratio import in_one_ratio
+from lagcli.algebra.ring import factorization
+from lagcli.algebra.signs import between_angles, sign, sign_beside_zero, sign_of_circle
+from lagcli.algebra.simplification import simplify
+
+
+def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
+    """A polynomial that is positive just where the expression is.
+
+    Factors of known sign are left out, and squares that are divided by, which are not 0.
+    """
+    kept, direction = S.One, 1
+    nonzero: dict[Expr, None] = {}
+    for factor, power in with_sines(expression):
+        even = power % 2 == 0
+        known = 1 if even and factor**2 in positive else None
+        known = sign(factor**2 if even else factor, positive) if known is None else known
+        if known is None and power < 0:
+            known = _beside_zero(factor)
+        if known is not None:
+            direction *= known if power % 2 else 1
+        elif factor.is_Pow and factor.exp.is_Rational and not factor.exp.is_Integer:
+            rest = S.One if sign(factor.base, positive) == 1 else deciding(factor.base, positive)
+            kept *= S.One if rest in {x**2 for x in nonzero} else rest
+        elif isinstance(factor, sympy.Abs):
+            nonzero[factor.args[0]] = None
+        elif even:
+            nonzero |= {factor: None} if power > 0 else {}
+        else:
+            kept *= factor
+    return direction * sympy.Mul(kept, *(x**2 for x in nonzero))
+
+
+def with_sines(expression: Expr) -> list[tuple[Expr, int]]:
+    """The factors, cos² - 1 among them as -sin², which has one sign."""
+    powers = dict(factors_of(expression))
+    for factor in list(powers):
+        less = factor - 2
+        if isinstance(factor - 1, sympy.cos) and powers.get(less) == powers[factor]:
+            power = powers.pop(less)
+            del powers[factor]
+            powers[sympy.sin((factor - 1).args[0])] = 2 * power
+            powers[S.NegativeOne] = powers.get(S.NegativeOne, 0) + power
+    return list(powers.items())
+
+
+def is_positive(expression: Expr, positive: Sequence[Expr] = ()) -> bool:
+    """Whether it is positive wherever it is finite: what it is divided by is not 0."""
+    return sign(expression, positive) == 1 or _by_factors(expression, positive) == 1
+
+
+def weak_sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
+    """1 or -1 where the expression has no other sign, though it may be 0; else None."""
+    return _by_factors(expression, positive, zeros=True)
+
+
+@between_angles
+def _by_factors(
+    expression: Expr, positive: Sequence[Expr] = (), *, zeros: bool = False
+) -> int | None:
+    """The sign where no divisor is 0, nor the expression itself, which `zeros` allows."""
+    result = 1
+    for factor, power in factors_of(expression):
+        beside_zero = zeros or power < 0
+        if power % 2 == 0 and beside_zero:
+            continue
+        known = sign(factor**power, positive)
+        known = _beside_zero(factor) if beside_zero and not known else known
+        if known is None:
+            return None
+        result *= known
+    return result
+
+
+def without_moduli(expression: Expr, positive: Sequence[Expr]) -> Expr:
+    """The expression with x or -x for |x| where x has one sign beside 0."""
+    put_in = {
+        modulus: known * modulus.args[0]
+        for modulus in expression.atoms(sympy.Abs)
+        if (known := weak_sign(modulus.args[0], positive)) is not None
+    }
+    return simplify(expression.xreplace(put_in)) if put_in else expression
+
+
+def _beside_zero(factor: Expr) -> int | None:
+    """The sign of what has only one beside 0: roots, moduli, cos - 1 and cos + 1."""
+    if isinstance(factor, sympy.Abs) or (factor.is_Pow and factor.exp == S.Half):
+        return 1
+    return sign_of_circle(factor) or sign_beside_zero(factor)
+
+
+def sign_of(expression: Expr, positive: Sequence[Expr]) -> int | None:
+    """1, -1 or 0 where it has one sign for all values; else None."""
+    known = sign(expression, positive)
+    for other in (_on_the_circle, _in_one_ratio):
+        known = other(expression, positive) if known is None else known
+    return known
+
+
+def _in_one_ratio(expression: Expr, positive: Sequence[Expr]) -> int | None:
+    """1 or -1 for what has one sign at all ratios that `positive` leaves."""
+    if not all(s.is_positive for s in expression.free_symbols):
+        return None
+    rest = deciding(expression, positive)
+    return next((side for side in (1, -1) if in_one_ratio([side * rest], positive) == []), None)
+
+
+def _on_the_circle(expression: Expr, positive: Sequence[Expr]) -> int | None:
+    """1 for a + b cos(x) with a > 0 and squares at cos = 1 and cos = -1, over a positive."""
+    field = Field([expression])
+    element = field(expression)
+    below = sign(1 / field.to_sympy(field.polynomial(element.denominator)), positive)
+    if below is None:
+        return None
+    poly = element.numerator * below
+    for g in field.ring.used(poly):
+        if field.generators[g].kind != "cos" or field.ring.degree(poly, g) != 1:
+            continue
+        if g + 1 in field.ring.used(poly):
+            continue
+        a, b = coefficients(field, poly, g)
+        ends = [(a + b).numerator, (a - b).numerator]
+        if sign(field.to_sympy(a), positive) == 1 and all(map(_is_a_square, ends)):
+            return 1
+    return None
+
+
+def _is_a_square(poly: object) -> bool:
+    content, factors = factorization(poly)
+    return int(content) > 0 and all(exponent % 2 == 0 for _, exponent in factors)

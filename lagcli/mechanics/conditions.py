@@ -1,0 +1,140 @@
+"""What must be positive, as inequalities that are read: without what is known or implied."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import sympy
+from sympy import Expr, S
+
+from lagcli.algebra import shape, simplify
+from lagcli.algebra.factors import factors_of
+from lagcli.algebra.one_ratio import in_one_ratio
+from lagcli.algebra.positivity import deciding, weak_sign, with_sines
+from lagcli.algebra.signs import sign
+from lagcli.expression import ZERO, operation_count
+from lagcli.statements.motions import Above
+
+
+def conditions(
+    expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
+) -> tuple[Above, ...]:
+    """What must be positive, without what the others imply."""
+    solved = _in_ratios(expressions, positive)
+    split = [part for expression in solved for part in _without_squares(expression)]
+    kept = _without_implied(sorted(split, key=_is_square), order, positive)
+    return tuple(dict.fromkeys(each for each, _ in kept))
+
+
+def opposites(
+    expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
+) -> tuple[Above, ...]:
+    """The opposite inequalities of `conditions`, those that can hold."""
+    solved = _in_ratios(expressions, positive)
+    plain = [_without_zeros(each, solved) for each in solved]
+    kept = _without_implied(plain, order, positive, squares=True)
+    possible = [each for each, rest in kept if weak_sign(rest, positive) != 1]
+    return tuple(dict.fromkeys(Above(each.right, each.left) for each in possible))
+
+
+def _in_ratios(expressions: Sequence[Expr], positive: Sequence[Expr]) -> list[Expr]:
+    """What must be positive, solved for a ratio of parameters: all for one, else each for its."""
+    plain = [deciding(e, positive) for e in expressions]
+    together = in_one_ratio(plain, positive)
+    if together is not None:
+        return together
+    each = ((e, in_one_ratio([p], positive)) for e, p in zip(expressions, plain, strict=True))
+    return [part for e, parts in each for part in ([e] if parts is None else parts)]
+
+
+def _without_zeros(expression: Expr, all_: Sequence[Expr]) -> Expr:
+    """The expression over x² where at x = 0 another one is negative."""
+    for factor, power in factors_of(expression):
+        if factor.is_Symbol and power > 0 and power % 2 == 0:
+            others = [e.xreplace({factor: S.Zero}) for e in all_ if e is not expression]
+            if -1 in map(sign, others):
+                expression = simplify(expression / factor**power)
+    return expression
+
+
+def _without_implied(
+    expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr], *,
+    squares: bool = False,
+) -> list[tuple[Above, Expr]]:  # fmt: skip
+    """Each with what must be positive for it; `squares` stay that may be 0 with the others."""
+    known = list(positive)
+    found: list[tuple[Above, Expr]] = []
+    for expression in expressions:
+        each = above(expression, order, known)
+        rest = deciding(expression)
+        if each is not None and not any(
+            _implies(given, form) for given in known for form in (expression, rest)
+        ):
+            found = [(a, e) for a, e in found if not _implies(rest, e)]
+            found.append((each, rest))
+            known.append(rest)
+    for _ in range(2):  # what is shorter the first time may imply others
+        for inequality, rest in tuple(found):
+            k = found.index((inequality, rest))
+            others = [*positive, *(e for _, e in found[:k] + found[k + 1 :])]
+            if squares and any(p > 0 and p % 2 == 0 for _, p in with_sines(rest)):
+                others = list(positive)
+            shorter = above(rest, order, others)
+            found[k : k + 1] = [] if shorter is None else [(shorter, deciding(rest, others))]
+    return found
+
+
+def _without_squares(expression: Expr) -> list[Expr]:
+    """k p² > 0 is k > 0 and p² > 0, which is p ≠ 0."""
+    rest = deciding(expression)
+    squares = [f**p for f, p in with_sines(rest) if p % 2 == 0 and p > 0]
+    other = simplify(rest / sympy.Mul(*squares))
+    return [*([] if other == 1 else [other]), *squares] if squares else [expression]
+
+
+def _is_square(expression: Expr) -> bool:
+    return bool(expression.is_Pow and expression.exp % 2 == 0)
+
+
+def _implies(given: Expr, expression: Expr) -> bool:
+    """Whether the expression is a positive multiple of what is positive, and something positive."""
+    if _is_square(expression) and expression.base.is_Symbol:  # given fails at x = 0
+        at_zero = given.xreplace({expression.base: S.Zero})
+        return at_zero == 0 or weak_sign(at_zero) == -1
+    own, other = (e.expand().as_coefficients_dict() for e in (expression, given))
+    ratios = {own[term] / other[term] for term in own if term in other}
+    rests = (simplify(expression - ratio * given) for ratio in ratios if ratio.is_positive)
+    return any(rest == 0 or weak_sign(rest) == 1 for rest in rests)
+
+
+def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ()) -> Above | None:
+    """`left > right` for an expression that is to be positive; None where it always is."""
+    rest = deciding(expression, positive)
+    if rest == 1:
+        return None
+    if any(power % 2 == 0 for _, power in with_sines(rest)):
+        return Above(shape(rest, order), ZERO)
+    differences = [factor for factor, _ in factors_of(rest) if factor.is_Add]
+    if len(differences) == 2 and all(map(_is_difference, differences)):  # (A - B) (A - C) > 0
+        return Above(shape(rest, order), ZERO)
+    by_monomial: dict[Expr, Expr] = {}
+    for term in rest.expand().as_ordered_terms():
+        number, monomial = term.as_independent(*term.free_symbols, as_Add=False)
+        by_monomial[monomial] = by_monomial.get(monomial, S.Zero) + number
+    right = -sympy.Add(*(n * m for m, n in by_monomial.items() if n < 0))
+    left = sympy.Add(*(n * m for m, n in by_monomial.items() if n > 0))
+    found = Above(shape(left, order), shape(right, order))
+    constant, others = left.as_coeff_Add()
+    if constant > 0 and others != 0:  # 1 > 27 mu (1 - mu)
+        other = Above(shape(constant, order), shape(simplify(right - others), order))
+        found = min(found, other, key=_operations)
+    return found
+
+
+def _is_difference(factor: Expr) -> bool:
+    """A - B."""
+    return len(factor.args) == 2 and sum(t.could_extract_minus_sign() for t in factor.args) == 1
+
+
+def _operations(each: Above) -> int:
+    return operation_count(each.left) + operation_count(each.right)

@@ -1,0 +1,76 @@
+"""U_eff as it is read: squares of the momenta over what they are divided by, then the rest.
+
+Landau, Lifshitz, *Mechanics*, 3rd ed., section 35, problem 1: for the heavy top
+(M_z - M_3 cos)^2/(2 I_1 sin^2) + M_3^2/(2 I_3) + mu g l cos.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from sympy import Expr, S, Symbol
+
+from lagcli.algebra import is_zero, shape, simplify, terms
+from lagcli.algebra.build import free_of
+from lagcli.algebra.leaves import Translator
+from lagcli.algebra.writing import Writer
+from lagcli.expression import Expression, operation_count
+
+#: Operations by which a potential as given may exceed another form and is left as it is.
+_LONGER = 1
+
+
+def effective_potential(
+    expression: Expr, momenta: Sequence[Symbol], order: Sequence[str], given_V: Expr | None = None
+) -> Expression:
+    """The shorter of the sum over monomials in the momenta and the sum of squares.
+
+    What has no momenta is left as `given_V`, the potential of the file, has it.
+    """
+    static = expression.xreplace(dict.fromkeys(momenta, S.Zero))
+    given = terms(static, order, ())
+    if given_V is not None and is_zero(given_V - static) is True:
+        given = _as_given(given_V, order)
+    if not momenta:
+        return given
+    plain = terms(expression, order, {p.name for p in momenta})
+    squares = _squares(expression, momenta)
+    if squares is None:
+        return plain
+    writer = Writer(order)
+    *quadratic, rest = squares
+    parts = [shape(each, order) for each in quadratic]
+    linear = not free_of(rest, momenta)
+    parts.append(terms(rest, order, {p.name for p in momenta}) if linear else given)
+    written = writer.sum(parts)
+    longer = operation_count(written) - operation_count(plain)
+    return written if longer <= (0 if linear else _LONGER) else plain
+
+
+def _as_given(potential: Expr, order: Sequence[str]) -> Expression:
+    """A potential as the file has it, unless another form is shorter by more than a little."""
+    found, given = terms(potential, order, ()), Translator(Writer(order)).tree(potential)
+    return given if operation_count(given) <= operation_count(found) + _LONGER else found
+
+
+def _squares(expression: Expr, momenta: Sequence[Symbol]) -> list[Expr] | None:
+    """[k_1 (p_1 + …)²/2, …, what is of lower degree in p]; None without a quadratic form."""
+    second = [[simplify(expression.diff(a, b)) for b in momenta] for a in momenta]
+    if not momenta or any(not free_of(entry, momenta) for row in second for entry in row):
+        return None
+    rest = expression
+    found = []
+    for i in range(len(momenta)):
+        pivot = second[i][i]
+        if is_zero(pivot) is not False:
+            return None
+        along = [simplify(entry / pivot) for entry in second[i]]
+        linear = sum((c * q for c, q in zip(along[i:], momenta[i:], strict=True)), S.Zero)
+        square = pivot * linear**2 / 2
+        found.append(square)
+        rest -= square
+        second = [
+            [simplify(second[a][b] - pivot * along[a] * along[b]) for b in range(len(momenta))]
+            for a in range(len(momenta))
+        ]
+    return [*found, simplify(rest)]
