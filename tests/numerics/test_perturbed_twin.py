@@ -2,13 +2,16 @@
 
 from fractions import Fraction
 from math import sin, ulp
+from random import Random
 
 import pytest
 
-from lagcli.numerics.certified.perturbed_twin import BesideDoubles, fast
+from lagcli.numerics.certified.perturbed_twin import BesideDoubles, clocked
 
 from .running import last, simulated
 
+DRAW = Random(16)
+FALLS = [(f"{DRAW.uniform(0.7, 0.8):.3f}", f"{DRAW.uniform(0.5, 2):.3f}") for _ in range(2)]
 METHODS = ["auto", "taylor64", "dop853", "yoshida8"]
 OSCILLATOR = """
 coordinates: [x]
@@ -111,9 +114,32 @@ def test_what_an_elimination_rounds_alike_in_both_runs_is_in_the_claim(method):
             assert abs(x - true) <= claimed + 2.0**-53
 
 
-def test_the_clock_is_fast_but_at_the_end():
+def test_the_clock_is_fast_or_slow_but_at_the_end():
     times = [0.0, 0.1, 7.0]
-    assert fast(times) == [0.0, 0.1 * (1 + 2.0**-52), 7.0]
+    assert clocked(times, 1) == [0.0, 0.1 * (1 + 2.0**-52), 7.0]
+    assert clocked(times, -1) == [0.0, 0.1 * (1 - 2.0**-52), 7.0]
+
+
+@pytest.mark.parametrize(("height", "strength"), [("0.854", "0.655"), ("0.702", "1.771"), *FALLS])
+def test_a_fall_feels_its_height_and_the_clock_alike(height, strength):
+    """t = sqrt(h^3/(8 k)) (s + sin s), x = h (1 + cos s)/2: h and the clock may cancel."""
+    from mpmath import cos, findroot, mpf, sin, sqrt, workdps
+
+    text = f"{{coordinates: [x], T: x'^2/2, V: -{strength}/x, initial: {{x: {height}}}}}"
+    result = simulated(text, 5, 1e-13, samples=17)
+    bounds = list(result.certificate.global_error.values())
+    t, *row = result.rows[-1]
+    with workdps(40):
+        h, k = mpf(height), mpf(strength)
+        unit = sqrt(h**3 / (8 * k))
+        s = findroot(lambda s: unit * (s + sin(s)) - mpf(t), 2.4, tol=1e-70)
+        x = h * (1 + cos(s)) / 2
+        true = x, -sqrt(2 * k * (1 / x - 1 / h))
+        assert t > 0.9 * unit * mpf("3.1416")
+        for a, b, bound, scale in zip(
+            true, row, bounds, result.certificate.scales[1:], strict=True
+        ):
+            assert abs(a - b) <= bound * scale + abs(b) * 2.0**-53
 
 
 @pytest.mark.long

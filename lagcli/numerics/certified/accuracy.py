@@ -34,11 +34,11 @@ from typing import Any
 
 from lagcli.numerics.certified.clock import clock_errors, column_changes
 from lagcli.numerics.certified.drift import changes
-from lagcli.numerics.certified.partners import Partners
+from lagcli.numerics.certified.partners import Partners, both_stop, why_apart
 from lagcli.numerics.certified.rank import RankPlace, places
 from lagcli.numerics.certified.scales import Scales, relative
 from lagcli.numerics.hybrid.run import Run
-from lagcli.numerics.integrators.steps import DEPENDENT, SINGULAR_MASS, CannotGoOn, component_scales
+from lagcli.numerics.integrators.steps import DEPENDENT, CannotGoOn, component_scales
 from lagcli.record import record, replace
 
 #: The runs' tolerances lie this far apart.
@@ -69,8 +69,9 @@ _SHARP = 1e-16
 #: Where the longest step binds both runs their steps must still differ, or so would nothing.
 _FINER_STEPS = 1.37
 
-#: (tolerance, longest step, peaks of the run before, probes at this interval of steps) -> run
-Runner = Callable[[float, float, "Sequence[float] | None", int], Run]
+#: (tolerance, longest step, peaks of the run before, probes at this interval of steps, whether with
+#: a slow clock where others have a fast one) -> run
+Runner = Callable[[float, float, "Sequence[float] | None", int, bool], Run]
 
 
 @record
@@ -151,9 +152,8 @@ class Controller:
             found = self._compared(coarse, rows, fine, fine_rows, (tolerance, finer))
             third = None
             if found.reached and fine.shortened:  # two may be near each other by chance
-                third = self._run(tolerance / _THIRD, level, fine)
-                again = self._compared(*third, fine, fine_rows, (tolerance, finer))
-                found = max(found, again, key=lambda each: (not each.reached, max(each.held)))
+                third = self._run(tolerance / _THIRD, level, fine, slow=True)
+                found = self._worse(found, third)
             self._furthest = self.furthest(found)
             if found.reached or self._stepped_over(fine):
                 missed = self._missed(fine, fine_rows)
@@ -169,7 +169,7 @@ class Controller:
                     continue
                 self._is_refused = True
                 return replace(found, reached=False, reason=missed, good_rows=1)
-            if finer <= self.finest or _both_stop(coarse, fine, found.good_rows, self.accuracy):
+            if finer <= self.finest or both_stop(coarse, fine, found.good_rows, self.accuracy):
                 return found
             bound = max(found.errors)
             before, apart = apart, bound / self.factor(finer, fine)
@@ -210,11 +210,22 @@ class Controller:
         needed = _MARGIN * tolerance * self.accuracy / bound
         return finer if needed > finer / _NEXT else max(needed, self.finest * BETWEEN)
 
-    def _run(self, tolerance: float, level: int, before: Run | None) -> tuple[Run, list[list[Any]]]:
+    def _worse(self, found: Outcome, third: tuple[Run, list[list[Any]]]) -> Outcome:
+        """Of two comparisons with the finer run the one that says less.
+
+        What a motion feels of its initial values may cancel what it feels of a fast clock, but
+        then not what it feels of a slow one.
+        """
+        again = self._compared(*third, found.run, found.rows, found.tolerances)
+        return max(found, again, key=lambda each: (-each.good_rows, not each.reached, *each.held))
+
+    def _run(
+        self, tolerance: float, level: int, before: Run | None, *, slow: bool = False
+    ) -> tuple[Run, list[list[Any]]]:
         every = 0 if before is None else max(1, int(2 * before.steps / _PROBES))
         peaks = None if before is None or before.stop is not None else before.scales
         longest = self.span / (self._longest[level] * _FINER_STEPS**self._finer)
-        run = self.runner(tolerance, longest, peaks, every)
+        run = self.runner(tolerance, longest, peaks, every, slow)
         self._finer, self.runs = self._finer + 1, self.runs + 1
         self.evaluations += run.evaluations
         return run, run.rows()
@@ -263,7 +274,7 @@ class Controller:
             lost_at,
             good,
             reached,
-            "" if reached else _why(coarse, fine, good, partner),
+            "" if reached else why_apart(coarse, fine, good, partner),
             self.runs,
             self.evaluations,
             tolerances,
@@ -311,6 +322,8 @@ class Controller:
         coarse, rows = self._run(found.tolerances[0], self._level, None)
         again, fine_rows = self._run(found.tolerances[1], self._level, coarse)
         closer = self._compared(coarse, rows, again, fine_rows, found.tolerances)
+        third = self._run(found.tolerances[0] / _THIRD, self._level, again, slow=True)
+        closer = self._worse(closer, third)
         if closer.good_rows < good:
             return found
         # beyond these there is the end alone: what lies between was not within the accuracy
@@ -372,24 +385,3 @@ def ended(outcome: Outcome, place: RankPlace) -> Outcome:
     at, last = (place.begin + place.end) / 2, run.marks[good - 1]
     run.stop = CannotGoOn(at, last.q, last.v, DEPENDENT)
     return replace(outcome, reached=False, good_rows=good, reason=DEPENDENT)
-
-
-def _both_stop(coarse: Run, fine: Run, good: int, accuracy: float) -> bool:
-    """Whether the motion itself ends, at a time that both runs know."""
-    if fine.steps >= fine.step_limit:
-        return True
-    if coarse.stop is None or fine.stop is None:
-        return False
-    together = abs(coarse.stop.t - fine.stop.t) <= accuracy * fine.stop.t
-    together = together or coarse.stop.reason == fine.stop.reason in (DEPENDENT, SINGULAR_MASS)
-    return together and good >= min(len(coarse.marks), len(fine.marks))
-
-
-def _why(coarse: Run, fine: Run, good: int, partner: Partners) -> str:
-    if fine.stop is not None:
-        return ""
-    if (coarse.event is None) != (fine.event is None):
-        return "whether the event takes place is within the error"
-    if not partner.agree:
-        return "which event comes next is within the error"
-    return "" if good < len(fine.marks) else "the two runs end at different rows"

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 from weakref import WeakKeyDictionary
 
-from lagcli.numerics.certified.perturbed_twin import elsewhere, fast, moved_state
+from lagcli.numerics.certified.perturbed_twin import clocked, elsewhere, moved_state
 from lagcli.numerics.certified.prepared import ROUNDED, Prepared
 from lagcli.numerics.compiled.engine import NoCompiler, engine
 from lagcli.numerics.compiled.machine import Machine, NotCompiled
@@ -179,10 +179,10 @@ def prepared_doubles(simulation: Setup, doubles: Modes) -> Prepared | str:
     def prepared(other: Runs, beside: tuple[Sequence[Any], Sequence[Any]]) -> Prepared:
         both, states = (usual, other), (simulation.start, beside)
 
-        def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
-            times = fast(simulation.times) if moved else simulation.times
-            both[moved].foreseen = lambda steps: too_many(steps / _CERTAINLY)
-            done = both[moved].run(states[moved], times, bound, every, progress)
+        def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: int) -> Run:
+            runs, times = both[moved != 0], clocked(simulation.times, moved)
+            runs.foreseen = lambda steps: too_many(steps / _CERTAINLY)
+            done = runs.run(states[moved != 0], times, bound, every, progress)
             too_many(done.steps)
             return done
 
@@ -277,14 +277,14 @@ def _prepared(
     ]
     states = (exact_q, exact_v), (moved_state[: motion.n], moved_state[motion.n :])
 
-    def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
+    def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: int) -> Run:
         times: list[Any] = simulation.times
-        if moved:  # by a clock that is a rounding fast
-            clock = 1 + 2 * Fraction(numbers.rounding)
+        if moved:  # by a clock that is a rounding fast, or slow
+            clock = 1 + 2 * moved * Fraction(numbers.rounding)
             times = [*(Fraction(t) * clock for t in times[:-1]), times[-1]]
         bound.unit = numbers.rounding / DOUBLE.rounding
         try:
-            return runs.run(states[moved], times, bound, every, progress)
+            return runs.run(states[moved != 0], times, bound, every, progress)
         except (OverflowError, NotCompiled, Refusal) as reason:
             raise NotPossible(str(reason)) from None
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.run import Run
+from lagcli.numerics.integrators.steps import DEPENDENT, SINGULAR_MASS
 
 
 class Partners:
@@ -64,3 +65,25 @@ class Partners:
         # one run is already beyond the event: the nearest state on the same side
         ahead = place is None or self._marks[place].phase > mark.phase
         return self._sides.get((mark.phase, not ahead))
+
+
+def both_stop(coarse: Run, fine: Run, good: int, accuracy: float) -> bool:
+    """Whether the motion itself ends, at a time that both runs know."""
+    if fine.steps >= fine.step_limit:
+        return True
+    if coarse.stop is None or fine.stop is None:
+        return False
+    together = abs(coarse.stop.t - fine.stop.t) <= accuracy * fine.stop.t
+    together = together or coarse.stop.reason == fine.stop.reason in (DEPENDENT, SINGULAR_MASS)
+    return together and good >= min(len(coarse.marks), len(fine.marks))
+
+
+def why_apart(coarse: Run, fine: Run, good: int, partner: Partners) -> str:
+    """Why two runs without an error beyond the accuracy are not one motion to the end."""
+    if fine.stop is not None:
+        return ""
+    if (coarse.event is None) != (fine.event is None):
+        return "whether the event takes place is within the error"
+    if not partner.agree:
+        return "which event comes next is within the error"
+    return "" if good < len(fine.marks) else "the two runs end at different rows"

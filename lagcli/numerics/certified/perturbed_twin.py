@@ -97,9 +97,9 @@ def _turned(values: Sequence[float], sign: int) -> list[float]:
     ]
 
 
-def fast(times: Sequence[float]) -> list[float]:
-    """The times, but for the last, by a clock that is a rounding of doubles fast."""
-    return [*(t * (1 + _EPSILON) for t in times[:-1]), times[-1]]
+def clocked(times: Sequence[float], moved: int) -> list[float]:
+    """The times, but for the last, by a clock that is a rounding of doubles fast, or slow."""
+    return [*(t * (1 + moved * _EPSILON) for t in times[:-1]), times[-1]]
 
 
 #: Those of modes that are still there: an ensemble runs the same ones many times.

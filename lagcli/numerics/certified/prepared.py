@@ -10,8 +10,8 @@ from typing import Any
 from lagcli.numerics.certified.accuracy import CHANCE, LONGEST, Controller, Outcome
 from lagcli.numerics.certified.perturbed_twin import (
     are_felt,
+    clocked,
     elsewhere,
-    fast,
     moved_state,
     other_parameters,
 )
@@ -34,8 +34,8 @@ ROUNDED = 10.0
 _CHANCE = 8.0
 
 
-#: (bound: Tolerance, every: int, progress, *, moved: bool) -> run: of the problem, or of one a
-#: rounding beside it (`moved`).
+#: (bound: Tolerance, every: int, progress, *, moved: int) -> run: of the problem, or of one a
+#: rounding beside it, with a fast clock or a slow one (`moved` 1 or -1).
 OneRun = Callable[..., Run]
 
 
@@ -90,10 +90,12 @@ def in_doubles(make: MakeMethod, simulation: Setup, modes: Modes, rounded: float
     def prepared(other: Modes, beside: tuple[Vector, Vector]) -> Prepared:
         both, states = (usual, other), (simulation.start, beside)
 
-        def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: bool) -> Run:
-            made = Run(Transitions(both[moved], asked.accuracy, asked.until), bound, asked.accuracy)
-            times = fast(simulation.times) if moved else simulation.times
-            q, v = states[moved]
+        def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: int) -> Run:
+            made = Run(
+                Transitions(both[moved != 0], asked.accuracy, asked.until), bound, asked.accuracy
+            )
+            q, v = states[moved != 0]
+            times = clocked(simulation.times, moved)
             return made.go(q, v, times, probe_every=every, progress=progress)
 
         return Prepared(
@@ -121,10 +123,12 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
     total = 2  # runs that progress counts
     count = 0
 
-    def runner(tolerance: float, longest: float, peaks: Sequence[float] | None, every: int) -> Run:
+    def runner(
+        tolerance: float, longest: float, peaks: Sequence[float] | None, every: int, slow: bool
+    ) -> Run:
         n = len(simulation.equations.q)
         nonlocal count
-        moved, done = count % 2 == 0, simulation.finished
+        moved, done = -1 if slow else int(count % 2 == 0), simulation.finished
 
         def told(part: float) -> None:
             if simulation.progress is not None:
@@ -132,7 +136,7 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
 
         def again() -> Run:
             bound = Tolerance(tolerance, n, asked.until, longest, peaks, made.floor)
-            bound.moved = moved
+            bound.moved = moved != 0
             return made.run(bound, every, told, moved=moved)
 
         run = again()
@@ -157,7 +161,7 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
             ).outcome()
 
     outcome = found()
-    if outcome.reached and made.with_others is not None:
+    if outcome.good_rows > 1 and made.with_others is not None:
         others = other_parameters(simulation, modes)
         if others is not None and are_felt(outcome, others, asked.accuracy):
             made = made.with_others(others)

@@ -200,7 +200,7 @@ def _run(
         longest = asked.until / made.longest[0]
         bound = Tolerance(tolerance, n, asked.until, longest, None, made.floor)
         try:
-            run = made.run(bound, 0, ticked, moved=False)
+            run = made.run(bound, 0, ticked, moved=0)
         except LimitReached:
             return None
         if run.stop is not None:

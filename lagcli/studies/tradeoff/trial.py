@@ -145,7 +145,7 @@ def _single(
     def once() -> tuple[Run, float]:
         bound = Tolerance(tolerance, n, asked.until, longest, None, made.floor)
         before = process_time()
-        return made.run(bound, 0, ticked, moved=False), process_time() - before
+        return made.run(bound, 0, ticked, moved=0), process_time() - before
 
     with made.precision():
         run, integration = once()
