@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+
 import pytest
 
 from lagcli.formatters.grammar import to_grammar
@@ -124,3 +126,59 @@ def test_a_contact_on_which_nothing_presses_has_one_verdict():
     for each in (*places, *(steady_motions(derivation)[0].motions or ())):
         verdict = each.verdict
         assert (verdict.stable, verdict.reason) == (None, places[0].verdict.reason)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_constant_force_is_one_whether_it_stands_in_V_or_among_the_forces(seed):
+    """What falls with drag, with a spring or without: the same steady motions and verdicts."""
+    source = random.Random(f"falling {seed}")
+    spring, drag = source.choice(("", " - k*x")), source.choice(("c*x'", "c*x'*abs(x')"))
+    weight = f"{source.randint(1, 4)}*m*g"
+    head = (
+        "coordinates: [x]\nparameters: {m: {assume: positive}, g: {assume: positive}, "
+        "c: {assume: positive}, k: {assume: positive}}\nT: m*x'^2/2\n"
+    )
+    told = [
+        steady_motions(derive(head + each))[0].motions
+        for each in (
+            f"V: -{weight}*x\nforces: {{x: -{drag}{spring}}}\n",
+            f"forces: {{x: {weight} - {drag}{spring}}}\n",
+        )
+    ]
+    assert told[0] == told[1]
+    assert [not motion.free for motion in told[0]] == [True]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_damping_along_a_family_has_one_verdict_at_rest_and_among_steady_motions(seed):
+    """A pendulum below a cart that is damped: it comes to rest, wherever the cart then is."""
+    a, b = (random.Random(f"cart {seed}").randint(1, 5) for _ in range(2))
+    derivation = derive(
+        "coordinates: [x, theta]\nparameters: {m: {assume: positive}, g: {assume: positive}, "
+        "l: {assume: positive}, c: {assume: positive}}\n"
+        f"T: {a + 1}*m*x'^2/2 + m*l*x'*theta'*cos(theta) + m*l^2*theta'^2/2\n"
+        f"V: -m*g*l*cos(theta)\ndissipation: {b}*c*x'^2/2\n"
+    )
+    rest = [e.verdict for e in equilibria(derivation.dynamics).equilibria]
+    steady = [motion.verdict for motion in steady_motions(derivation)[0].motions]
+    assert [(v.stable, v.asymptotic) for v in rest] == [(True, True), (False, False)]
+    assert [(v.stable, v.asymptotic) for v in steady] == [(v.stable, v.asymptotic) for v in rest]
+
+
+def test_friction_between_two_bodies_does_not_deny_rest_as_a_steady_motion():
+    derivation = derive(
+        "coordinates: [x, y]\nparameters: {m: {assume: positive}, k: {assume: positive}, "
+        "f: {assume: positive}}\nT: m*(x'^2 + y'^2)/2\nV: k*x^2/2\n"
+        "forces: {x: -f*sign(x' - y'), y: f*sign(x' - y')}\n"
+    )
+    section, missing = steady_motions(derivation)
+    assert section.motions is None
+    assert "static friction" in missing[0][1]
+
+
+@pytest.mark.parametrize("power", [4, 6])
+def test_a_lagrangian_without_squares_of_velocities_is_not_singular_by_its_coordinates(power):
+    [rest] = equilibria(
+        derive(f"coordinates: [x]\nL: x'^{power}/{power} - x^4/4\n").dynamics
+    ).equilibria
+    assert "Hessian" in rest.verdict.reason

@@ -24,6 +24,7 @@ from lagcli.algebra.determinants import determinant
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
+from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.rest_conditions import RestConditions, RestPoint
 from lagcli.mechanics.parameter_values import admissible_values
@@ -67,6 +68,13 @@ def _complement(basis: Matrix, null: Matrix) -> Matrix:
         places = [k for k, x in enumerate(vector) if x != 0 and k not in gone]
         gone.add(places[-1])
     return [column for k, column in enumerate(basis) if k not in gone]
+
+
+def singular(dynamics: Dynamics) -> str:
+    """What is singular: L in the velocities, where it is so at rest everywhere, or coordinates."""
+    whole = determinant(dynamics.lagrange.mass_matrix_at_rest)
+    everywhere = whole is not None and is_zero(whole) is True
+    return "the Hessian of L in the velocities is" if everywhere else "the coordinates are"
 
 
 def is_singular(linear: Linearization) -> bool:

@@ -32,7 +32,7 @@ from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
 from lagcli.mechanics.oscillations.reduced_verdict import ReducedVerdict
 from lagcli.mechanics.oscillations.rest_conditions import RestPoint
-from lagcli.mechanics.oscillations.singular import OnMeridians, is_singular
+from lagcli.mechanics.oscillations.singular import OnMeridians, is_singular, singular
 from lagcli.mechanics.stability.judge import (
     DRIFTS,
     EXCLUDED,
@@ -51,7 +51,6 @@ _STICKS = "static friction holds it with force to spare"
 _KINK = f"{{V}} has a strict minimum there ({LAGRANGE_DIRICHLET.name})"
 _PRESSED = "it is pressed against what it touches"
 _HELD = "contacts, static friction or kinks of the potential hold what is at rest"
-_SINGULAR = "the coordinates are singular at the equilibria"
 _NO_LINEAR_PART = "a force has a kink or a jump at the equilibrium, and no linear part"
 _NO_MODES = "the equilibria do not exist for the values of the file"
 _NO_REAL_SQUARE = "no root ω² of the characteristic polynomial is real"
@@ -107,7 +106,7 @@ def _why_none(places: Sequence[Place]) -> str:
     if any(place.linear.drifts for place in places):
         return DRIFTS
     if all(place.at_singular_coordinates for place in places):
-        return _SINGULAR
+        return f"{singular(places[0].linear.dynamics)} singular at the equilibria"
     if not all(place.linear.smooth for place in places):
         return _NO_LINEAR_PART
     squares = [each for place in places for each in place.characteristic.squares or ()]

@@ -73,20 +73,6 @@ class RollingMotions:
         self.reason = ""
         self.complete = True
 
-    @staticmethod
-    def applies(derivation: Derivation) -> bool:
-        """Whether a coordinate may turn at a constant rate that no constant momentum gives.
-
-        Under a velocity constraint, or where a force acts along what L does not contain.
-        """
-        kinds = derivation.dynamics.constraints.kinds.values()
-        if any(kind != "holonomic" for kind in kinds):
-            return True
-        free = [derivation.system.q[j] for j in derivation.noether.cyclic]
-        forces = derivation.system.applied_forces
-        pushed = any(is_zero(forces[derivation.system.q.index(q)]) is not True for q in free)
-        return pushed and not kinds and not RestPoints(derivation.dynamics).has_no_value
-
     @property
     def drives(self) -> bool:
         """Whether a constraint makes rest impossible, as phi' = w does."""
@@ -317,11 +303,11 @@ class RollingMotions:
         return self._by_energy(motion) or self._at_rest(motion, found) or found, squares
 
     def _at_rest(self, motion: RollingMotion, found: Stability) -> Stability | None:
-        """The verdict on the equilibrium that it is, where the roots leave it open."""
+        """The verdict on the equilibrium that it is, unless the roots alone decide."""
         rates = (motion.values.get(self.system.qdot[j]) for j in self.turning)
-        if found.stable is not None or any(rate != 0 for rate in rates):
-            return None
-        return self._equilibria.verdict_at(motion.values)
+        moves = any(rate != 0 for rate in rates)
+        rest = None if moves else self._equilibria.verdict_at(motion.values)
+        return None if rest is None or (rest.is_open and not found.is_open) else rest
 
     @cached_property
     def _equilibria(self) -> SmallOscillations:

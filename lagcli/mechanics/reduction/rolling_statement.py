@@ -4,15 +4,36 @@ from __future__ import annotations
 
 from sympy import Expr
 
-from lagcli.algebra import simplify
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import written
 from lagcli.expression import Expression
 from lagcli.mechanics.conditions import conditions
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.oscillations.equilibria import RestPoints
 from lagcli.mechanics.oscillations.exceptions import unless_written
+from lagcli.mechanics.oscillations.held import held
 from lagcli.mechanics.reduction.rolling import RollingMotion, RollingMotions
 from lagcli.mechanics.stability.statement import stated
 from lagcli.statements.motions import SteadyMotion, SteadySection
+
+
+def applies(derivation: Derivation) -> bool:
+    """Whether a coordinate may turn at a constant rate that no constant momentum gives.
+
+    Under a velocity constraint, or where a force acts along what L contains at most linearly.
+    """
+    kinds = derivation.dynamics.constraints.kinds.values()
+    if any(kind != "holonomic" for kind in kinds):
+        return True
+    dynamics, system = derivation.dynamics, derivation.system
+    state, forces = (*system.q, *system.qdot, system.t), system.applied_forces
+    pairs = zip(dynamics.lagrange.lagrangian_forces, forces, strict=True)
+    pushed = any(free_of(along, state) and is_zero(f) is not True for along, f in pairs)
+    if kinds or not pushed or RestPoints(dynamics).has_no_value:
+        return False
+    return not any(each.sticking for each in held(dynamics))
 
 
 def rolling_section(found: RollingMotions) -> SteadySection:

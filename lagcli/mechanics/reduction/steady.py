@@ -28,13 +28,13 @@ from lagcli.mechanics.oscillations.equilibria import (
 from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.held import held
 from lagcli.mechanics.oscillations.rest_conditions import RestPoint
+from lagcli.mechanics.oscillations.singular import singular
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_contacts import SteadyContacts
 from lagcli.mechanics.reduction.steady_families import SteadyFamilies
 from lagcli.mechanics.reduction.steady_motion import Steady
 
-_AT_SINGULAR = "the conditions hold only where the coordinates are singular"
 _UNSOLVED = "no closed solution of the conditions of a steady motion was found"
 _ONLY_AT_REST = "under velocity constraints only states of rest were sought, and there is none"
 
@@ -84,7 +84,8 @@ class SteadyMotions:
             return None
         if not found and (self._singular or not self.complete):
             unsolved = _ONLY_AT_REST if self._solved and self._velocity_constraints else _UNSOLVED
-            self.reason = _AT_SINGULAR if self._singular else unsolved
+            where = f"the conditions hold only where {singular(self.dynamics)} singular"
+            self.reason = where if self._singular else unsolved
             return None
         self.reason = ""
         return tuple(found)

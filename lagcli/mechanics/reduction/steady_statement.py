@@ -27,7 +27,7 @@ from lagcli.mechanics.oscillations.normal_modes import beats, choices, shorter
 from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
 from lagcli.mechanics.reduction.rolling import RollingMotions
-from lagcli.mechanics.reduction.rolling_statement import rolling_section
+from lagcli.mechanics.reduction.rolling_statement import applies, rolling_section
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.statement import Missing
 from lagcli.mechanics.reduction.steady import SteadyMotions
@@ -43,7 +43,7 @@ from lagcli.statements.motions import Above, SteadyMotion, SteadySection, Verdic
 
 def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:
     """The steady motions with their stability, and what was not found."""
-    if RollingMotions.applies(derivation):
+    if applies(derivation):
         rolling = RollingMotions(derivation)
         if rolling.motions is not None:
             return rolling_section(rolling), []

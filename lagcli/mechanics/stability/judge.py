@@ -17,7 +17,7 @@ from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of
 from lagcli.mechanics.oscillations.characteristic import Characteristic
 from lagcli.mechanics.oscillations.linearization import Linearization
-from lagcli.mechanics.oscillations.singular import OnMeridians
+from lagcli.mechanics.oscillations.singular import OnMeridians, singular
 from lagcli.mechanics.reduction.averaged import averaged
 from lagcli.mechanics.stability.corners import by_both_sides
 from lagcli.mechanics.stability.lagrange_dirichlet import (
@@ -45,7 +45,6 @@ _EVERYWHERE = "every position along them is an equilibrium, and the kinetic ener
 _POWERS = "all roots are 0, and to first order displacements grow in proportion to a power of t"
 _NO_MOTION = "the equations of motion are singular there"
 _JUMPS = "a force jumps there, or its derivative does"
-_NO_COORDINATES = "the coordinates are singular there"
 
 
 def judge(linear: Linearization, characteristic: Characteristic | None = None) -> Stability:
@@ -83,10 +82,10 @@ def judge_on_average(linear: Linearization) -> Stability | None:
 
 def judge_on_meridians(linear: OnMeridians) -> Stability:
     """The stability where only the coordinates are singular, by the potential alone."""
-    near = Near(linear)
+    near, no_coordinates = Near(linear), f"{singular(linear.dynamics)} singular there"
     try:
         if not (near.has_energy and linear.smooth and linear.regular):
-            return undecided(_NO_COORDINATES)
+            return undecided(no_coordinates)
         if near.hypotheses.lacking:
             return undecided(near.hypotheses.lacking)
         if falls(near) and not linear.turns:
@@ -95,7 +94,7 @@ def judge_on_meridians(linear: OnMeridians) -> Stability:
     except ZeroDivisionError:
         return undecided(_NO_MOTION)
     if found is None:
-        return undecided(_NO_COORDINATES)
+        return undecided(no_coordinates)
     return replace(found, reverses=not linear.turns, asymptotic=False)
 
 

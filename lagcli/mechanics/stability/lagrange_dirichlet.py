@@ -130,6 +130,8 @@ def _minimum(near: Near, neutral: int) -> Stability:
         return by_higher_order(near) or undecided(_FLAT if near.linear.gyroscopic else NO_FORCE)
     if neutral > near.dimension_released:
         return undecided(NEUTRAL)
+    if near.linear.damped and (found := by_roots(near)).stable:
+        return found
     if not near.is_even:
         return undecided("{V} has a minimum across the family, perhaps not evenly along it")
     return replace(_stable(f"{_STRICT} across the family"), across=True)

@@ -124,4 +124,4 @@ def by_polynomial(
     if at_limit or any(weak_sign(e, positive) == -1 for e in conditions):
         return undecided(_LIMIT), squares
     open_ = tuple(e for e, known in zip(conditions, signs, strict=True) if known is None)
-    return Stability(spectrum=open_) if even else _negative(open_, across=True), squares
+    return Stability(spectrum=open_) if even else _negative(open_, across=dimension > 0), squares
