@@ -106,8 +106,10 @@ _PROGRAM = re.compile(r"\s*((import|from|def|class|return|print|using|function|e
 def colon_advice(line: str) -> str:
     """`write V: k*x` for a line such as `V k*x`, `V = k*x`, `V:k*x` or `V：k*x`."""
     found = re.match(r"\s*([^\W\d]\w*)(?:\s*[=:：]\s*|\s+)([^-+*/^].*)", line)
-    if re.match(r"\s*(/[/*]|['\"]{3})", line):
+    if re.match(r"\s*(/[/*]|['\"]{3}|;|%|--|<!)", line):
         return COMMENT
+    if re.match(r"\s*<\w", line):
+        return "write key: value, without tags"
     if _PROGRAM.match(line):
         return "leave it out: a problem has keys with their values, no program"
     if re.match(r"\s*\|", line):
@@ -185,13 +187,16 @@ def fraction(character: str) -> str:
 
 def function_meant(name: str, arguments: list[str]) -> str:
     """What to write instead of a function of other programs."""
-    if name in {"Derivative", "derivative", "D", "ddt", "dt", "Dt"} and arguments:
+    is_rate = name in {"Derivative", "derivative", "D", "ddt", "dt", "Dt", "der", "deriv"}
+    if (is_rate and arguments) or (name == "dot" and len(arguments) == 1):
         x = arguments[0]
         if arguments[2:] == ["2"] and _plain(x):
             return f"the acceleration of {x} is {x}'': write {x}''"
         return f"the velocity of {x} is {x}': write {x}'" if _plain(x) else ""
     if name in {"pow", "power", "Pow"} and len(arguments) == 2:
         return f"write {_group(arguments[0])}^{_group(arguments[1])}"
+    if name in {"Eq", "Equality"}:
+        return "write left = right"
     if name in {"sq", "square"} and len(arguments) == 1:
         return f"write {_group(arguments[0])}^2"
     if name in CASES:
@@ -232,6 +237,8 @@ _ARGUMENT = re.compile(r"\s*(?:\{([^{}]*)\}|(\\[A-Za-z]+|\w))")
 
 def latex_meant(text: str) -> str:
     """What to write instead of the LaTeX with which a text begins."""
+    if re.match(r"\\[,;:! ]", text):
+        return f"leave out {text[:2]}"
     macro = _MACRO.match(text)
     if macro is None:
         return ""

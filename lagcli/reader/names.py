@@ -219,8 +219,7 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     if not role.parameters and not role.definitions and role.order < 0:
         return role.why
     for function in FUNCTIONS:
-        inner = alike(name.removeprefix(function), scope.usable(role))
-        if name.startswith(function) and inner:
+        if inner := name.startswith(function) and alike(name[len(function) :], scope.usable(role)):
             return f"write {function}({inner})"
     if product := len(name) < 9 and product_meant(name, scope.usable(role)):
         return "did you mean " + product + "'" * primes + "?"

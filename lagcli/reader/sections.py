@@ -231,7 +231,8 @@ class Sections:
 
     def _is_unit(self, text: str) -> bool:
         """Whether a text is a unit, and none of its names is one of the file."""
-        known = any(name in self.scope.kinds for name in _NAME.findall(text))
+        names = _NAME.findall(text)
+        known = names and all(name in self.scope.kinds for name in names)
         return not known and unit_behind(f"1 {text}") == text != ""
 
     def _misplaced_unit(self, node: DocumentNode, what: str, unit: str) -> None:

@@ -94,7 +94,7 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
         return Diagnostic("a prime without a name", span, _prime_advice(tokens))
     if not character.isprintable():
         return Diagnostic(f"{shown} has no meaning in an expression", span, "leave it out")
-    if character in '"“”„' and not tokens:
+    if character in '"“”„' and not (tokens and tokens[-1].type == "NAME"):
         return Diagnostic("quotes are not part of a formula", span, "leave them out")
     if character in "°˚":
         number = tokens[-1] if tokens and tokens[-1].type == "NUMBER" else "x"
@@ -132,7 +132,9 @@ def _meant(rest: str, tokens: list[Token]) -> str:
         if variable not in {"", "t"}:
             return f"write diff({name}, {variable})"
         return f"write {name}" + ("''" if again in {"2", "t"} else "'")
-    word = re.match(r"\.([A-Za-z]\w*)(?:\(([^()]*)\))?", rest)
+    if rest.startswith("[t]") and before == "NAME":
+        return f"a coordinate is a function of t by itself: write {tokens[-1]}"
+    word = re.match(r"(?:\.|::)([A-Za-z]\w*)(?:\(([^()]*)\))?", rest)
     if word and before == "NAME":
         arguments = [each.strip() for each in (word[2] or "").split(",") if each.strip()]
         usual = meanings("functions").get(word[1], word[1])

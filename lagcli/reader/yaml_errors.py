@@ -6,7 +6,16 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.reader.habits import CASE, COMMENT, MAPS, SIGNS, colon_advice, habits, meanings
+from lagcli.reader.habits import (
+    CASE,
+    COMMENT,
+    MAPS,
+    SIGNS,
+    colon_advice,
+    habits,
+    latex_meant,
+    meanings,
+)
 
 if TYPE_CHECKING:
     from lagcli.reader.text import SourceText
@@ -46,6 +55,12 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
     lines = text.source.text.split("\n")
     number = text.position(offset)[0] - 1
     line = lines[number]
+    for place, each in enumerate(lines[: number + 1]):
+        if foreign := _FOREIGN.match(each):
+            begin = text.line_starts[place] + foreign.start(1)
+            foreign_line = text.span(begin, begin + len(each.strip()))
+            hint = COMMENT if foreign[2] else "a key is written without brackets: key: value"
+            return Diagnostic("this line is none of the file", foreign_line, hint)
     near = "\n".join(lines[max(0, number - 1) : number + 1])
     if blank := re.search(r"^\s*\w+:([^\S \t\r])", near, re.MULTILINE):
         here = text.source.text.index(blank[1])
@@ -61,8 +76,11 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return Diagnostic("this quote ends before the text does", span, hint)
     if "mapping values are not allowed" in said:
         return _second_colon(offset, text)
-    if re.match(r"\s*('''|\"\"\")", line):
-        return Diagnostic("this line is none of the file", span, COMMENT)
+    if latex := re.search(r"\\[A-Za-z]+\{", line):
+        begin = text.line_starts[number] + latex.start()
+        hint = latex_meant(line[latex.start() :])
+        message = "'\\' has no meaning in an expression"
+        return Diagnostic(message, text.span(begin, begin + 1), hint)
     if line.startswith("```"):
         return Diagnostic("this line is none of the file", span, f"leave out '{line}'")
     if text.source.text.startswith("?", offset):
@@ -111,6 +129,8 @@ _MIDDLE = re.compile(r"\s*([-+*^]|/(?![/*])|\w+[-+*/^(])")
 _CONTINUED = "a line that continues the one above it begins with blanks"
 #: A text in quotes with one of them inside.
 _QUOTED = re.compile(r"\s*([\w ]+):\s*(['\"])([^#]*\2[^#]*)\2\s*(?:#.*)?")
+#: A comment of another language, or the head of a section: // a, ; a, % a, <!-- a -->; [a].
+_FOREIGN = re.compile(r"\s*((//|/\*|;|%(?!YAML)|<!--|--\s|'''|\"\"\").*|\[\w+\]\s*$)")
 #: A formula within marks of Markdown: **m*x**, `m*x`.
 _EMPHASIS = re.compile(r"\s*[\w ]+:\s+(\*\*?|`+)([^\s*`].*[^\s*`])\1\s*(?:#.*)?$")
 #: A formula that begins with a group in braces.

@@ -12,7 +12,7 @@ _ELSEWHERE = {
     "dimensionless": "1",
     "number": "1",
     "radians": "rad",
-    "degrees": "deg",
+    **dict.fromkeys(("degrees", "°", "º"), "deg"),
     "rev": "turn",
     "ton": "t",
     "sq": "^2",

@@ -114,3 +114,33 @@ def test_a_list_in_parentheses_is_one_mistake(shape):
 def test_a_name_that_is_misspelled_alike_is_told_once():
     written = text(coordinates="[θ]", T="m*theta'^2", V="theta + theta^2", initial="{θ: 1}")
     assert messages(written) == ["unknown name 'theta' in T; did you mean 'θ'?"]
+
+
+@pytest.mark.parametrize("mark", ["//", ";", "%", "<!--", "--", "/*", '"""'])
+@pytest.mark.parametrize("above", [0, 1, 3])
+def test_a_comment_of_another_language_is_named(mark, above):
+    lines = text().splitlines(keepends=True)
+    written = "".join([*lines[:above], f"{mark} a spring\n", *lines[above:]])
+    assert messages(written) == ["this line is none of the file; a comment begins with '#'"]
+
+
+@pytest.mark.parametrize(
+    ("written", "hint"),
+    [
+        ("[problem]\ncoordinates = x\n", "a key is written without brackets"),
+        ("<problem>x</problem>\n", "without tags"),
+        (text(V="k\\,x"), "leave out \\,"),
+        (text(forces="{x: m*\\ddot{x}}"), "write x''"),
+        (text(T="m*x'[t]^2/2"), "write x'"),
+        (text(T="m*der(x)^2/2"), "write x'"),
+        (text(V="std::pow(x, 2)"), "write x^2"),
+        (text(constraints='{a: "Eq(x, 1)"}'), "write left = right"),
+        (text(parameters="\n  m: 1\n  k: N/m"), "write {unit: N/m}"),
+        (text(coordinates="{x: {unit: °}}"), "did you mean 'deg'"),
+        (text(V="m*g*„x“"), "leave them out"),
+        (text(expect="{eom: [m*x'' = -k*x]}"), "the key is equations"),
+    ],
+)
+def test_other_programs_and_other_marks(written, hint):
+    [only] = messages(written)
+    assert hint in only
