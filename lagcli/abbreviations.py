@@ -22,11 +22,14 @@ from lagcli.expression import (
     Sum,
     children,
     operation_count,
+    opposite,
     postorder,
     walk,
 )
 from lagcli.notation.letters import names_in
+from lagcli.notation.likeness import EVEN, ODD, SignedNumbers, parity
 from lagcli.notation.naming import Names
+from lagcli.notation.ordering import positive_first
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt, rewritten
 from lagcli.statements.answers import Answers
@@ -104,7 +107,8 @@ class _Abbreviations:
 
     def __init__(self, trees: Sequence[Expression], taken: Collection[str]) -> None:
         self._taken = Names(taken)
-        self._labels: dict[Expression, str] = {}  # what is named, as it stood when it was chosen
+        self._alike = SignedNumbers()
+        self._labels: dict[str, tuple[int, int]] = {}  # what is named, as it was when chosen
         self._chosen: dict[str, Expression] = {}
         self._trees = list(trees)
         self._numbered: dict[str, list[str]] = {"k": [], "Delta": []}  # k1, k2, …, Δ, Δ2, …
@@ -119,9 +123,19 @@ class _Abbreviations:
 
     def __call__(self, node: Expression) -> Expression:
         """The formula with the names."""
-        for whole, label in self._labels.items():  # as they were chosen
-            node = _with_name(node, whole, label)
+        for label in self._labels:  # as they were chosen
+            node = self._with_name(node, label)
         return self._renamed(node)
+
+    def _with_name(self, node: Expression, label: str) -> Expression:
+        """The formula with a name for what is the same up to its sign and the order of terms."""
+        sign, which = self._alike(node)
+        if (its := self._labels[label])[1] == which and not isinstance(node, Negative):
+            return Name(label) if sign == its[0] else Negative(Name(label))
+        if isinstance(node, (Name, PartialCall)) or not children(node):
+            return node
+        found = rebuilt(node, lambda part: self._with_name(part, label))
+        return node if found is node else _with_sign_before(found)
 
     def _renamed(self, node: Expression) -> Expression:
         """k1, k2, … and Δ, Δ2, … in the order in which they are listed."""
@@ -130,31 +144,43 @@ class _Abbreviations:
         return rebuilt(node, self._renamed)
 
     def _best(self) -> Expression | None:
-        counts: Counter[Expression] = Counter()
+        counts, shapes = Counter[int](), dict[int, Counter[Expression]]()
         for tree in (*self._trees, *self._chosen.values()):
-            counts.update(part for part in walk(tree) if isinstance(part, (Sum, Call)))
+            for part in walk(tree):
+                if isinstance(part, (Sum, Call)):
+                    which = self._alike(part)[1]
+                    counts[which] += 1
+                    shapes.setdefault(which, Counter())[part] += 1
         for tree in self._trees:  # a result is no abbreviation of itself
-            counts.pop(tree, None)
-        below = {f for tree in self._trees for f in _sums_below(tree)}
-        for part in list(counts):  # an angle has no name of its own
+            counts.pop(self._alike(tree)[1], None)
+        for which in list(counts):  # an angle has no name of its own
+            part = next(iter(shapes[which]))
             if isinstance(part, Call):
-                counts.update({a: -counts[a] for a in part.arguments if a in counts})
+                for angle in part.arguments:
+                    if (inner := self._alike(angle)[1]) in counts:
+                        counts[inner] -= counts[which]
+        below = self._below()
         savings = {
-            part: (count - 1) * operation_count(part)
-            for part, count in counts.items()
-            if count > 1 and _is_worth(part, count, part in below)
+            which: (count - 1) * operation_count(next(iter(shapes[which])))
+            for which, count in counts.items()
+            if count > 1 and _is_worth(next(iter(shapes[which])), count, which in below)
         }
-        return max(savings, key=lambda part: savings[part], default=None)
+        best = max(savings, key=lambda which: savings[which], default=None)
+        return None if best is None else shapes[best].most_common(1)[0][0]
+
+    def _below(self) -> set[int]:
+        return {self._alike(f)[1] for tree in self._trees for f in _sums_below(tree)}
 
     def _take(self, whole: Expression) -> None:
-        below = any(whole in set(_sums_below(tree)) for tree in self._trees)
+        its = self._alike(whole)
+        below = its[1] in self._below()
         circular, stem = _circular_name(whole), "Delta" if below else "k"
         label = self._new(circular or (stem if below else "k1"))
         if not circular:
             self._numbered[stem].append(label)
-        self._labels[whole] = label
-        self._trees = [_with_name(tree, whole, label) for tree in self._trees]
-        self._chosen = {name: _with_name(node, whole, label) for name, node in self._chosen.items()}
+        self._labels[label] = its
+        self._trees = [self._with_name(tree, label) for tree in self._trees]
+        self._chosen = {name: self._with_name(node, label) for name, node in self._chosen.items()}
         self._chosen[label] = whole
 
     def _new(self, wanted: str) -> str:
@@ -215,12 +241,30 @@ def _sums_below(node: Expression) -> Iterator[Expression]:
                     yield base
 
 
-def _with_name(node: Expression, whole: Expression, label: str) -> Expression:
-    if node == whole:
-        return Name(label)
-    if isinstance(node, (Name, PartialCall)) or not children(node):
-        return node
-    return rebuilt(node, lambda part: _with_name(part, whole, label))
+def _with_sign_before(node: Expression) -> Expression:
+    """The formula with the sign of a part that was named with the other one before it."""
+    match node:
+        case Negative(operand=Negative(operand=inner)):
+            return inner
+        case Product(factors=factors) if any(isinstance(f, Negative) for f in factors):
+            bare = tuple(f.operand if isinstance(f, Negative) else f for f in factors)
+            minus = sum(isinstance(f, Negative) for f in factors) % 2
+            return Negative(Product(bare)) if minus else Product(bare)
+        case Quotient(numerator=Negative(operand=above), denominator=below):
+            return opposite(_with_sign_before(Quotient(above, below)))
+        case Quotient(numerator=above, denominator=Negative(operand=below)):
+            return Negative(Quotient(above, below))
+        case Power(base=Negative(operand=base), exponent=exponent) if parity(exponent) is not None:
+            power = Power(base, exponent)
+            return Negative(power) if parity(exponent) else power
+        case Call(function=function, arguments=(Negative(operand=inner),)) if function in EVEN:
+            return Call(function, (inner,))
+        case Call(function=function, arguments=(Negative(operand=inner),)) if function in ODD:
+            return Negative(Call(function, (inner,)))
+        case Sum(terms=terms):
+            return Sum(tuple(positive_first(terms)))
+        case _:
+            return node
 
 
 # -- written out again ------------------------------------------------------------------------

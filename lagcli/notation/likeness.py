@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from lagcli.expression import (
     Call,
@@ -19,6 +19,8 @@ from lagcli.expression import (
 )
 
 Key: TypeAlias = tuple[object, ...]
+#: The sign and the key of a part.
+KeyOf: TypeAlias = Callable[[Expression], tuple[int, Any]]
 #: Letters with their exponents.
 Monomial: TypeAlias = frozenset[tuple[str, int]]
 Polynomial: TypeAlias = dict[Monomial, Fraction]
@@ -28,40 +30,65 @@ EVEN = frozenset(("cos", "cosh", "abs", "sec"))
 _MOST = 80  # terms of a sum that is multiplied out
 
 
-def signed_key(node: Expression) -> tuple[int, Key]:
+def signed_key(node: Expression, of: KeyOf | None = None) -> tuple[int, Key]:
     """(sign, key): equal keys for what is equal up to its sign and the order of terms and factors.
 
     The sign says which of the two it is, so that a − b and b − a have one key and two signs.
+    `of` gives those of the parts.
     """
+    of = of or signed_key
     match node:
         case Negative(operand=operand):
-            sign, key = signed_key(operand)
+            sign, key = of(operand)
             return -sign, key
         case Sum(terms=terms):
-            pairs = sorted(((k, s) for s, k in map(signed_key, terms)), key=repr)
+            pairs = sorted(((k, s) for s, k in map(of, terms)), key=repr)
             lead = pairs[0][1]
             return lead, ("+", *((s * lead, k) for k, s in pairs))
         case Product(factors=factors):
-            signed = [signed_key(each) for each in factors]
+            signed = [of(each) for each in factors]
             minus = sum(s < 0 for s, _ in signed) % 2
             return -1 if minus else 1, ("*", *sorted((k for _, k in signed), key=repr))
         case Quotient(numerator=above, denominator=below):
-            (a, one), (b, other) = signed_key(above), signed_key(below)
+            (a, one), (b, other) = of(above), of(below)
             return a * b, ("/", one, other)
         case Power(base=base, exponent=exponent):
-            sign, key = signed_key(base)
-            return (1 if parity(exponent) == 0 else sign), ("^", key, signed_key(exponent))
+            sign, key = of(base)
+            odd = parity(exponent)
+            if odd is None:  # of (a − b)^(3/2) the opposite is not (b − a)^(3/2)
+                return 1, ("^", sign, key, of(exponent))
+            return sign if odd else 1, ("^", key, of(exponent))
         case Call(function=function, arguments=arguments, primes=primes):
-            inner = [signed_key(each) for each in arguments]
+            inner = [of(each) for each in arguments]
             if function in EVEN:
                 return 1, (function, inner[0][1])
             if function in ODD:
                 return inner[0][0], (function, inner[0][1])
             return 1, (function, primes, *inner)
         case PartialCall(function=function, indices=indices, arguments=arguments):
-            return 1, (function, indices, *map(signed_key, arguments))
+            return 1, (function, indices, *map(of, arguments))
         case _:
             return 1, (str(node),)
+
+
+class SignedNumbers:
+    """`signed_key` with a number for each key, of large trees whose parts recur."""
+
+    def __init__(self) -> None:
+        self._known: dict[int, tuple[Expression, tuple[int, int]]] = {}
+        self._numbers: dict[Key, int] = {}
+
+    def __call__(self, node: Expression) -> tuple[int, int]:
+        """The sign and the number."""
+        if id(node) not in self._known:
+            if isinstance(node, Negative):
+                sign, number = self(node.operand)
+                sign = -sign
+            else:
+                sign, key = signed_key(node, self)
+                number = self._numbers.setdefault(key, len(self._numbers))
+            self._known[id(node)] = node, (sign, number)
+        return self._known[id(node)][1]
 
 
 def parity(exponent: Expression) -> int | None:
