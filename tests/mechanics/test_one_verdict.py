@@ -182,3 +182,47 @@ def test_a_lagrangian_without_squares_of_velocities_is_not_singular_by_its_coord
         derive(f"coordinates: [x]\nL: x'^{power}/{power} - x^4/4\n").dynamics
     ).equilibria
     assert "Hessian" in rest.verdict.reason
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_at_a_pole_nothing_is_said_of_damping_that_turning_escapes(seed):
+    """Drag along r alone: circles about the centre are not damped."""
+    source = random.Random(f"circles {seed}")
+    k, c, power = source.randint(1, 4), source.randint(1, 4), source.choice(("", "*(1 + r^2)"))
+    [rest] = equilibria(
+        derive(
+            "coordinates: [r, phi]\nparameters: {m: {assume: positive}, a: {assume: positive}}\n"
+            f"T: m*(r'^2 + r^2*phi'^2)/2\nV: {k}*a*r^2/2\ndissipation: {c}*a*r'^2{power}/2\n"
+        ).dynamics
+    ).equilibria
+    assert rest.verdict.stable
+    assert not rest.verdict.asymptotic
+    assert "damped" not in rest.verdict.reason
+
+
+@pytest.mark.parametrize("along", ["", " - c*x'", " + 2*m*g - c*x'"])
+def test_what_falls_with_drag_onto_a_floor_has_no_terminal_velocity(along):
+    section, _ = steady_motions(
+        derive(
+            "coordinates: [x, y]\nparameters: {m: {assume: positive}, g: {assume: positive}, "
+            "c: {assume: positive}, k: {assume: positive}}\nT: m*(x'^2 + y'^2)/2\n"
+            f"V: m*g*y\nforces: {{x: -k*x{along}, y: -c*y'}}\n"
+            "contacts: {floor: {gap: y >= 0, restitution: 0}}\n"
+        )
+    )
+    assert not any((motion.rates or {}).get("y") for motion in section.motions or ())
+    assert section.motions is None or section.where or not section.complete
+
+
+def test_steady_motions_at_singular_coordinates_are_not_denied_by_silence():
+    """A bob that a turning fluid drags round: at the bottom, in the axis, the azimuth fails."""
+    section, _ = steady_motions(
+        derive(
+            "coordinates: [theta, phi]\nparameters: {m: {assume: positive}, l: {assume: positive}, "
+            "g: {assume: positive}, c: {assume: positive}, w: {assume: positive}}\n"
+            "T: m*l^2*(theta'^2 + sin(theta)^2*phi'^2)/2\nV: -m*g*l*cos(theta)\n"
+            "dissipation: c*(phi' - w)^2/2\n"
+        )
+    )
+    assert section.motions
+    assert not section.complete

@@ -102,7 +102,7 @@ def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
         yield says(f"No steady motion was found: {found.reason}.")
         return
     if not found.motions:
-        yield says(_none(teller, found))
+        yield says(_none(found))
     for number, motion in enumerate(once(found.motions), 1):
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(teller, motion)
@@ -110,14 +110,13 @@ def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
         yield there_may_be_others(found)
 
 
-def _none(teller: Teller, found: SteadySection) -> list[Part]:
+def _none(found: SteadySection) -> list[Part]:
     """That no motion is steady, in what it was sought in."""
     if not found.complete:
         return ["No solution was found."]
     where = "" if found.momenta or found.eliminated else " in these coordinates"
-    where += " while the contacts are open" if teller.problem.contacts else ""
-    none = unless(f"steady motion{where}" + " there" * bool(found.where), found.unless)
-    return [f"These have no solution{found.where}: ", *none, "."]
+    none = unless(f"steady motion{where}{found.where}", found.unless)
+    return ["These have no solution: ", *none, "."]
 
 
 def _motion(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:

@@ -44,6 +44,11 @@ class OnMeridians(Linearization):
         super().__init__(whole.rest, whole.point)
         self.basis = _complement(whole.basis, nullspace(whole.M))
 
+    @property
+    def damped(self) -> bool:
+        """Not known: what turns about the pole may be undamped."""
+        return False
+
     @cached_property
     def indeterminate(self) -> tuple[int, ...]:
         """The coordinates that have no value there: displaced alone, nothing moves."""

@@ -274,13 +274,14 @@ class RollingMotions:
         return {**{x: at(value, new) for x, value in values.items()}, **new}
 
     def _holds(self, values: Mapping[Symbol, Expr]) -> bool:
-        """Whether F vanishes there; it has no value where the coordinates are singular."""
+        """Whether F vanishes there; not known where the coordinates are singular."""
         still = {self.system.qdot[j]: S.Zero for j in self.coordinates}
         try:
-            rates = (f.xreplace(still) for f in self._equations or ())
-            return all(is_zero(at(f, values)) is True for f in rates)
+            rates = [at(f.xreplace(still), values) for f in self._equations or ()]
         except ZeroDivisionError:
-            return False
+            rates = [S.NaN]
+        self.complete &= not any(f.has(S.NaN, S.ComplexInfinity) for f in rates)
+        return all(is_zero(f) is True for f in rates)
 
     # -- stability --------------------------------------------------------------------------------
 

@@ -31,7 +31,7 @@ def applies(derivation: Derivation) -> bool:
     state, forces = (*system.q, *system.qdot, system.t), system.applied_forces
     pairs = zip(dynamics.lagrange.lagrangian_forces, forces, strict=True)
     pushed = any(free_of(along, state) and is_zero(f) is not True for along, f in pairs)
-    if kinds or not pushed or RestPoints(dynamics).has_no_value:
+    if kinds or not pushed or system.problem.contacts or RestPoints(dynamics).has_no_value:
         return False
     return not any(each.sticking for each in held(dynamics))
 

@@ -40,6 +40,9 @@ from lagcli.mechanics.stability.verdict import Stability, undecided
 from lagcli.record import replace
 from lagcli.statements.motions import Above, SteadyMotion, SteadySection, Verdict
 
+#: Where none was found, those along a closed contact were not sought.
+_OPEN = " while the contacts are open"
+
 
 def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:
     """The steady motions with their stability, and what was not found."""
@@ -101,7 +104,7 @@ class _SteadyStatement:
                 acting=steady.acting,
                 momenta=cyclic,
                 unless=() if found else unless_written(steady.unless, self.order),
-                where=steady.rest.restricted_to,
+                where=steady.rest.restricted_to + _OPEN * bool(steady.full.problem.contacts),
             ),
             [],
         )
