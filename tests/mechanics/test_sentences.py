@@ -530,3 +530,11 @@ def test_a_search_that_left_something_out_does_not_say_that_there_is_nothing():
     derivation = derive(text)
     assert bool(derivation.discovery.stopped) is (not derivation.discovery.charges)
     assert "there is no symmetry" not in said(text, "Discovered symmetries", "discovered")
+
+
+@pytest.mark.parametrize("growth", ["exp(a*t)", "1 + a*t", "1"])
+def test_constant_momenta_make_constant_velocities_without_the_time_only(growth):
+    text = f"{{coordinates: [q, s], parameters: {{a: {{assume: positive}}}}, L: ({growth})*(q'^2 + s'^2)/2}}"
+    told = words(explain(derive(text), ["steady_motions"]), "Steady motions")
+    assert ("every motion is steady" in told) == (growth == "1")
+    assert ("all momenta are constant" in told) == (growth != "1")

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import cast
 
+from lagcli.algebra.build import free_of
 from lagcli.document import Block, Equations, Heading, Row, equations_of, vanishing
 from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.mechanics.explaining.given_momenta import two_rates
@@ -45,8 +46,12 @@ def steady(teller: Teller, section: Section) -> Iterator[Block]:
         yield from _steady_states(teller, found)
         return
     if found.motions is None and found.reason == ALL_CYCLIC:
-        yield says("Every coordinate is cyclic, so all velocities are constant: every motion is "
-                   "steady.")  # fmt: skip
+        formulas = (teller.system.L, *(e.f for e in teller.dynamics.constraints.equations))
+        timed = any(not free_of(each, [teller.system.t]) for each in formulas)
+        constant = (
+            "momenta are constant" if timed else "velocities are constant: every motion is steady"
+        )
+        yield says(f"Every coordinate is cyclic, so all {constant}.")
         return
     if found.motions is None and found.reason == NONE_LEFT:
         yield says("The constraints leave no coordinate: they prescribe the motion.")
