@@ -18,6 +18,7 @@ from lagcli.formatters.built_in.text import render
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.options import Options
 from lagcli.mechanics.conditions import conditions, opposites
+from lagcli.mechanics.explaining.recurring import recurrences
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.reduction.averaged import averaged
 from lagcli.mechanics.reduction.statement import reduction
@@ -538,3 +539,26 @@ def test_constant_momenta_make_constant_velocities_without_the_time_only(growth)
     told = words(explain(derive(text), ["steady_motions"]), "Steady motions")
     assert ("every motion is steady" in told) == (growth == "1")
     assert ("all momenta are constant" in told) == (growth != "1")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_states_in_a_periodic_potential_recur_after_its_period(seed):
+    """Of harmonics of one wave, or of a tilted one: the places found are solved for in numbers."""
+    source = random.Random(f"wave {seed}")
+    n, tilt = source.choice((1, 2, 3)), source.choice(("", " - U*a*x/5"))
+    text = (
+        "coordinates: [x]\nparameters: {a: {assume: positive}, U: {assume: positive}}\n"
+        f"T: x'^2/2\nV: U*cos({n}*a*x){tilt}\n"
+    )
+    told = words(explain(derive(text), ["equilibria"]), "Equilibria")
+    assert "All of them recur where x grows by" in told.replace("\N{NO-BREAK SPACE}", " ")
+    [period] = recurrences(derive(text).dynamics).values()
+    assert period.subs(sympy.Symbol("a", positive=True), 1) == 2 * sympy.pi / n
+
+
+@pytest.mark.parametrize(
+    "V", ["cos(x)", "cos(2*x) + sin(x)", "cos(a*x) + x^2", "cos(a*x) + cos(x)"]
+)
+def test_whole_turns_and_what_is_not_periodic_are_not_said_to_recur(V):
+    text = f"coordinates: [x]\nparameters: {{a: {{assume: positive}}}}\nT: x'^2/2\nV: {V}\n"
+    assert recurrences(derive(text).dynamics) == {}

@@ -9,6 +9,7 @@ from sympy import S
 
 from lagcli.document import Block, Equations, Heading, Label, vanishing
 from lagcli.expression import Expression
+from lagcli.mechanics.explaining.recurring import recurring
 from lagcli.mechanics.explaining.reduction import averaged_potential
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
@@ -113,6 +114,8 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(firm, *stability(each.verdict, each.free, each.on), limit)
     if found and not states.complete:
         yield says("There may be others.")
+    if found:
+        yield from recurring(teller)
 
 
 def _none(rest: RestPoints, states: EquilibriaSection) -> list[Part]:

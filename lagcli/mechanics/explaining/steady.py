@@ -10,6 +10,7 @@ from lagcli.algebra.build import free_of
 from lagcli.document import Block, Equations, Heading, Row, equations_of, vanishing
 from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.mechanics.explaining.given_momenta import two_rates
+from lagcli.mechanics.explaining.recurring import recurring
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, listed, names, says
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
@@ -113,6 +114,8 @@ def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
         yield from _motion(teller, motion)
     if found.motions and not found.complete:
         yield there_may_be_others(found)
+    if found.motions:
+        yield from recurring(teller)
 
 
 def _none(found: SteadySection) -> list[Part]:
