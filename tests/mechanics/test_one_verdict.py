@@ -226,3 +226,17 @@ def test_steady_motions_at_singular_coordinates_are_not_denied_by_silence():
     )
     assert section.motions
     assert not section.complete
+
+
+@pytest.mark.parametrize("push", ["F*r", "F*r^2", "F*G*r"])
+def test_a_push_that_may_be_0_denies_no_steady_motion_in_general(push):
+    """A mass on a spring that is pushed round: for F = 0 it circles steadily."""
+    section, _ = steady_motions(
+        derive(
+            "coordinates: [r, phi]\nparameters: {m: {assume: positive}, k: {assume: positive}, "
+            "l: {assume: positive}, F: , G: }\nT: m*(r'^2 + r^2*phi'^2)/2\nV: k*(r - l)^2/2\n"
+            f"forces: {{phi: {push}}}\n"
+        )
+    )
+    assert section.motions == ()
+    assert section.unless != ()

@@ -36,12 +36,14 @@ def without_unknowns(
 
 
 def _may_hold_for_special_values(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> bool:
-    """Whether all conditions but one have a solution at which that one has only parameters."""
+    """Whether all but one have a solution at which parameters decide that one, or a factor does."""
     if len(conditions) > _MOST_CONDITIONS:
         return False
     for k, left in enumerate(conditions):
         others = [e for j, e in enumerate(conditions) if j != k]
-        solutions = solve_system(others, unknowns).solutions if others else ()
+        solutions = solve_system(others, unknowns, families=True).solutions if others else ()
+        if solutions and _perhaps_zero(left, unknowns):
+            return True
         for each in solutions:
             rest = simplify(left.xreplace(dict(each.values)))
             if rest.free_symbols and free_of(rest, unknowns) and sign(rest) not in (1, -1):
