@@ -240,3 +240,17 @@ def test_a_push_that_may_be_0_denies_no_steady_motion_in_general(push):
     )
     assert section.motions == ()
     assert section.unless != ()
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rest_at_a_pole_has_its_verdict_among_steady_motions_too(seed):
+    """Where drag acts along the azimuth alone, the linear equations fail at the pole."""
+    c = random.Random(f"pole {seed}").randint(1, 5)
+    derivation = derive(
+        "coordinates: [theta, phi]\nparameters: {m: {assume: positive}, l: {assume: positive}, "
+        "g: {assume: positive}}\nT: m*l^2*(theta'^2 + sin(theta)^2*phi'^2)/2\n"
+        f"V: -m*g*l*cos(theta)\ndissipation: {c}*m*l^2*sin(theta)^2*phi'^2/2\n"
+    )
+    rest = [e.verdict.stable for e in equilibria(derivation.dynamics).equilibria]
+    assert rest == [True, False]
+    assert [motion.verdict.stable for motion in steady_motions(derivation)[0].motions] == rest

@@ -297,7 +297,8 @@ class RollingMotions:
         except ZeroDivisionError:
             powers = None
         if powers is None:
-            return undecided("the linearised equations were not found"), ()
+            found = undecided("the linearised equations were not found")
+            return self._at_rest(motion, found) or found, ()
         found, squares = by_polynomial(powers, motion.positive, dimension=self._dimension(motion))
         if found.is_open and displaced_it_accelerates(self.dynamics):
             return unstable(ACCELERATES), squares
