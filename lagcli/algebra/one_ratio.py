@@ -126,7 +126,10 @@ def _range(ratio: Ratio, expressions: Sequence[Expr], given: Sequence[Expr]) -> 
 
     def inside(place: mpf) -> bool:
         """Whether all are positive; one that is 0 beside others that are not negative is open."""
-        values = evaluate({s: place})
+        try:
+            values = evaluate({s: place})
+        except ZeroDivisionError:
+            raise _Open from None
         if any(isinstance(x, mpf) and x <= _ZERO for x in values[: len(given)]):
             return False
         if not all(isinstance(x, mpf) for x in values):

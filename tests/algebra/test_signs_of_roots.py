@@ -8,6 +8,7 @@ import sympy
 
 from lagcli.algebra import simplify
 from lagcli.algebra.equations import written
+from lagcli.algebra.positivity import sign_of
 from lagcli.algebra.signs import sign
 from lagcli.expression import Call, walk
 from lagcli.formatters.grammar import to_grammar
@@ -90,3 +91,16 @@ def test_powers_of_one_modulus_are_one_power(seed):
     assert sum(node == inner for node in walk(tree)) == 1  # no power of it apart from the modulus
     back = sympy.sympify(to_grammar(tree).replace("^", "**"), {"k": k, "m": m, "g": g})
     assert sympy.simplify((back - g * abs(u) ** odd * u**even).subs({k: 3, m: 5})) == 0
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_between_two_roots_of_a_square_root_the_sign_is_known(seed):
+    # (b - √c) (√c - a) multiplied out, where c > a² and b > √c are given in other shapes
+    source = Random(seed)
+    a, b, c, d = sympy.symbols("a b c d", positive=True)
+    root_c = root(c) if source.random() < 0.5 else root(c / d)
+    whole = sympy.expand((b - root_c) * (root_c - a) * source.choice((1, d, c)))
+    given = [sympy.expand(root_c**2 - a**2) * source.choice((1, d)), b * root_c - root_c**2]
+    assert sign_of(whole, given) == 1
+    assert sign_of(-whole, given) == -1
+    assert sign_of(whole, given[:1]) is None

@@ -189,3 +189,18 @@ L: (x'^2 + y'^2 + z'^2)/2 + {n}*(x*y' - y*x') - ({k}*x^2 + 2*{c}*x*z + {w * w}*z
     late = mpmath.expm(A * 2000)
     away = max(abs(late[i, j]) for i in range(6) if i != 1 for j in range(6))  # y may drift
     assert found.stable is (away < 500), away
+
+
+def test_a_pendulum_over_a_repelling_charge_rests_aside_stably():
+    """V' = l sin(θ) (m g - c/D²) vanishes at D² = c/(m g), and V'' = 2 c l² sin²(θ)/D³ there."""
+    found = equilibria(
+        derive("""
+coordinates: [theta]
+parameters: {m: {assume: positive}, l: {assume: positive}, g: {assume: positive}, c: {assume: positive}, d: {assume: positive}}
+T: m*l^2*theta'^2/2
+V: -m*g*l*cos(theta) + c/(l + d - l*cos(theta))
+""").dynamics
+    ).equilibria
+    aside = [each for each in found if "acos" in to_grammar(each.at["theta"])]
+    assert aside
+    assert all(each.verdict.stable for each in aside)
