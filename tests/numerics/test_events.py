@@ -1,6 +1,7 @@
 """Contacts that are lost, strings that go slack, `--stop-when`, grazing."""
 
 import math
+from random import Random
 
 import pytest
 
@@ -101,3 +102,44 @@ def test_a_series_that_takes_long_steps_is_looked_at_closely():
     for method in ("taylor64", "taylor"):
         result = simulated(text, 40, 1e-9, stop="x + 1 - 1e-4", method=method)
         assert result.events[0].t == pytest.approx(math.pi + math.asin(1 - 1e-4), abs=1e-7)
+
+
+@pytest.mark.parametrize("accuracy", [1e-6, 1e-9])
+def test_two_walls_are_struck_one_after_the_other(accuracy):
+    """x and y return from their walls after different times, however little these differ."""
+    draw = Random(16)
+    for _ in range(3):
+        late = 10 ** -draw.uniform(6, 11)
+        result = simulated(
+            "{coordinates: [x, y], T: (x'^2 + y'^2)/2, V: 0, contacts: {a: {gap: x >= 0, "
+            f"restitution: 1}}, b: {{gap: y >= 0, restitution: 1}}}}, "
+            f"initial: {{x: 1, y: {1 + late!r}, x': -1, y': -1}}}}",
+            3,
+            accuracy,
+            samples=4,
+        )
+        assert result.certificate.reached
+        bounds, row = result.certificate.global_error, result.rows[-1]
+        assert abs(row[1] - 2) <= 3 * bounds["x"] + 2.0**-52
+        assert abs(row[2] - (2 - ((1 + late) - 1))) <= 3 * bounds["y"] + 2.0**-51
+
+
+@pytest.mark.parametrize("struck", [True, False])
+def test_whether_a_ceiling_is_struck_does_not_depend_on_the_accuracy_asked_for(struck):
+    """y = 2 t - t^2 has its top at 1, a little above the ceiling or below it."""
+    d = 1e-8
+    result = simulated(
+        "{coordinates: [y], T: y'^2/2, V: 2*y, contacts: {ceiling: "
+        f"{{gap: 1 {'-' if struck else '+'} {d!r} - y >= 0, restitution: 1}}}}, "
+        "initial: {y: 0, y': 2}}",
+        1.5,
+        1e-6,
+        samples=4,
+    )
+    assert result.certificate.reached
+    assert result.certificate.accuracy == 1e-6
+    t, y, speed = result.rows[-1]
+    late = 2 * math.sqrt(d) if struck else 0.0  # as if thrown later, from the other side
+    top = t - 1 + late if struck else t - 1
+    assert speed == pytest.approx(-2 * top, abs=1e-10)
+    assert y == pytest.approx(1 - top * top, abs=1e-10)

@@ -41,6 +41,8 @@ from lagcli.record import replace
 
 #: The clocks of two runs differ by less than this part of the span.
 _SAME_TIME = 1e-12
+#: Whether a contact is struck may be known to a finer accuracy, down to what doubles reach.
+_FINER, _FINEST = 1e-3, 1e-12
 
 
 def simulate(problem: Problem, asked: Asked, progress: Progress | None = None) -> Result:
@@ -91,6 +93,8 @@ class Simulation(Setup):
     def run(self, modes: Modes) -> Result:
         """The table, from the state at the beginning, over the longest span that is certain."""
         outcome, result = self.first(modes)
+        if (decided := self._told_from_a_graze(modes, outcome)) is not None:
+            return decided
         is_last = outcome.run.method_name in self._last_methods and is_marginal(outcome)
         if self.asked.furthest and (is_last or not outcome.reached):
             from lagcli.numerics.certified.horizon import longest
@@ -100,6 +104,17 @@ class Simulation(Setup):
 
             result = longest(self, modes, outcome, result, run)
         return self._with_rows_beyond(result) if self.asked.beyond else result
+
+    def _told_from_a_graze(self, modes: Modes, outcome: Outcome) -> Result | None:
+        """The result of a finer accuracy that tells whether what is grazed is struck."""
+        stop, accuracy = outcome.run.stop, self.asked.accuracy
+        if stop is None or not stop.reason.startswith("it grazes") or accuracy <= _FINEST:
+            return None
+        finer = max(_FINER * accuracy, _FINEST)
+        found = self.over(replace(self.asked, accuracy=finer, furthest=False)).run(modes)
+        if not found.certificate.reached:
+            return None
+        return replace(found, certificate=replace(found.certificate, accuracy=accuracy))
 
     @property
     def _last_methods(self) -> Sequence[str]:

@@ -289,12 +289,11 @@ class Transitions:
             return frozenset()
         gaps, _ = self._gaps(t, q, v)
         rounding = self.rounding(t)
-        time = self.accuracy * t
         return frozenset(
             k
             for k in opened
             if hinge.rates[k] < -_STANDS * hinge.speeds[k]
-            and gaps[k] <= max(-hinge.rates[k] * time, _NEAR * hinge.along(k, rounding))
+            and gaps[k] <= _NEAR * hinge.along(k, rounding)
         )
 
     def _stopping(self, lost: frozenset[int]) -> str | None:
