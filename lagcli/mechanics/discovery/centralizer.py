@@ -47,8 +47,33 @@ def centralized(
             continue
         columns = zip(*(result[turns[i]].changes for i in values), strict=True)
         changes = scaled([dot(list(values.values()), c) for c in columns], set(system.parameters))
-        result[turns[max(values)]] = Transformation(changes, sympy.S.Zero)
+        last = turns[max(values)]
+        result[last] = Transformation(changes, sympy.S.Zero)
+        for k in turns:
+            if k != last:
+                result[k] = _sparser(result[k], result[last], system)
     return result
+
+
+def _sparser(turn: Transformation, central: Transformation, system: System) -> Transformation:
+    """The turn plus that multiple of another that leaves the fewest coefficients: L of all."""
+
+    def slopes(changes: Sequence[Expr]) -> list[Expr]:
+        return [sympy.expand(e.diff(x)) for e in changes for x in system.q]
+
+    def entries(changes: Sequence[Expr]) -> int:
+        return sum(e != 0 for e in slopes(changes))
+
+    best = turn
+    pairs = zip(slopes(turn.changes), slopes(central.changes), strict=True)
+    for ratio in dict.fromkeys(sympy.cancel(a / b) for a, b in pairs if a != 0 and b != 0):
+        if ratio.free_symbols & set(system.q):
+            continue
+        sums = zip(turn.changes, central.changes, strict=True)
+        changes = [sympy.expand(sympy.cancel(a - ratio * b)) for a, b in sums]
+        if entries(changes) < entries(best.changes):
+            best = Transformation(scaled(changes, set(system.parameters)), sympy.S.Zero)
+    return best
 
 
 def without_time(

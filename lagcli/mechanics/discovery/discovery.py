@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property
 
+import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero
@@ -29,6 +30,7 @@ from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Allowance, TooMuchW
 from lagcli.mechanics.discovery.listing import more, times
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.on_surface import search_on_surface
+from lagcli.mechanics.discovery.products import Products
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.setting import Setting
@@ -39,6 +41,8 @@ from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
 _MOST_FOR_TENSORS = 6
+
+Named = tuple[str, Expr, NoetherCharge]
 
 
 class Discovery(Setting):
@@ -245,9 +249,26 @@ class Discovery(Setting):
     def _keep(self, found: Iterable[tuple[Slots, NoetherCharge]]) -> None:
         """Add what is found, with names."""
         naming = HiddenNames(self.system, self.equations, self.centred_kinds)
-        named = [(*naming.of(functions, charge), charge) for functions, charge in found]
+        named = self._beyond_products(
+            [(*naming.of(functions, charge), charge) for functions, charge in found]
+        )
         named.sort(key=lambda each: (not each[0], each[0]))
         self.listing.add_hidden((name, times(charge, factor)) for name, factor, charge in named)
+
+    def _beyond_products(self, named: list[Named]) -> list[Named]:
+        """Without unnamed products of polynomials in t; energies of modes for those of waves."""
+        steady = [c for c in self.point_charges if c.charge.is_polynomial(self.system.t)]
+        plain = Products(self.noether, steady, self.allowed)
+        named = [each for each in named if each[0] or not plain.includes(each[2])]
+        products = Products(self.noether, self.point_charges, self.allowed)
+        nameless = [each for each in named if not each[0] and products.includes(each[2])]
+        kept = [each for each in named if each not in nameless]
+        known = [*self.fixed_charges, *(charge for _, _, charge in kept)]
+        modes = products.modes(known)[: len(nameless)] if nameless else []
+        if len(modes) < len(nameless):
+            return named
+        naming = self.listing.naming
+        return kept + [(naming.of_mode(c.transformation.changes), sympy.S.One, c) for c in modes]
 
     def _sentence(self, times: TimeFunctions, spaces: Sequence[Expr]) -> str:
         what = "point transformations" if self.canonical else "integrating factors"

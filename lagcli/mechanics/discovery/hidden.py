@@ -26,6 +26,7 @@ from lagcli.mechanics.discovery.ansatz import ordered, quadratic, quadratic_unkn
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import independent
+from lagcli.mechanics.discovery.products import integral_of, products_of
 from lagcli.mechanics.discovery.relation import with_gradient
 from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.search import Search, SlotSolution
@@ -36,7 +37,7 @@ from lagcli.mechanics.discovery.slots import (
     point_slots,
     quadratic_slots,
 )
-from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+from lagcli.mechanics.noether import Noether, NoetherCharge
 from lagcli.mechanics.system import System
 from lagcli.mechanics.total_derivative import boundary_term
 
@@ -107,14 +108,7 @@ class QuadraticIntegrals:
         fixed = [c for c in known if timed or t not in c.charge.free_symbols]
         eta = {id(c): self.noether.characteristic(c.transformation) for c in fixed}
         linear = [c for c in fixed if c.transformation.displaces_without(self.equations.v)]
-        return [
-            *(eta[id(c)] for c in fixed),
-            *(
-                tuple(a.charge * y + b.charge * x
-                      for x, y in zip(eta[id(a)], eta[id(b)], strict=True))
-                for a, b in combinations_with_replacement(linear, 2)
-            ),
-        ]  # fmt: skip
+        return products_of(fixed, linear, eta)
 
     def _scaled(self, search: Search, solution: SlotSolution) -> Slots:
         parts = search.combination(solution)
@@ -204,25 +198,6 @@ def potential(
         return sympy.S.Zero
     found = with_gradient(force, candidates, q, allowed)
     return boundary_term(simplify(dot(force, system.qdot)), system) if found is None else found
-
-
-def integral_of(noether: Noether, eta: Vector, whole: Expr, gauge: Expr) -> NoetherCharge | None:
-    """Q where dQ/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) identically: then 0 on the motion."""
-    left_sides = noether.dynamics.lagrange.left_sides
-    left = noether.system.total_derivative(whole) - dot(eta, left_sides)
-    if is_zero(left) is not True:
-        return None
-    return NoetherCharge(
-        "",
-        "discovered",
-        Transformation(eta, sympy.S.Zero),
-        gauge,
-        whole,
-        conserved=True,
-        rate=sympy.S.Zero,
-        verified="exact",
-        broken_by="",
-    )
 
 
 def _roots(expression: Expr, q: Sequence[Symbol]) -> set[Expr]:

@@ -34,10 +34,11 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import derivative, dot, simplify
-from lagcli.mechanics.discovery.hidden import expanded, integral_of, potential
+from lagcli.mechanics.discovery.hidden import expanded, potential
 from lagcli.mechanics.discovery.isometries import Vector
 from lagcli.mechanics.discovery.killing import KillingFrame
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
+from lagcli.mechanics.discovery.products import integral_of
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.slots import SlotEquations

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain, count
 
 import sympy
 from sympy import Expr, Symbol
@@ -60,20 +61,30 @@ class Naming:
         return f"momentum{self._direction(moved)}" if _equal(moved) else ""
 
     def _direction(self, moved: Mapping[Symbol, Expr]) -> str:
+        """Of all particles, of all along one axis, or of the named coordinates."""
         letters = {_bare(x.name) for x in moved}
         others = {_bare(x.name) for x in self.q}
-        return f"_{letters.pop()}" if len(letters) == 1 and len(others) > 1 else ""
+        if len(letters) == 1 and len(others) > 1:
+            return f"_{letters.pop()}"
+        return "" if len(moved) == len(self.q) else "_" + "_".join(x.name for x in moved)
 
     def _translation_in_time(self, moved: Mapping[Symbol, Expr]) -> str:
         axis = f"_{next(iter(moved)).name}" if len(moved) == 1 else self._direction(moved)
-        if _equal(moved):
-            [function] = set(moved.values())
-            if function.diff(self.t, 2) == 0:
-                return f"boost{axis}"
-            for each, word in ((sympy.sin, "sin"), (sympy.cos, "cos")):
-                if len(function.atoms(sympy.sin, sympy.cos)) == 1 and function.has(each):
-                    return f"translation{axis}_{word}"
-        return ""
+        alike = _equal(moved)
+        if alike and next(iter(moved.values())).diff(self.t, 2) == 0:
+            return f"boost{axis}"
+        turns = sympy.Tuple(*moved.values()).atoms(sympy.sin, sympy.cos)
+        if len(turns) == len(moved) == 2 and len({turn.args[0] for turn in turns}) == 1:
+            first = next(iter(moved.values()))  # a circle: (cos Omega t, -sin Omega t)
+            return f"gyration_{next(iter(first.atoms(sympy.sin, sympy.cos))).func.__name__}"
+        if len(turns) != 1:
+            return ""
+        [turn] = turns  # the same for all coordinates: one amplitude of a mode
+        word = turn.func.__name__
+        if alike:
+            return f"translation{axis}_{word}"
+        steady = all(not (e / turn).has(self.t) for e in moved.values())
+        return f"mode_{word}" if steady else ""
 
     def _rotation(self, moved: Mapping[Symbol, Expr]) -> str:
         if set(moved) & set(self.kinds.angles) or not moved:
@@ -96,7 +107,7 @@ class Naming:
         if len(moved) == 2:
             one, other = moved
             return f"angular_momentum_{one.name}_{other.name}"
-        return ""
+        return "angular_momentum" if whole and len(moved) == len(self.q) else ""
 
     def of_relative(self, charge: Expr, xi: Sequence[Expr], v: Sequence[Symbol]) -> str:
         """L of two particles about their centre of mass: linear in p, of differences alone.
@@ -104,24 +115,38 @@ class Naming:
         With one change for each of x1, x2, y1, y2 and no t, it is c (x y' - y x').
         """
         moved = [x for x, e in zip(self.q, xi, strict=True) if e != 0]
-        letters = sorted({_bare(x.name) for x in moved})
-        plane = "".join(letters)
-        if len(moved) != 4 or plane not in _AXES or self.t in charge.free_symbols:
+        if len(moved) != 4 or self.t in charge.free_symbols:
             return ""
         rates = dict(zip(self.q, v, strict=True))
-        for letter in letters:
-            pair = [x for x in moved if _bare(x.name) == letter]
-            for group in (pair, [rates[x] for x in pair]):
-                if len(group) != 2 or sympy.expand(charge.diff(group[0]) + charge.diff(group[1])):
-                    return ""
-        one, other = (next(x for x in moved if _bare(x.name) == letter) for letter in letters)
+        one, others = moved[0], moved[1:]
+
+        def by_difference(x: Symbol, y: Symbol) -> bool:
+            return all(
+                sympy.expand(charge.diff(a) + charge.diff(b)) == 0
+                for a, b in ((x, y), (rates[x], rates[y]))
+            )
+
+        partner = next((x for x in others if by_difference(one, x)), None)
+        pair = [x for x in others if x != partner]
+        if partner is None or not by_difference(*pair):
+            return ""
+        other = pair[0]
         slope = sympy.expand(charge.diff(one, rates[other]))
         turning = sympy.expand(slope + charge.diff(other, rates[one])) == 0
         if slope == 0 or slope.free_symbols & {*self.q, *v} or not turning:
             return ""
         if charge.diff(one, rates[one]) != 0 or charge.diff(other, rates[other]) != 0:
             return ""
-        return f"L_{_AXES[plane]}_relative"
+        same = _bare(one.name) == _bare(partner.name) and _bare(pair[0].name) == _bare(pair[1].name)
+        plane = "".join(sorted((_bare(one.name), _bare(other.name))))
+        return (
+            f"L_{_AXES[plane]}_relative" if same and plane in _AXES else "angular_momentum_relative"
+        )
+
+    def of_mode(self, eta: Sequence[Expr]) -> str:
+        """The energy of one normal mode, or of one coordinate that moves alone."""
+        moved = [x.name for x, e in zip(self.q, eta, strict=True) if e != 0]
+        return f"energy_{moved[0]}" if len(moved) == 1 else "energy_mode"
 
     def _rotation_of_sphere(self, moved: Mapping[Symbol, Expr]) -> str:
         """L_x: dtheta = -sin phi; L_y: dtheta = cos phi, for latitude and longitude."""
@@ -139,7 +164,7 @@ class Naming:
     def orientation(self, name: str, charge: NoetherCharge) -> Expr:
         """The sign that turns a charge into the textbook's: L_y = z p_x - x p_z."""
         moved = dict(zip(self.q, charge.transformation.changes, strict=True))
-        if name.endswith("_relative"):
+        if name.startswith("L_") and name.endswith("_relative"):
             one, *_, other = sorted((x for x in moved if moved[x] != 0), key=lambda x: x.name)
             slope = moved[other].diff(one)  # of y_2 by x_1: the other particle's is opposite
             backward = not slope.could_extract_minus_sign()
@@ -171,14 +196,10 @@ def _equal(moved: Mapping[Symbol, Expr]) -> bool:
 
 
 def distinct(names: Sequence[str]) -> list[str]:
-    """Each name once; what has none, or one that is taken, is numbered."""
-    taken: set[str] = set()
-    result = []
-    count = 0
+    """Each name once: mode_cos and mode_cos_2; what has none is charge_1, charge_2 and so on."""
+    result: list[str] = []
     for name in names:
-        while not name or name in taken:
-            count += 1
-            name = f"charge_{count}"
-        taken.add(name)
-        result.append(name)
+        numbered = (f"{name or 'charge'}_{k}" for k in count(2 if name else 1))
+        free = (each for each in chain([name] if name else [], numbered) if each not in result)
+        result.append(next(free))
     return result

@@ -1,0 +1,123 @@
+"""Integrals that are products of others: left out, or told as the energies of the modes.
+
+Q_a Q_b has the multipliers Q_a eta_b + Q_b eta_a, where dQ/dt = sum eta_j (left side j).
+Q_cos^2 + Q_sin^2 = 2 mu E of a mode xi cos(omega t), with mu = xi M xi.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations, combinations_with_replacement
+
+import sympy
+from sympy import Expr
+
+from lagcli.algebra import dot, is_zero, simplify
+from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.relation import Relation
+from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+
+Vector = tuple[Expr, ...]
+
+
+def products_of(
+    charges: Sequence[NoetherCharge], linear: Sequence[NoetherCharge], eta: Mapping[int, Vector]
+) -> list[Vector]:
+    """The multipliers `eta` of charges, and those of the products of two of the linear ones."""
+    return [
+        *(eta[id(c)] for c in charges),
+        *(
+            tuple(a.charge * y + b.charge * x
+                  for x, y in zip(eta[id(a)], eta[id(b)], strict=True))
+            for a, b in combinations_with_replacement(linear, 2)
+        ),
+    ]  # fmt: skip
+
+
+class Products:
+    """What follows from the charges of point symmetries, those with the time among them."""
+
+    def __init__(
+        self, noether: Noether, points: Sequence[NoetherCharge], allowed: Allowance
+    ) -> None:
+        self.noether = noether
+        self.allowed = allowed
+        self._linear = [
+            c for c in points if c.transformation.displaces_without(noether.system.qdot)
+        ]
+        self._eta = {id(c): self._multipliers(c) for c in points}
+        self._known = products_of(points, self._linear, self._eta)
+
+    def includes(self, charge: NoetherCharge) -> bool:
+        """Whether it is a combination of them and of products of two of them."""
+        return not self._beyond(self._known, charge)
+
+    def modes(self, known: Sequence[NoetherCharge]) -> list[NoetherCharge]:
+        """The energies of single modes that are no combinations of the known charges."""
+        found = list(self._energies())
+        return [
+            charge for k, charge in enumerate(found)
+            if self._beyond([self._multipliers(c) for c in (*known, *found[:k])], charge)
+        ]  # fmt: skip
+
+    def _multipliers(self, charge: NoetherCharge) -> Vector:
+        return self.noether.characteristic(charge.transformation)
+
+    def _beyond(self, known: Sequence[Vector], charge: NoetherCharge) -> bool:
+        system = self.noether.system
+        vectors = [*known, self._multipliers(charge)]
+        relation = Relation(vectors, [system.t, *system.q, *system.qdot], self.allowed)
+        return len(vectors) - 1 in relation.independent()
+
+    def _energies(self) -> Iterator[NoetherCharge]:
+        system = self.noether.system
+        momenta = self.noether.dynamics.lagrange.momenta
+        for a, b in combinations(self._linear, 2):
+            xi, other = self._amplitude(a), self._amplitude(b)
+            if xi is None or other is None or type(*_turns(a)) is type(*_turns(b)):
+                continue
+            if any(is_zero(x - y) is not True for x, y in zip(xi, other, strict=True)):
+                continue
+            mu = dot(xi, [p.xreplace(dict(zip(system.qdot, xi, strict=True))) for p in momenta])
+            along = [a.charge * x + b.charge * y
+                     for x, y in zip(self._eta[id(a)], self._eta[id(b)], strict=True)]  # fmt: skip
+            eta = tuple(simplify(e / mu) for e in along)
+            whole = simplify((a.charge**2 + b.charge**2) / (2 * mu))
+            if system.t in sympy.Tuple(whole, *eta).free_symbols:
+                continue
+            charge = integral_of(self.noether, eta, whole, dot(momenta, eta) - whole)
+            if charge is not None:
+                yield charge
+
+    def _amplitude(self, charge: NoetherCharge) -> Vector | None:
+        """Xi of a displacement xi cos(omega t) or xi sin(omega t) with constant xi."""
+        turns = _turns(charge)
+        if len(turns) != 1:
+            return None
+        [turn] = turns
+        xi = tuple(sympy.cancel(e / turn) for e in charge.transformation.changes)
+        moving = {self.noether.system.t, *self.noether.system.q}
+        return xi if moving.isdisjoint(sympy.Tuple(*xi).free_symbols) else None
+
+
+def _turns(charge: NoetherCharge) -> set[Expr]:
+    return {*sympy.Tuple(*charge.transformation.changes).atoms(sympy.sin, sympy.cos)}
+
+
+def integral_of(noether: Noether, eta: Vector, whole: Expr, gauge: Expr) -> NoetherCharge | None:
+    """Q where dQ/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) identically: then 0 on the motion."""
+    left_sides = noether.dynamics.lagrange.left_sides
+    left = noether.system.total_derivative(whole) - dot(eta, left_sides)
+    if is_zero(left) is not True:
+        return None
+    return NoetherCharge(
+        "",
+        "discovered",
+        Transformation(eta, sympy.S.Zero),
+        gauge,
+        whole,
+        conserved=True,
+        rate=sympy.S.Zero,
+        verified="exact",
+        broken_by="",
+    )

@@ -1,0 +1,89 @@
+"""Names of invariants where the coordinates have letters of their own; products are left out.
+
+Two bodies: Landau and Lifshitz, *Mechanics*, section 13.  Modes and their energies: Goldstein,
+Poole, Safko, 3rd ed., section 6.3.  Crossed fields: Jackson, 3rd ed., section 12.3.
+"""
+
+from random import Random
+
+import pytest
+import sympy
+
+from .derived import derive
+
+POS = "{assume: positive}"
+
+
+def names_of(text):
+    return {c.name: c for c in derive(text).discovery.charges}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(3))
+def test_two_bodies_in_any_letters_have_total_and_relative_angular_momentum(seed):
+    random = Random(seed)
+    x, y, u, v = random.sample("abcduvwxyz", 4)
+    r2 = f"(({x} - {u})^2 + ({y} - {v})^2)"
+    potential = random.choice([f"k*{r2}^2", f"-k/{r2}^2", f"k*log{r2}"])
+    given = random.sample([x, y, u, v], 4)
+    found = names_of(
+        f"{{coordinates: [{', '.join(given)}], parameters: {{m: {POS}, M: {POS}, k: {POS}}}, "
+        f"T: \"m*({x}'^2 + {y}'^2)/2 + M*({u}'^2 + {v}'^2)/2\", V: \"{potential}\"}}"
+    )
+    charge = {n: sympy.expand(c.charge) for n, c in found.items()}
+    assert not [n for n in found if n.startswith("charge")]
+    system = derive(
+        f"{{coordinates: [{', '.join(given)}], parameters: {{m: {POS}, M: {POS}}}, "
+        f"T: \"m*({x}'^2 + {y}'^2)/2 + M*({u}'^2 + {v}'^2)/2\"}}"
+    ).system
+    q = {s.name: s for s in system.q}
+    p = dict(zip((s.name for s in system.q), system.qdot, strict=True))
+    m, M = sympy.symbols("m M", positive=True)
+    total = m * (q[x] * p[y] - q[y] * p[x]) + M * (q[u] * p[v] - q[v] * p[u])
+    between = (q[x] - q[u]) * (p[y] - p[v]) - (q[y] - q[v]) * (p[x] - p[u])
+    for name, expected in (
+        ("angular_momentum", total),
+        ("angular_momentum_relative", m * M * between),
+    ):
+        ratio = sympy.cancel(charge[name] / expected)
+        assert ratio in (1, -1), (name, charge[name])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(3))
+def test_coupled_oscillators_have_the_energies_of_their_modes(seed):
+    """V of two springs and a coupling; H = E_1 + E_2 with E = mu (Q'^2 + omega^2 Q^2)/2."""
+    random = Random(seed)
+    k, c = random.randint(1, 6), random.randint(1, 6)
+    x, y = random.choice(["xy", "ab", ("q1", "q2")])
+    found = names_of(
+        f"{{coordinates: [{x}, {y}], parameters: {{m: {POS}}}, "
+        f'T: "m*({x}\'^2 + {y}\'^2)/2", V: "{k}*({x}^2 + {y}^2)/2 + {c}*({x} - {y})^2/2"}}'
+    )
+    assert not [n for n in found if n.startswith("charge")]
+    assert {"mode_cos", "mode_sin", "energy_mode"} <= set(found)
+    one = found["energy_mode"].charge
+    other = sympy.expand(found["energy"].charge - one)
+    symbols = {s.name: s for s in one.free_symbols | other.free_symbols}
+    q = [symbols[x], symbols[y]]
+    assert {
+        sympy.factor(e.subs({q[0]: 1, q[1]: sign})) == 0 for e in (one,) for sign in (1, -1)
+    } == {False}
+    still = {s: 0 for n, s in symbols.items() if s not in q and n != "m"}
+    sums = {sympy.expand(e.subs(still).subs({q[0]: 1, q[1]: s})) for e in (one, other)
+            for s in (1, -1)}  # fmt: skip
+    assert sums == {0, k, k + 2 * c}
+
+
+@pytest.mark.parametrize("axes", ["xyz", "yzx", "zxy"])
+def test_products_of_charges_in_crossed_fields_are_left_out(axes):
+    x, y, z = axes
+    found = names_of(
+        f"{{coordinates: [x, y, z], parameters: {{m: {POS}, q: {POS}, B: {POS}, E: {POS}}}, "
+        f"L: \"m*(x'^2 + y'^2 + z'^2)/2 + q*B*{x}*{y}' + q*E*{x}\"}}"
+    )
+    assert all(c.transformation.displaces_without(()) or n == "energy" for n, c in found.items())
+    v = [s for c in found.values() for s in c.charge.free_symbols if s.name.endswith("'")]
+    degrees = {n: sympy.Poly(c.charge, *set(v)).total_degree() for n, c in found.items() if v}
+    assert {n for n, d in degrees.items() if d > 1} <= {"energy"}
+    assert {"gyration_cos", "gyration_sin", f"boost_{z}"} <= set(found)
