@@ -24,7 +24,7 @@ def render(reports: Iterable[Report]) -> Iterator[str]:
         for finding in report.findings:
             title = f"{finding.outcome.value}: {finding.subject}"
             yield _command("error", report, finding.span, title, finding.message)
-    yield f"{total} problems checked, {failed} not passed\n"
+    yield f"{total} problem{'s' * (total != 1)} checked, {failed} not passed\n"
 
 
 def _command(severity: str, report: Report, span: Span, title: str, message: str) -> str:
