@@ -38,7 +38,7 @@ from lagcli.record import record
 _WORTH_A_BRACKET = 0.72
 
 #: The potential energy stays as the file has it up to this multiple of the operations.
-_GIVEN = 1.2
+_GIVEN = 1.6
 
 #: What is no polynomial in the velocities stays whole as the file has it: -m c² sqrt(1 - v²/c²).
 _GIVEN_WHOLE = 1.6

@@ -24,7 +24,7 @@ from functools import cached_property
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import dot, is_zero
+from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.impacts import between_impacts
@@ -134,7 +134,17 @@ class EnergyFunction:
         return sympy.Add(*map(self._from_term, sympy.Add.make_args(system.L)))
 
     def _from_term(self, term: Expr) -> Expr:
-        """sum v dA/dv - A of a term A of L."""
+        """sum v dA/dv - A of a term A of L, part by part where its bracket has several degrees."""
+        bracket = next((f for f in sympy.Mul.make_args(term) if f.is_Add), None)
+        if bracket is not None and not free_of(bracket, self.dynamics.system.qdot):
+            rest = term / bracket
+            by_degree: dict[Expr, Expr] = {}
+            for part in bracket.args:
+                change = self._along_velocities(part)
+                degree = simplify(change / part)
+                by_degree[degree] = by_degree.get(degree, sympy.S.Zero) + part
+            if len(by_degree) > 1 and all(degree.is_Integer for degree in by_degree):
+                return sympy.Add(*((n - 1) * rest * part for n, part in by_degree.items()))
         return self._along_velocities(term) - term
 
     def _along_velocities(self, term: Expr) -> Expr:

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from lagcli.mechanics.statements import Statements
+from lagcli.notation.likeness import signed_key
+from lagcli.reader import parse_text
 from lagcli.statements.wording import constraints_named
 
 from .derived import derive, same
@@ -80,3 +83,16 @@ def test_constraints_of_one_kind_are_named_together():
     moved = "constraints: {a: x = F(t), b: y = G(t)}\nfunctions: {F: [t], G: [t]}\n"
     energy = derive(f"coordinates: [x, y, z]\nL: x'^2 + y'^2 + z'^2\n{moved}").energy
     assert "the constraints 'a' and 'b' move and do work" in energy.reason
+
+
+@pytest.mark.parametrize("stretched", ["(x - l)^2 + (y - x - l)^2", "(y - x)^2 + (x + l)^2 + y^2"])
+def test_h_of_a_turning_rod_keeps_the_potential_of_the_file(stretched):
+    found = derive(f"""
+coordinates: [x, y]
+parameters: {{m: {{assume: positive}}, k: {{assume: positive}}, w: {{assume: positive}}, l: {{}}}}
+T: m*(x'^2 + y'^2 + w^2*(x^2 + y^2))/2
+V: k*({stretched})/2
+""")
+    h = Statements(found).by_terms(found.energy.readable_function, as_given=True)
+    expected = f"m*(x'^2 + y'^2)/2 - m*w^2*(x^2 + y^2)/2 + k*({stretched})/2"
+    assert signed_key(h) == signed_key(parse_text(expected))  # up to the order of terms
