@@ -192,6 +192,14 @@ def test_linear_equations_whose_coefficients_change_have_five(L):
     assert summary(derive(one_coordinate(L)).discovery).name.startswith("Schrödinger sch(1)")
 
 
+@pytest.mark.parametrize("L", ["x'^2 - t*x^2", "x'^2 - cosh(t)*x^2", "t*x'^2 - (t - 1/t)*x^2"])
+def test_symmetries_that_no_formula_is_known_for_are_said_not_to_have_been_sought(L):
+    """Airy's, Mathieu's and Bessel's equations have five as any linear equation."""
+    found = derive(one_coordinate(L)).discovery
+    assert len(found.charges) < 5
+    assert any("not sought: no formula" in reason for reason in found.stopped)
+
+
 @pytest.mark.long
 def test_lane_and_emden_have_special_indices():
     """Chandrasekhar, *Stellar Structure*, chapter IV: 0, 1 and 5 in closed form."""

@@ -21,6 +21,11 @@ PLANES = {
     "parabolic, stretched": ("[u, v]", "(u^2 + 4*v^2)*(u'^2 + 4*v'^2)", "2/(u^2 + 4*v^2)"),
     "logarithmic": ("[s, phi]", "exp(2*s)*(s'^2 + phi'^2)", "exp(-s)"),
     "a cone unrolled": (RADIAL, "r'^2/sin(a)^2 + r^2*phi'^2", "1/r"),
+    "bipolar": (
+        "[u, v]",
+        "(u'^2 + v'^2)/(cosh(u) - cos(v))^2",
+        "sqrt((cosh(u) - cos(v))/(cosh(u) + cos(v)))",
+    ),
     "elliptic": ("[u, v]", "(cosh(u)^2 - cos(v)^2)*(u'^2 + v'^2)", "1/(cosh(u) - cos(v))"),
 }
 
@@ -72,6 +77,8 @@ HYPERBOLIC = {
     "m*(x'^2 + y'^2)/(2*sinh(y)^2)": "[x, y]",
     "m*(tanh(x)^2*x'^2 + y'^2/cosh(x)^2)/2": "[x, y]",
     "m*(r'^2/(1 + r^2/R^2) + r^2*phi'^2)/2": RADIAL,
+    "m*(r'^2/(r^2 - R^2) + r^2*phi'^2/R^2)/2": RADIAL,
+    "m*(r'^2/(1 - r^2/R^2) - (1 - r^2/R^2)*x'^2)/2": f"{{r: {POS}, x: {{}}}}",
     "m*(x'^2 + y'^2)/(2*(1 - x^2 - y^2)^2)": "[x, y]",
 }
 SPHERE = {

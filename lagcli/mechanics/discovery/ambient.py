@@ -110,12 +110,14 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
     one = sympy.S.One
     if free_of(sympy.Tuple(*(e for row in metric.g for e in row)), [x]):
         return [one, *_along(x, metric, K)]
-    alone = [e for e in _parts(metric) if e.free_symbols & set(metric.q) == {x}]
+    parts = _parts(metric)
+    alone = [e for e in parts if e.free_symbols & set(metric.q) == {x}]
     found: dict[Expr, None] = {one: None}
-    for a in _arguments(alone, CIRCULAR):
-        found |= dict.fromkeys(f(a / k) for k in (1, 2) for f in (sympy.sin, sympy.cos))
-    for a in _arguments(alone, _HYPERBOLIC):
-        found |= dict.fromkeys(f(a / k) for k in (1, 2) for f in (sympy.sinh, sympy.cosh))
+    waves = ((CIRCULAR, sympy.sin, sympy.cos), (_HYPERBOLIC, sympy.sinh, sympy.cosh))
+    for kinds, *two in waves:  # those of a shared denominator too, as cosh(x) - cos(y)
+        for a in _arguments(parts, kinds):
+            if a.free_symbols & set(metric.q) == {x}:
+                found |= dict.fromkeys(f(a / k) for k in (1, 2) for f in two)
     for f in _below(alone):  # 1/cosh(x)^2 of Mercator's map comes from 1/cosh(x) and tanh(x)
         found |= {1 / f: None, _PARTNERS[f.func](f.args[0]) / f: None}
     for a in _arguments(alone, (sympy.exp,)):
@@ -126,8 +128,12 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
         # X has the slope x^(p/2) where the metric has x^p
         powers = [p for e in alone for b, p in [e.as_base_exp()] if b == x and p.is_odd]
         found |= {x ** (p / 2 + 1): None for p in powers}
-        sums = [b for e in alone for b in _bases(e) if b.is_Add]
-        for b in dict.fromkeys(sums):
+        below = sorted(alone, key=lambda e: not e.is_Pow)  # dx^2/b tells where b is positive
+        sums = list(dict.fromkeys(b for e in below for b in _bases(e) if b.is_Add))
+        for k, b in enumerate(sums):
+            # modulo a prime 4 k + 3 the roots of b and -b are never both there
+            if any(free_of(sympy.cancel(b / c), [x]) for c in sums[:k]):
+                continue
             found |= {sympy.sqrt(b): None, 1 / sympy.sqrt(b): None, 1 / b: None}
             found |= {x / sympy.sqrt(b): None, x / b: None, x**2 / b: None}
     return list(found)

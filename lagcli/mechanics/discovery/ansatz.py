@@ -44,6 +44,7 @@ class TimeFunctions:
     forced: tuple[Expr, ...] = ()
     changing: bool = False  # with the solutions of a linear equation whose coefficients change
     pushed: bool = False  # by forces without q and q', which translations alone take up
+    unsolved: bool = False  # no formula is known for solutions of such an equation
 
 
 def time_functions(
@@ -66,7 +67,8 @@ def time_functions(
     translations = [*powers, t**3, *_functions(own, t), *_functions(between, t)]
     forced = forced_motion(accelerations, equations.q, equations.v, t)
     translations += [f * T for f in forced for T in (others if f != t else others[3:])]
-    changing, stretched = of_changing_coefficients(accelerations, equations.q, equations.v, t)
+    linear = accelerations, equations.q, equations.v, t
+    changing, stretched, solved = of_changing_coefficients(*linear)
     if changing:
         translations = _independent([*translations, *changing], t)
         others = _independent([*others, *stretched], t)
@@ -77,6 +79,7 @@ def time_functions(
         tuple(f for f in forced if f != t),
         bool(changing),
         bool(forced),
+        not solved,
     )
 
 

@@ -108,12 +108,14 @@ class Brackets:
             self.allowed.check()
             with mpmath.workdps(_DIGITS):
                 # the same parameters for all states; others where charges are not real
-                base = self.dynamics.states.take(1 + bad // _PATIENCE)[-1]
+                turn = bad // _PATIENCE
+                base = self.dynamics.states.take(1 + turn)[-1]
+                width = turn if turn % 2 else 1  # beyond a horizon r^2 > m as well
                 state = dict(base)
                 for x in (*system.q, *system.qdot):
                     value = mpf(source.randint(2000, 13000)) / 10007
                     negative = x.is_negative or (not x.is_nonnegative and source.random() < 0.4)
-                    scale = mpf(1) / 3 if x in system.qdot else mpf(1)
+                    scale = mpf(1) / 3 if x in system.qdot else mpf(width)
                     state[x] = -value * scale if negative else value * scale
                 state[system.t] = mpf(source.randint(1000, 9000)) / 10007
                 if not self.dynamics.states.placed(state):

@@ -130,6 +130,11 @@ class Discovery(Setting):
         constraints = self.dynamics.constraints.equations
         search, words = self._search(self.coordinate_kinds, allowed)
         self.words.append(words)
+        if self.time_functions.unsolved:
+            self.stopped.append(
+                "symmetries made of the solutions of the linear part, whose coefficients change, "
+                "were not sought: no formula is known for them"
+            )
         transformations = self._transformations(search)
         centre = centre_of(transformations, self.system, self.coordinate_kinds.lengths)
         if len(centre) > 1:  # rotations about it are mixed where they are counted from 0

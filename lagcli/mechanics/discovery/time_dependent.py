@@ -28,20 +28,25 @@ _MOST_OPERATIONS = 200
 
 def of_changing_coefficients(
     accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
-) -> tuple[list[Expr], list[Expr]]:
-    """Functions for translations, and for the other generators; none where p and q are constant."""
+) -> tuple[list[Expr], list[Expr], bool]:
+    """Functions for translations and for the other generators, and whether all equations have them.
+
+    There are none where p and q are constant.
+    """
     translations: list[Expr] = []
     others: list[Expr] = []
+    solved = True
     time, t = t, sympy.Dummy("t", positive=True)  # for t < 0 the functions differ by a sign
     for acceleration, x, rate in zip(accelerations, q, v, strict=True):
         found = _of_equation(acceleration.xreplace({time: t}), x, rate, {*q, *v}, t)
         if found is None:
             continue
         root, Y, p = found
+        solved = solved and bool(Y)
         translations += [simplify(y / root) for y in Y]
         for stretch in _products(Y):
             others += [stretch, simplify(stretch.diff(t)), simplify(p * stretch)]
-    return _distinct(translations, t, time), _distinct(others, t, time)
+    return _distinct(translations, t, time), _distinct(others, t, time), solved
 
 
 def _products(Y: Sequence[Expr]) -> list[Expr]:
@@ -56,7 +61,7 @@ def _products(Y: Sequence[Expr]) -> list[Expr]:
 def _of_equation(
     acceleration: Expr, x: Symbol, rate: Symbol, moving: set[Symbol], t: Symbol
 ) -> tuple[Expr, list[Expr], Expr] | None:
-    """sqrt(mu), the two Y and p, by the terms of x'' that are linear in x and x'."""
+    """sqrt(mu), the two Y, if known, and p, by the terms of x'' that are linear in x and x'."""
     if sympy.count_ops(acceleration) > _MOST_OPERATIONS:
         return None
     terms = sympy.Add.make_args(sympy.expand(acceleration))
@@ -66,7 +71,7 @@ def _of_equation(
     integral = antiderivative(p, t)
     Y = _elementary(simplify(own - p.diff(t) / 2 - p**2 / 4), t, p)
     if integral is None or not Y:
-        return None
+        return sympy.S.One, [], p
     root = simplify(sympy.exp(sympy.expand(integral / 2)))
     return root, Y, p
 
