@@ -69,7 +69,7 @@ def time_functions(
     translations += [f * T for f in forced for T in (others if f != t else others[3:])]
     linear = accelerations, equations.q, equations.v, t
     changing, stretched, solved = of_changing_coefficients(*linear)
-    if changing:
+    if changing or forced:  # sin(2 t) is 2 sin(t) cos(t) for a force at resonance
         translations = _independent([*translations, *changing], t)
         others = _independent([*others, *stretched], t)
     return TimeFunctions(
