@@ -23,10 +23,10 @@ from lagcli.problem_data import Problem
 
 #: Bits of the first attempt and of the last; the order in proportion, from a scan of costs.
 _BITS, _MOST_BITS, _ORDER = 80, 640, 0.45
-#: All is worked out in these more than a step keeps: the pendulum's radius at t = 20 is 23 units of
-#: the last bit kept, without them 4200 (1300 of it by the 135 roundings alone).  That is 5 times
-#: the radius of a plain interval method in as many bits: `tests/oracle/interval_taylor.py`.
-_GUARD = 12
+#: All is worked out in _GUARD bits more than a step keeps, and the remainder of a step lies so many
+#: below those kept: the pendulum's radius at t = 20 is 1.1 units of the last bit kept.  With a
+#: remainder 2 bits below it is 23, without more bits 4200 (1300 by the 135 roundings alone).
+_GUARD, _REMAINDER = 12, 10
 #: Nodes of f and J that are evaluated to order 28, all attempts together: some 10 minutes.
 _WORK = 2e6
 #: With fewer bits than _PATIENT an attempt ends where the width of the set makes steps shorter
@@ -205,7 +205,7 @@ class Attempt:
             self.arithmetic,
             self.implied,
             self.order,
-            2.0 ** -(self.bits + 2),
+            2.0 ** -(self.bits + _REMAINDER),
             _SHORT if self.bits < _PATIENT else 0.0,
         )
         first = modes(setup.given, [1] * len(setup.equations.kinks))
