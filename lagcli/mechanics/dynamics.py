@@ -21,6 +21,7 @@ from lagcli.algebra import Shapes, dot, is_zero, left_nullspace, nullspace, simp
 from lagcli.algebra.build import free_of
 from lagcli.algebra.row_rank import independent_rows
 from lagcli.diagnostics import Diagnostic, ProblemError
+from lagcli.mechanics.by_multipliers import by_multipliers
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.euler_lagrange import EulerLagrange
 from lagcli.mechanics.motion_at_states import MotionAtStates
@@ -183,10 +184,11 @@ class Dynamics:
         solution = solve_linear(matrix, right, shapes=self.shapes)
         if solution is None or solution.singular:
             return None
-        accelerations = tuple(solution.values[:n])
         chosen = [sympy.S.Zero] * len(self.constraints)
         for k, value in zip(kept, solution.values[n:], strict=True):
             chosen[k] = value
+        found, equations = tuple(solution.values[:n]), self.constraints.equations
+        accelerations = by_multipliers(self.lagrange, equations, found, chosen, self.shapes)
         verified = self._verified(accelerations, tuple(chosen))
         if verified is None:
             return None
@@ -319,7 +321,3 @@ class Dynamics:
         replaced = expression.xreplace(values)
         unknown = {*self.system.qddot, *self.system.multipliers}
         return None if replaced.free_symbols & unknown else replaced
-
-    def simplified(self, expression: Expr) -> Expr:
-        """The readable form on the constraint surface."""
-        return self.shapes.simplify(expression)

@@ -92,7 +92,7 @@ class EnergyFunction:
             return None
         total = sympy.Add(*(power.value for power in self.powers))
         on_motion = self.dynamics.rate_on_motion(total)
-        return None if on_motion is None else self.dynamics.simplified(on_motion)
+        return None if on_motion is None else self.dynamics.shapes.simplify(on_motion)
 
     @cached_property
     def _verdict(self) -> tuple[bool | None, Verification | None]:
@@ -191,7 +191,13 @@ class EnergyFunction:
         if rate is None:
             return None
         holds = self.dynamics.verifier.is_zero(rate).holds
-        return None if holds is None else sympy.S.Zero if holds else self.dynamics.simplified(rate)
+        return (
+            None
+            if holds is None
+            else sympy.S.Zero
+            if holds
+            else self.dynamics.shapes.simplify(rate)
+        )
 
     @property
     def reason(self) -> str:

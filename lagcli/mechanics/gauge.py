@@ -96,12 +96,12 @@ class GaugeSearch:
                 return Gauge(None, None)
             if self.dynamics.verifier.is_zero(on_motion).holds:
                 return Gauge(True, part)
-            found = boundary_term(self.dynamics.simplified(on_motion), self.system)
+            found = boundary_term(self.dynamics.shapes.simplify(on_motion), self.system)
             if found is not None:
                 return Gauge(True, part + found)
         on_motion = self.dynamics.rate_on_motion(change)
         assert on_motion is not None
-        return Gauge(self._closed_on_surface(self.dynamics.simplified(on_motion)), None)
+        return Gauge(self._closed_on_surface(self.dynamics.shapes.simplify(on_motion)), None)
 
     def _closed_on_surface(self, change: Expr) -> bool | None:
         """Whether K dt is a closed one-form on the allowed vectors; None where it is none.

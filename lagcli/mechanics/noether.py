@@ -104,7 +104,7 @@ class Noether:
         """Whether a charge is conserved by the constraints alone, whatever the motion is."""
         if not (charge.complete and charge.conserved):
             return False
-        on_surface = self.dynamics.simplified(charge.charge)
+        on_surface = self.dynamics.shapes.simplify(charge.charge)
         moving = {*self.system.q, *self.system.qdot, self.system.t}
         return not on_surface.free_symbols & moving or self.dynamics.verifier.is_fixed(
             charge.charge
@@ -243,7 +243,7 @@ class Noether:
         if on_motion is None:
             verdict = self.dynamics.vanishes_on_motion(total)
             return sympy.S.Zero if verdict.holds else None, verdict.holds, verdict.how
-        rate = self.dynamics.simplified(on_motion)
+        rate = self.dynamics.shapes.simplify(on_motion)
         verdict = self.dynamics.verifier.is_zero(rate)
         if verdict.holds is True:
             return sympy.S.Zero, True, verdict.how

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+import sympy
 
 from lagcli.diagnostics import ProblemError
 
@@ -214,3 +215,26 @@ def test_a_coordinate_that_nothing_determines_is_named():
     d = derive("coordinates: [x, y, z]\nT: x'^2/2\nV: x + y\nconstraints: {c: y = x^2}")
     assert 2 in d.dynamics.undetermined
     assert d.dynamics.motion is None
+
+
+def test_points_on_a_triangle_of_rods_accelerate_like_each_other():
+    """At a spin w about the centre of mass r'' = -w² (r - r_c), with no coordinate below."""
+    rods = "".join(
+        f"  {a}{b}: (x{a} - x{b})^2 + (y{a} - y{b})^2 = a^2\n" for a, b in ("12", "23", "31")
+    )
+    d = derive(
+        "coordinates: [x1, y1, x2, y2, x3, y3]\nparameters: [m, a]\n"
+        f"T: m*({' + '.join(f'x{k}' + chr(39) + f'^2 + y{k}' + chr(39) + '^2' for k in '123')})/2\n"
+        f"constraints:\n{rods}"
+    )
+    assert d.dynamics.motion is not None
+    w, a = sympy.symbols("w a")
+    height = sympy.sqrt(3) * a / 6
+    places = [-a / 2, -height, a / 2, -height, 0, 2 * height]
+    rates = [w * (-places[i + 1] if i % 2 == 0 else places[i - 1]) for i in range(6)]
+    values = dict(zip((s.name for s in d.system.q), places, strict=True))
+    values |= dict(zip((s.name for s in d.system.qdot), rates, strict=True)) | {"a": a}
+    for place, value in zip(places, d.dynamics.motion.accelerations, strict=True):
+        put = value.xreplace({s: values[s.name] for s in value.free_symbols if s.name in values})
+        assert sympy.simplify(put + w**2 * place) == 0
+        assert not sympy.denom(sympy.together(value)).free_symbols & {*d.system.q}
