@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from random import Random
 
 import pytest
 
@@ -14,7 +15,7 @@ from lagcli.reader import parse_text, read_problem
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt, rewritten
 from lagcli.statements.answers import Answers, Charge, ChargesSection
-from lagcli.statements.motions import HamiltonJacobiSection, Verdict
+from lagcli.statements.motions import Above, HamiltonJacobiSection, Verdict
 from lagcli.verification import verified
 
 from .sheets import derived, each_spoiled, number
@@ -439,3 +440,28 @@ def test_the_hamiltonian_of_an_equation_that_was_not_separated_is_examined() -> 
     )
     found = verified(problem, replace(answers, sections={"hamilton_jacobi": wrong}))
     assert found.sections["hamilton_jacobi"].hamiltonian is None
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_conditions_that_no_parameters_satisfy(seed: int) -> None:
+    """x^2 = (a g - b h)/k needs a g > b h; with b h > a g as well it is nowhere."""
+    a, b = (Random(f"{seed} {side}").randint(1, 9) for side in "ab")
+    text = (
+        "coordinates: [x]\nparameters: {m: {assume: positive}, k: {assume: positive}, "
+        "g: {assume: positive}, h: {assume: positive}}\n"
+        f"T: m*x'^2/2\nV: k*x^4/4 + ({b}*h - {a}*g)*x^2/2\n"
+    )
+    problem = read_problem("void", text.encode()).problem
+    answers = state(derive(problem), Request(sections=("equilibria",)))
+    section = answers.sections["equilibria"]
+    assert section.equilibria
+    assert verified(problem, answers).sections["equilibria"] == section
+    void = tuple(
+        replace(e, where=(*e.where, *(Above(left=c.right, right=c.left) for c in e.where)))
+        for e in section.equilibria
+    )
+    assert void != section.equilibria
+    wrong = replace(answers, sections={"equilibria": replace(section, equilibria=void)})
+    found = verified(problem, wrong)
+    assert found.sections["equilibria"].equilibria is None
+    assert any("no parameters were found" in each for each in found.warnings)

@@ -146,6 +146,10 @@ def _stays(
             return Verdict(stable=None, reason=_WHY)
     if not place.readable:
         return None
+    unknown = x.problem.functions or x.reference.rows or x.problem.contacts
+    if not tried and place.where and not unknown:
+        x.refute(what, "no parameters were found that satisfy its conditions")
+        return None
     if not tried:
         x.unchecked.append(what)
     why = "" if place.eliminated else _refuted_beside_bounds(x, what, place, verdict, zeros)

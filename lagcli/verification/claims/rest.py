@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 from random import Random
 
 from flint import arb
@@ -75,6 +76,8 @@ class RestPlace:
                 yield near
             if count == WANTED:
                 return
+        if not count and self.where:
+            yield from islice(self.spread(), WANTED)
 
     def spread(self) -> Iterator[LinearMotion]:
         """States here with parameters of other sizes: what is said to hold always holds there."""
