@@ -141,8 +141,13 @@ def _sides(each: Above) -> list[Part]:
     base = _squared(each.left) if each.right == ZERO else None
     if base is not None:
         return _compared(base, " ≠ ")
-    if each.left == ZERO:
-        return [each.right, " < ", each.left]
+    match each:
+        case Above(left=Negative(operand=left), right=Number(value=0)):
+            return [left, " < ", ZERO]
+        case Above(left=Number(value=0), right=Negative(operand=right)):
+            return [right, " > ", ZERO]
+        case Above(left=Number(value=0), right=right):
+            return [right, " < ", ZERO]
     return [each.left, " > ", each.right]
 
 

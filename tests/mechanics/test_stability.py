@@ -204,3 +204,23 @@ V: -m*g*l*cos(theta) + c/(l + d - l*cos(theta))
     aside = [each for each in found if "acos" in to_grammar(each.at["theta"])]
     assert aside
     assert all(each.verdict.stable for each in aside)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_condition_in_factors_stays_in_factors(seed):
+    """V'' of (R - a) (n m g + (R - a) k) (1 - cos u): not multiplied out."""
+    n = random.Random(seed).randint(1, 9)
+    text = f"""
+coordinates: [u]
+parameters: {{m: POSITIVE, g: POSITIVE, R: POSITIVE, a: POSITIVE, k: POSITIVE}}
+T: m*R^2*u'^2/2
+V: (R - a)*({n}*m*g + (R - a)*k)*(1 - cos(u))
+""".replace("POSITIVE", "{assume: positive}")
+    found = equilibria(derive(text).dynamics).equilibria
+    [below] = [each for each in found if to_grammar(each.at["u"]) == "0"]
+    [condition] = below.verdict.minimum
+    assert to_grammar(condition.right) == "0"
+    at = {"m": 2, "g": 3, "k": 5}
+    for R, a in ((4, 1), (1, 4), (1, 1 + Rational(6 * n, 5) + 7)):
+        value = sympy.sympify(to_grammar(condition.left)).subs({**at, "R": R, "a": a})
+        assert (value > 0) == ((R - a) * (n * 6 + (R - a) * 5) > 0)
