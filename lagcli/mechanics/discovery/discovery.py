@@ -254,17 +254,14 @@ class Discovery(Setting):
     def _keep(self, found: Iterable[tuple[Slots, NoetherCharge]]) -> None:
         """Add what is found, with names."""
         naming = HiddenNames(self.system, self.equations, self.centred_kinds)
-        named = self._beyond_products(
+        named = self._with_energies_of_modes(
             [(*naming.of(functions, charge), charge) for functions, charge in found]
         )
         named.sort(key=lambda each: (not each[0], each[0]))
         self.listing.add_hidden((name, times(charge, factor)) for name, factor, charge in named)
 
-    def _beyond_products(self, named: list[Named]) -> list[Named]:
-        """Without unnamed products of polynomials in t; energies of modes for those of waves."""
-        steady = [c for c in self.point_charges if c.charge.is_polynomial(self.system.t)]
-        plain = Products(self.noether, steady, self.allowed)
-        named = [each for each in named if each[0] or not plain.includes(each[2])]
+    def _with_energies_of_modes(self, named: list[Named]) -> list[Named]:
+        """Energies of modes for as many unnamed products of point charges."""
         products = Products(self.noether, self.point_charges, self.allowed)
         nameless = [each for each in named if not each[0] and products.includes(each[2])]
         kept = [each for each in named if each not in nameless]
