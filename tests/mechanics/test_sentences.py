@@ -17,10 +17,10 @@ from lagcli.formatters import explaining
 from lagcli.formatters.built_in.text import render
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.options import Options
+from lagcli.mechanics.averaged import averaged
 from lagcli.mechanics.conditions import conditions, opposites
 from lagcli.mechanics.explaining.recurring import recurrences
 from lagcli.mechanics.impacts import between_impacts
-from lagcli.mechanics.reduction.averaged import averaged
 from lagcli.mechanics.reduction.statement import reduction
 from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import explain
