@@ -15,7 +15,7 @@ from lagcli.problem_data import Problem
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
-    from lagcli.studies.asking import Asking
+    from lagcli.studies.run_options import OptionReader
 
 Options = TypeVar("Options")
 
@@ -63,14 +63,14 @@ def understood(
     return None if wanted is None else (problem, wanted)
 
 
-def asking(problem: Problem) -> Asking:
+def option_reader(problem: Problem) -> OptionReader:
     """What reads the options of a run and prints every mistake."""
-    from lagcli.studies.asking import COMMAND_LINE, Asking
+    from lagcli.studies.run_options import COMMAND_LINE, OptionReader
 
     def told(error: ProblemError) -> None:
         tell(error.source, error.diagnostics)
 
-    return Asking(problem, COMMAND_LINE, told)
+    return OptionReader(problem, COMMAND_LINE, told)
 
 
 def is_known(option: str, name: str, names: tuple[str, ...]) -> bool:

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 from lagcli.cli.choices import BINARY, TABLES
 from lagcli.cli.delivering import has_place, place
 from lagcli.cli.endings import TABLES as ENDINGS
-from lagcli.cli.running import asking, is_known, shared, understood
+from lagcli.cli.running import is_known, option_reader, shared, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line, tell_refusal
 from lagcli.record import record
-from lagcli.studies.asking import RunOptions
+from lagcli.studies.run_options import RunOptions
 
 if TYPE_CHECKING:
     from lagcli.numerics.hybrid.request import Asked
@@ -167,4 +167,4 @@ def asked_of(
 
     Where neither the options nor the file give an end, it is `without_end`, if that is given.
     """
-    return asking(problem).asked(wish, without_end=without_end)
+    return option_reader(problem).asked(wish, without_end=without_end)

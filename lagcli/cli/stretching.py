@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import STUDIES
 from lagcli.cli.delivering import has_place, place
-from lagcli.cli.running import asking, counted, is_known, understood
+from lagcli.cli.running import counted, is_known, option_reader, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line, tell_refusal
 from lagcli.record import record
@@ -64,7 +64,7 @@ def _wanted(problem: Problem, wish: ExtremesOptions) -> Wanted | None:
     """What each case is asked; None where an option is no number, which is told."""
     from lagcli.studies.extremes.trial import Wanted
 
-    options = asking(problem)
+    options = option_reader(problem)
     until, accuracy = options.until(wish.until), options.accuracy(wish.accuracy)
     if not options.good:
         return None

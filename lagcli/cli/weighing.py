@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lagcli.cli.choices import COSTS, PICTURES, STUDIES
 from lagcli.cli.delivering import has_place, place
 from lagcli.cli.plotting import ending, is_drawn_as
-from lagcli.cli.running import asking, counted, is_known, understood
+from lagcli.cli.running import counted, is_known, option_reader, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line, tell_refusal
 from lagcli.problem_data import METHODS
@@ -74,7 +74,7 @@ def weigh_file(wish: TradeoffOptions) -> Status:
 
 
 def _end(problem: Problem, wish: TradeoffOptions) -> float | None:
-    options = asking(problem)
+    options = option_reader(problem)
     until = options.end(wish.until)
     return until if options.good else None
 

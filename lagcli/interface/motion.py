@@ -162,11 +162,11 @@ def asked_of(problem: Problem, **options: Any) -> Asked:
     ProblemError
         When an option does not fit the problem.
     """
-    from lagcli.studies.asking import PYTHON, Asking, RunOptions
+    from lagcli.studies.run_options import PYTHON, OptionReader, RunOptions
 
     def raised(error: ProblemError) -> None:
         raise error
 
-    asked = Asking(problem, PYTHON, raised).asked(RunOptions(**options))
+    asked = OptionReader(problem, PYTHON, raised).asked(RunOptions(**options))
     assert asked is not None  # else a mistake was raised
     return asked

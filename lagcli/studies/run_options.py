@@ -63,7 +63,7 @@ COMMAND_LINE = Spelling("--", "-", " ")
 PYTHON = Spelling("", "_", "=")
 
 
-class Asking:
+class OptionReader:
     """Reads the options for a problem, with those of its file where they are left out.
 
     Parameters
