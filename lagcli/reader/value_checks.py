@@ -1,13 +1,13 @@
-"""Numbers that cannot be: of parameters, masses of points, and coefficients of restitution.
+"""Numbers that cannot be: of parameters, masses, coefficients of restitution, ends of runs.
 
 Values are followed exactly where they are rational; others are looked at when they are used.
 """
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from functools import partial
-from math import prod
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
@@ -80,7 +80,7 @@ def _sign(formula: Expression, problem: Problem, known: Mapping[str, Fraction]) 
             case Sum():
                 return parts[0] if len(set(parts)) == 1 else 0
             case Product() | Quotient():
-                return prod(parts)
+                return math.prod(parts)
             case Power(exponent=Number(value=power)) if power.denominator == 1:
                 return 1 if power % 2 == 0 else parts[0]
             case Call(function=function):
@@ -112,8 +112,9 @@ def _names(formula: Expression) -> list[Name]:
 
 
 def check_values(sections: Sections, problem: Problem) -> None:
-    """Values that break an assumption, negative masses, restitution that is not in 0 to 1."""
+    """Values that break an assumption, negative masses, restitution that is not in 0 to 1, runs."""
     _check_dissipation(sections, problem)
+    _check_run(sections, problem)
     known = _known(problem)
     for parameter in problem.parameters:
         value = known.get(parameter.name)
@@ -131,6 +132,36 @@ def check_values(sections: Sections, problem: Problem) -> None:
             message = f"the restitution of '{name}' lies between 0 and 1, and is {value}"
             hint = "1 loses no energy, after 0 nothing rebounds"
             sections.error(message, formula.span, hint)
+
+
+def run_number(formula: Expression) -> float:
+    """The value of an end or an accuracy; nan, which neither takes, where it is none."""
+    from lagcli.evaluation import value_of
+
+    try:
+        return float(value_of(formula) or 0)
+    except (ArithmeticError, ValueError):
+        return math.nan
+
+
+def run_mistake(name: str, value: float) -> str:
+    """What is wrong with an end or an accuracy; empty where nothing is."""
+    below, sentence = (
+        (math.inf, "the end must be a time after 0")
+        if name == "until"
+        else (1, "it lies between 0 and 1")
+    )
+    if 0 < value < below:
+        return ""
+    return sentence + (f", not {value:g}" if math.isfinite(value) else ", and a double")
+
+
+def _check_run(sections: Sections, problem: Problem) -> None:
+    """The defaults of a run, which `simulate` and the studies go by."""
+    file = problem.simulation
+    for name, formula in (("until", file.until), ("accuracy", file.accuracy)):
+        if formula is not None and (mistake := run_mistake(name, run_number(formula))):
+            sections.error(f"'{name}': {mistake}", formula.span)
 
 
 def _check_dissipation(sections: Sections, problem: Problem) -> None:
@@ -159,7 +190,7 @@ def _parity(formula: Expression, definitions: Mapping[str, Expression]) -> int:
             case Sum():
                 return parts[0] if len(set(parts)) == 1 else 0
             case Product() | Quotient() | Negative():
-                return prod(parts)
+                return math.prod(parts)
             case Power(exponent=Number(value=power)) if power.denominator == 1:
                 return int(parts[0] ** abs(power))
             case Call(function=function) if function in _ODD or (function in _EVEN and parts[0]):

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source
-from lagcli.evaluation import value_of
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.numerics.hybrid.request import Asked
@@ -21,6 +19,7 @@ from lagcli.reader.columns import (
     usual_columns,
 )
 from lagcli.reader.suggest import did_you_mean
+from lagcli.reader.value_checks import run_mistake, run_number
 from lagcli.record import record
 
 _USUAL_ACCURACY = 1e-9
@@ -100,7 +99,8 @@ class OptionReader:
         method = file.method if options.method == "auto" and file.method else options.method
         if method not in METHODS:
             advice = did_you_mean(method, METHODS) or f"there are {', '.join(METHODS)}"
-            self._wrong("method", f"unknown name '{method}': {advice}")
+            spelled = self._spelled("method")
+            self._mistaken("lagcli", f"{spelled}: unknown name '{method}': {advice}")
         columns = self._columns(options.show)
         stop = options.stop_when
         along = stop and self._read(
@@ -134,16 +134,11 @@ class OptionReader:
 
     def until(self, given: str | float | None) -> float | None:
         """The end; None where there is none."""
-        until = self._number("until", given)
-        if until is not None and not 0 < until < math.inf:
-            self._wrong("until", f"the end must be a time after 0{_not(until)}", given)
-        return until
+        return self._number("until", given)
 
     def accuracy(self, given: str | float | None) -> float:
         """The requested accuracy, or the usual one."""
         accuracy = self._number("accuracy", given)
-        if accuracy is not None and not 0 < accuracy < 1:
-            self._wrong("accuracy", f"it lies between 0 and 1{_not(accuracy)}", given)
         return _USUAL_ACCURACY if accuracy is None else accuracy
 
     def _columns(self, show: Sequence[str]) -> tuple[Column, ...]:
@@ -156,14 +151,12 @@ class OptionReader:
         return tuple(found.values())
 
     def _number(self, name: str, given: str | float | None) -> float | None:
-        """A number of the call, or else of the file; nan, which no option takes, for no number."""
+        """A number of the call, or else of the file."""
         formula = self._formula(name, given)
-        if formula is None:
-            return None
-        try:
-            return float(value_of(formula) or 0)
-        except (ArithmeticError, ValueError):
-            return math.nan
+        value = None if formula is None else run_number(formula)
+        if value is not None and (mistake := run_mistake(name, value)):
+            self._mistaken("lagcli", f"{self._spelled(name)}: {mistake}")
+        return value
 
     def _formula(self, name: str, given: str | float | None) -> Expression | None:
         """A number as it is written."""
@@ -186,21 +179,9 @@ class OptionReader:
 
     # -- mistakes ------------------------------------------------------------------------------
 
-    def _wrong(self, name: str, sentence: str, given: object = "") -> None:
-        formula = self._of_file(name) if given is None else None
-        if formula is None:
-            self._mistaken("lagcli", f"{self._spelled(name)}: {sentence}")
-            return
-        mistake = Diagnostic(f"'{name}': {sentence}", formula.span)
-        self._report(ProblemError(self.problem.source, (mistake,)))
-
     def _mistaken(self, where: str, sentence: str) -> None:
         self._report(ProblemError(Source(where, ""), (Diagnostic(sentence),)))
 
     def _report(self, error: ProblemError) -> None:
         self.good = False
         self._tell(error)
-
-
-def _not(value: float) -> str:
-    return f", not {value:g}" if math.isfinite(value) else ", and a double"

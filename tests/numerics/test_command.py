@@ -14,9 +14,9 @@ from .running import ROOT
 PENDULUM = str(ROOT / "problems/pendulums/pendulum-cartesian.yaml")
 
 
-def run(*arguments, stdin=None):
+def run(*arguments, stdin=None, command="simulate"):
     done = subprocess.run(
-        [sys.executable, "-m", "lagcli", "simulate", *arguments],
+        [sys.executable, "-m", "lagcli", command, *arguments],
         capture_output=True, text=True, input=stdin, check=False, cwd=ROOT,
     )  # fmt: skip
     assert "Traceback" not in done.stderr
@@ -105,12 +105,14 @@ def test_mistakes_of_the_command_line(arguments, word):
     assert done.stdout == ""
 
 
-def test_mistakes_of_the_file_are_shown_where_they_stand():
+@pytest.mark.parametrize("command", ["simulate", "solve", "check"])
+def test_mistakes_of_the_file_are_shown_where_they_stand(command):
     text = "coordinates: [x]\nT: x'^2/2\nsimulation: {until: -1, accuracy: 2}\n"
-    done = run("-", stdin=text)
+    done = run("-", stdin=text, command=command)
+    told = done.stdout + done.stderr
     assert done.returncode == 2
-    assert ":3:21: error: 'until': the end must be a time after 0, not -1\n" in done.stderr
-    assert ":3:35: error: 'accuracy': it lies between 0 and 1, not 2\n" in done.stderr
+    assert ":3:21: error: 'until': the end must be a time after 0, not -1\n" in told
+    assert ":3:35: error: 'accuracy': it lies between 0 and 1, not 2\n" in told
 
 
 @pytest.mark.long

@@ -1,4 +1,4 @@
-"""Integrals that are products of others: left out, or told as the energies of the modes.
+"""Integrals that are products of others: the energies of the modes stand for them.
 
 Q_a Q_b has the multipliers Q_a eta_b + Q_b eta_a, where dQ/dt = sum eta_j (left side j).
 Q_cos^2 + Q_sin^2 = 2 mu E of a mode xi cos(omega t), with mu = xi M xi.
