@@ -113,8 +113,8 @@ def _names(formula: Expression) -> list[Name]:
 
 def check_values(sections: Sections, problem: Problem) -> None:
     """Values that break an assumption, negative masses, restitution that is not in 0 to 1, runs."""
-    _check_dissipation(sections, problem)
     _check_run(sections, problem)
+    _check_dissipation(sections, problem)
     known = _known(problem)
     for parameter in problem.parameters:
         value = known.get(parameter.name)
