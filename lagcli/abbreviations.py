@@ -144,26 +144,25 @@ class _Abbreviations:
         return rebuilt(node, self._renamed)
 
     def _best(self) -> Expression | None:
-        counts, shapes = Counter[int](), dict[int, Counter[Expression]]()
+        shapes: dict[int, Counter[Expression]] = {}
         for tree in (*self._trees, *self._chosen.values()):
             for part in walk(tree):
                 if isinstance(part, (Sum, Call)):
-                    which = self._alike(part)[1]
-                    counts[which] += 1
-                    shapes.setdefault(which, Counter())[part] += 1
+                    shapes.setdefault(self._alike(part)[1], Counter())[part] += 1
+        counts = {which: found.total() for which, found in shapes.items()}
+        first = {which: next(iter(found)) for which, found in shapes.items()}
         for tree in self._trees:  # a result is no abbreviation of itself
             counts.pop(self._alike(tree)[1], None)
-        for which in list(counts):  # an angle has no name of its own
-            part = next(iter(shapes[which]))
-            if isinstance(part, Call):
+        for which, part in first.items():  # an angle has no name of its own
+            if which in counts and isinstance(part, Call):
                 for angle in part.arguments:
                     if (inner := self._alike(angle)[1]) in counts:
                         counts[inner] -= counts[which]
         below = self._below()
         savings = {
-            which: (count - 1) * operation_count(next(iter(shapes[which])))
+            which: (count - 1) * operation_count(first[which])
             for which, count in counts.items()
-            if count > 1 and _is_worth(next(iter(shapes[which])), count, which in below)
+            if count > 1 and _is_worth(first[which], count, which in below)
         }
         best = max(savings, key=lambda which: savings[which], default=None)
         return None if best is None else shapes[best].most_common(1)[0][0]

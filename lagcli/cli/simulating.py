@@ -163,7 +163,7 @@ def _is_installed(package: str) -> bool:
 def asked_of(
     problem: Problem, wish: SimulateOptions, *, without_end: float | None = None
 ) -> Asked | None:
-    """The run; None where there are mistakes, which are told.
+    """The run; None where there are mistakes, which are reported.
 
     Where neither the options nor the file give an end, it is `without_end`, if that is given.
     """

@@ -115,9 +115,9 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
     if any(power % 2 == 0 for _, power in with_sines(rest)):
         return Above(shape(rest, order), ZERO)
     differences = [factor for factor, _ in factors_of(rest) if factor.is_Add]
-    product = Above(shape(rest, order), ZERO)
-    if len(differences) == 2 and all(map(_is_difference, differences)):  # (A - B) (A - C) > 0
-        return product
+    product = Above(shape(rest, order), ZERO) if len(differences) > 1 else None
+    if product and len(differences) == 2 and all(map(_is_difference, differences)):
+        return product  # (A - B) (A - C) > 0
     by_monomial: dict[Expr, Expr] = {}
     for term in rest.expand().as_ordered_terms():
         number, monomial = term.as_independent(*term.free_symbols, as_Add=False)
@@ -129,7 +129,7 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
     if constant > 0 and others != 0:  # 1 > 27 mu (1 - mu)
         other = Above(shape(constant, order), shape(simplify(right - others), order))
         found = min(found, other, key=_operations)
-    return min(found, product, key=_operations) if len(differences) > 1 else found
+    return found if product is None else min(found, product, key=_operations)
 
 
 def _is_difference(factor: Expr) -> bool:

@@ -153,6 +153,11 @@ class RollingMotions:
         """The u that need not vanish."""
         return tuple(j for j in self.velocities if j not in self.coordinates)
 
+    @property
+    def _still(self) -> dict[Symbol, Expr]:
+        """r' = 0."""
+        return {self.system.qdot[j]: S.Zero for j in self.coordinates}
+
     @cached_property
     def conditions(self) -> dict[int, Expr]:
         """What vanishes in a steady motion, by the coordinate of the equation.
@@ -163,8 +168,7 @@ class RollingMotions:
             return {}
         system, lagrange = self.system, self.dynamics.lagrange
         kept, others = self._chart
-        still = {system.qdot[j]: S.Zero for j in self.coordinates}
-        along = [others.get(v, v).xreplace(still) for v in system.qdot]
+        along = [others.get(v, v).xreplace(self._still) for v in system.qdot]
         bent = [dot((v.diff(q) for q in system.q), along) for v in along]
         left = [
             dot(row, bent) - force
@@ -275,9 +279,8 @@ class RollingMotions:
 
     def _holds(self, values: Mapping[Symbol, Expr]) -> bool:
         """Whether F vanishes there; not known where the coordinates are singular."""
-        still = {self.system.qdot[j]: S.Zero for j in self.coordinates}
         try:
-            rates = [at(f.xreplace(still), values) for f in self._equations or ()]
+            rates = [at(f.xreplace(self._still), values) for f in self._equations or ()]
         except ZeroDivisionError:
             rates = [S.NaN]
         self.complete &= not any(f.has(S.NaN, S.ComplexInfinity) for f in rates)
@@ -340,12 +343,11 @@ class RollingMotions:
     def _characteristic(self, motion: RollingMotion) -> list[Expr] | None:
         """The coefficients of det(s - J) by powers of s, simplified."""
         system, s = self.system, Symbol("#s", real=True)
-        still = {system.qdot[j]: S.Zero for j in self.coordinates}
         state = [system.q[j] for j in self.coordinates] + [system.qdot[j] for j in self.velocities]
         flow = [system.qdot[j] for j in self.coordinates] + list(self._equations or ())
         matrix = [
             [
-                (s if a == b else S.Zero) - at(f.diff(x).xreplace(still), motion.values)
+                (s if a == b else S.Zero) - at(f.diff(x).xreplace(self._still), motion.values)
                 for b, x in enumerate(state)
             ]
             for a, f in enumerate(flow)

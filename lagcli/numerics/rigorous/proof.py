@@ -23,8 +23,8 @@ from lagcli.problem_data import Problem
 
 #: Bits of the first attempt and of the last; the order in proportion, from a scan of costs.
 _BITS, _MOST_BITS, _ORDER = 80, 640, 0.45
-#: All is worked out in _GUARD bits more than a step keeps, and the remainder of a step lies so many
-#: below those kept: the pendulum's radius at t = 20 is 1.1 units of the last bit kept.  With a
+#: All is worked out in _GUARD bits more than a step keeps; the remainder of a step lies _REMAINDER
+#: bits below those kept: the pendulum's radius at t = 20 is 1.1 units of the last bit kept.  With a
 #: remainder 2 bits below it is 23, without more bits 4200 (1300 by the 135 roundings alone).
 _GUARD, _REMAINDER = 12, 10
 #: Nodes of f and J that are evaluated to order 28, all attempts together: some 10 minutes.
