@@ -28,7 +28,7 @@ from lagcli.expression import (
 )
 from lagcli.notation.letters import names_in
 from lagcli.notation.likeness import EVEN, ODD, SignedNumbers, parity
-from lagcli.notation.naming import Names
+from lagcli.notation.naming import PART_STEMS, Names, free_stem
 from lagcli.notation.ordering import positive_first
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt, rewritten
@@ -111,7 +111,8 @@ class _Abbreviations:
         self._labels: dict[str, tuple[int, int]] = {}  # what is named, as it was when chosen
         self._chosen: dict[str, Expression] = {}
         self._trees = list(trees)
-        self._numbered: dict[str, list[str]] = {"k": [], "Delta": []}  # k1, k2, …, Δ, Δ2, …
+        self._stem = free_stem(PART_STEMS, taken)
+        self._numbered: dict[str, list[str]] = {self._stem: [], "Delta": []}  # k1, k2, …, Δ, Δ2, …
         while len(self._chosen) < _MOST_NAMES and (best := self._best()) is not None:
             self._take(best)
         found = dict(self._ordered())
@@ -173,8 +174,8 @@ class _Abbreviations:
     def _take(self, whole: Expression) -> None:
         its = self._alike(whole)
         below = its[1] in self._below()
-        circular, stem = _circular_name(whole), "Delta" if below else "k"
-        label = self._new(circular or (stem if below else "k1"))
+        circular, stem = _circular_name(whole), "Delta" if below else self._stem
+        label = self._new(circular or (stem if below else f"{stem}1"))
         if not circular:
             self._numbered[stem].append(label)
         self._labels[label] = its

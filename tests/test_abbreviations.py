@@ -127,6 +127,8 @@ def test_names_of_the_file_are_not_taken():
     plain = answers("problems/chains/slider-crank.yaml")
     short = abbreviated(plain, ("Delta", "k1"))
     assert not short.where.keys() & {"Delta", "k1"}
+    beside_a_spring = abbreviated(plain, ("k", "l")).where
+    assert not [name for name in beside_a_spring if name.startswith("k")]
     same_values(written_out(short).sections, plain.sections)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from lagcli.expression import Expression, operation_count
 from lagcli.graph.nodes import Call, Node, Sum, Symbol, mask_of
 from lagcli.graph.sharing import GraphWriter, in_order_of_use, repeated
-from lagcli.notation.naming import Names
+from lagcli.notation.naming import PART_STEMS, Names, free_stem
 from lagcli.record import record
 
 #: More abbreviations than this fill more than a page; a chain of six links on a cart has 74.
@@ -22,18 +22,6 @@ class Written:
 
     values: tuple[Expression, ...]
     where: Mapping[str, Expression]
-
-
-def free_stem(stems: Sequence[str], taken: Collection[str]) -> str:
-    """The first stem with which no name of the file begins before its digits."""
-    used = {name.rstrip("0123456789_") for name in taken}
-    for stem in stems:
-        if stem not in used:
-            return stem
-    stem = stems[0]
-    while stem in used:
-        stem += stems[0]
-    return stem
 
 
 def abbreviated(
@@ -84,7 +72,7 @@ class PartLabels:
 
     def __init__(self, taken: Collection[str]) -> None:
         self._taken = Names(taken)
-        self._stem = free_stem(("k", "h", "shared"), taken)
+        self._stem = free_stem(PART_STEMS, taken)
         self._of: dict[Node, str] = {}
         self._count = 0
 

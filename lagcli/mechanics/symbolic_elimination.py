@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Iterator, Sequence
 from lagcli.graph.nodes import Graph, Node, Symbol
 from lagcli.graph.sharing import operations
 from lagcli.graph.substitution import Substitution
-from lagcli.mechanics.abbreviation import free_stem
+from lagcli.notation.naming import free_stem
 
 
 class StepNames:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 
 from lagcli.notation.greek import BY_LETTER
 from lagcli.record import record
 
 #: What a letter of ours gets where the file has the letter: L_sys.
 INDEX = "sys"
+#: Stems of the names of parts; χ where the file has a k, since k₁ would be taken for one more.
+PART_STEMS = ("k", "chi", "shared")
 _LETTERS_AND_DIGITS = re.compile(r"(?P<letters>.*[^0-9])(?P<digits>[0-9]*)", re.DOTALL)
 _BEFORE_DIGITS = re.compile(r"(?<=[^\d_])(?=\d)")
 #: A letter and its index written together, `Rc`; but `th` is how theta is shortened.
@@ -80,3 +82,15 @@ def free(taken: Collection[str], *choices: str) -> str:
     while found in taken:
         found += f"_{INDEX}"
     return found
+
+
+def free_stem(stems: Sequence[str], taken: Collection[str]) -> str:
+    """The first stem with which no name of the file begins before its digits."""
+    used = {name.rstrip("0123456789_") for name in taken}
+    for stem in stems:
+        if stem not in used:
+            return stem
+    stem = stems[0]
+    while stem in used:
+        stem += stems[0]
+    return stem

@@ -332,6 +332,23 @@ V: -M*g*(l - r)*cos(theta)
     assert squares == {formula("g/(l - r)"), formula("3*M*g/((m + M)*r)")}
 
 
+@pytest.mark.parametrize("turns", [1, 2, 3])
+def test_the_distance_is_given_where_the_rate_is_short_by_it(turns):
+    """An elastic string over a hole with M in the bight of `turns` pulleys: m φ'² r = M g/turns."""
+    text = f"""
+coordinates: {{r: POSITIVE, phi: {{}}, z: {{}}}}
+parameters: {{m: POSITIVE, M: POSITIVE, g: POSITIVE, l: POSITIVE, k: POSITIVE}}
+T: m*(r'^2 + r^2*phi'^2)/2 + M*z'^2/2
+V: k*(r + {turns}*z - l)^2/2 - M*g*z
+"""
+    [circling] = motions(text)
+    assert set(circling.at) == {"z"}
+    [rate] = (circling.rates or {}).values()
+    assert normal(rate) ** 2 == formula(f"M*g/({turns}*m*r)")
+    assert circling.verdict.stable
+    assert circling.verdict.minimum == ()
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(3))
 def test_a_body_that_spins_about_its_axis_at_a_crest_of_the_potential(seed):

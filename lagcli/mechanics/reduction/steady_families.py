@@ -114,7 +114,7 @@ class SteadyFamilies:
                 others = self._others([c.xreplace(put_in) for c in rest])
                 if others is None:
                     return None
-                for each in others:
+                for each in (self._shortest(other, root) for other in others):
                     value = at(root, each.values)
                     values = {**each.values, unknown: value}
                     open_ = (deciding(x) for x in not_negative_where_real(value) if sign(x) != 1)
@@ -146,6 +146,19 @@ class SteadyFamilies:
             if solved.complete and solved.solutions:
                 return solved.solutions
         return None
+
+    def _shortest(self, found: SystemSolution, root: Expr) -> SystemSolution:
+        """The same motions with those coordinates given by which they and `root` are shortest."""
+        values, q = found.values, self.system.q
+        if found.positive or found.relation or all(free_of(value, q) for value in values.values()):
+            return found
+        relations = [simplify(x - value) for x, value in values.items()]
+        charts = [found]
+        for chosen in combinations(q, len(values)):
+            solved = solve_system(relations, chosen)
+            if solved.complete and len(solved.solutions) == 1:
+                charts += (each for each in solved.solutions if not each.positive)
+        return min(charts, key=lambda c: sum(map(_cost, (*c.values.values(), at(root, c.values)))))
 
     def _checked(
         self,
