@@ -34,7 +34,7 @@ KNOWN = {
     "nonholonomic/two-wheeled-cart": ("energy constraint_integral charge_1", "", None, None),
     "nonholonomic/skate-on-incline": ("energy p_phi boost_phi charge_1 charge_3", "", None, None),
     "discovery/snakeboard": ("energy p_psi p_phi", "momentum_1", None, None),
-    "discovery/ball-in-cylinder": ("energy charge_1 charge_2", "", None, None),
+    "discovery/ball-in-cylinder": ("energy momentum_phi_alpha charge_1", "", None, None),
     "discovery/kepler-in-slanted-plane": (
         "energy charge_1 charge_2 charge_3", "", "so(3) where the energy is negative", True),
     "discovery/triangle-of-points": (

@@ -83,3 +83,20 @@ def test_charges_in_crossed_fields_have_their_names(axes):
         f"L: \"m*(x'^2 + y'^2 + z'^2)/2 + q*B*{x}*{y}' + q*E*{x}\"}}"
     )
     assert {"gyration_cos", "gyration_sin", f"boost_{z}"} <= set(found)
+
+
+@pytest.mark.parametrize(
+    ("constraint", "names"),
+    [
+        ("z = y*tan(alpha)", {"momentum_y_z", "boost_y_z"}),
+        ("y*cos(alpha) = x*sin(alpha)", {"momentum_x_y", "boost_x_y"}),
+    ],
+)
+def test_the_cosine_of_a_slope_is_no_gyration(constraint, names):
+    """Along a smooth slope p + m g t sin(α) is constant: cos(α) does not turn with the time."""
+    found = names_of(
+        f"{{coordinates: [x, y, z], parameters: {{m: {POS}, g: {POS}, alpha: {POS}}}, "
+        f"T: \"m*(x'^2 + y'^2 + z'^2)/2\", V: m*g*z, constraints: {{slope: {constraint}}}}}"
+    )
+    assert names <= set(found)
+    assert not [name for name in found if name.startswith(("gyration", "conformal_"))]

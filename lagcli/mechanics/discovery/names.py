@@ -47,18 +47,20 @@ class Naming:
             return f"boost_{x}" if slope != 0 and not slope.free_symbols & {self.t, x} else ""
         if self.t not in tau.free_symbols:
             return "" if moved else "energy"
-        if tau.has(sympy.sin, sympy.cos, sympy.exp, sympy.sinh, sympy.cosh):
-            for function, word in ((sympy.sin, "sin"), (sympy.cos, "cos")):
-                if len(tau.atoms(sympy.sin, sympy.cos)) == 1 and tau.has(function):
-                    return f"conformal_{word}"
-            return ""
+        turns = self._turning(tau)
+        if len(turns) == 1:
+            return f"conformal_{turns.pop().func.__name__}"
         degree = sympy.degree(tau, self.t) if tau.is_polynomial(self.t) else 0
         return {1: "dilation", 2: "conformal"}.get(degree, "")
 
     def _translation(self, moved: Mapping[Symbol, Expr]) -> str:
         if len(moved) == 1:
             return f"p_{next(iter(moved)).name}"
-        return f"momentum{self._direction(moved)}" if _equal(moved) else ""
+        return f"momentum{self._direction(moved)}" if moved else ""
+
+    def _turning(self, *changes: Expr) -> set[Expr]:
+        """The sines and cosines of the time: cos(ω t), not the cos(α) of a slope."""
+        return {f for f in sympy.Tuple(*changes).atoms(sympy.sin, sympy.cos) if f.has(self.t)}
 
     def _direction(self, moved: Mapping[Symbol, Expr]) -> str:
         """Of all particles, of all along one axis, or of the named coordinates."""
@@ -71,12 +73,12 @@ class Naming:
     def _translation_in_time(self, moved: Mapping[Symbol, Expr]) -> str:
         axis = f"_{next(iter(moved)).name}" if len(moved) == 1 else self._direction(moved)
         alike = _equal(moved)
-        if alike and next(iter(moved.values())).diff(self.t, 2) == 0:
+        if all((e / self.t).diff(self.t) == 0 for e in moved.values()):
             return f"boost{axis}"
-        turns = sympy.Tuple(*moved.values()).atoms(sympy.sin, sympy.cos)
+        turns = self._turning(*moved.values())
         if len(turns) == len(moved) == 2 and len({turn.args[0] for turn in turns}) == 1:
             first = next(iter(moved.values()))  # a circle: (cos Omega t, -sin Omega t)
-            return f"gyration_{next(iter(first.atoms(sympy.sin, sympy.cos))).func.__name__}"
+            return f"gyration_{self._turning(first).pop().func.__name__}"
         if len(turns) != 1:
             return ""
         [turn] = turns  # the same for all coordinates: one amplitude of a mode
