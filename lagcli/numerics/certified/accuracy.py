@@ -38,7 +38,7 @@ from lagcli.numerics.certified.partners import Partners, both_stop, why_apart
 from lagcli.numerics.certified.rank import RankPlace, places
 from lagcli.numerics.certified.scales import Scales, relative
 from lagcli.numerics.hybrid.run import Run
-from lagcli.numerics.integrators.steps import DEPENDENT, CannotGoOn, component_scales
+from lagcli.numerics.integrators.steps import DEPENDENT, Explained, component_scales
 from lagcli.record import record, replace
 
 #: The runs' tolerances lie this far apart.
@@ -383,5 +383,5 @@ def ended(outcome: Outcome, place: RankPlace) -> Outcome:
     if good == outcome.good_rows:
         return outcome
     at, last = (place.begin + place.end) / 2, run.marks[good - 1]
-    run.stop = CannotGoOn(at, last.q, last.v, DEPENDENT)
+    run.stop = Explained(at, last.q, last.v, DEPENDENT)
     return replace(outcome, reached=False, good_rows=good, reason=DEPENDENT)

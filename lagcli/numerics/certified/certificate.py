@@ -16,7 +16,7 @@ from lagcli.numerics.hybrid.events import Event
 from lagcli.numerics.hybrid.result import Certificate, Result
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.hybrid.setup import Setup
-from lagcli.numerics.integrators.steps import CannotGoOn
+from lagcli.numerics.integrators.steps import CannotGoOn, Explained, Grazes
 from lagcli.record import replace
 
 #: A motion that is known up to this part of the time at which its run stops, stops there.
@@ -51,7 +51,7 @@ def result_of(simulation: Setup, motion: Motion, outcome: Outcome) -> Result:
     if not outcome.reached:
         refusal = refusal_of(simulation, motion, outcome, holds_until)
         if run.stop is not None and _is_known(outcome, holds_until):
-            what = "grazes" if run.stop.reason.startswith("it grazes") else "singularity"
+            what = "grazes" if isinstance(run.stop, Grazes) else "singularity"
             events.append(Event(run.stop.t, what, why_stopped(motion, run.stop)))
     return Result(
         columns=names,
@@ -204,7 +204,7 @@ def _is_known(outcome: Outcome, holds_until: float) -> bool:
 
 def why_stopped(motion: Motion, stop: CannotGoOn) -> str:
     """What ends the motion."""
-    if stop.reason.startswith(("it ", "a force", "an impact", "event")):
+    if isinstance(stop, Explained):
         return stop.reason
     names = [q.name for q in motion.equations.q]
     try:

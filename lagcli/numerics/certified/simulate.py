@@ -35,7 +35,7 @@ from lagcli.numerics.hybrid.request import Asked
 from lagcli.numerics.hybrid.result import Result
 from lagcli.numerics.hybrid.setup import Progress, Setup
 from lagcli.numerics.integrators.dop853 import dop853
-from lagcli.numerics.integrators.steps import NotPossible
+from lagcli.numerics.integrators.steps import Grazes, NotPossible
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 
@@ -107,8 +107,8 @@ class Simulation(Setup):
 
     def _told_from_a_graze(self, modes: Modes, outcome: Outcome) -> Result | None:
         """The result of a finer accuracy that tells whether what is grazed is struck."""
-        stop, accuracy = outcome.run.stop, self.asked.accuracy
-        if stop is None or not stop.reason.startswith("it grazes") or accuracy <= _FINEST:
+        accuracy = self.asked.accuracy
+        if not isinstance(outcome.run.stop, Grazes) or accuracy <= _FINEST:
             return None
         finer = max(_FINER * accuracy, _FINEST)
         found = self.over(replace(self.asked, accuracy=finer, furthest=False)).run(modes)

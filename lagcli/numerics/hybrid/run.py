@@ -17,6 +17,7 @@ from lagcli.numerics.integrators.sight import seen_steps
 from lagcli.numerics.integrators.steps import (
     SMALL,
     CannotGoOn,
+    Explained,
     Method,
     Step,
     Stretch,
@@ -182,7 +183,7 @@ class Run:
             recent = self._changes[-_AT_ONCE:]
             if len(recent) == _AT_ONCE and recent[0] == t:
                 reason = "event follows event without time passing"
-                raise CannotGoOn(t, turn.q, turn.v, reason)
+                raise Explained(t, turn.q, turn.v, reason)
         surface = turn.mode.surface()
         if surface is not None:
             surface.measure(t, turn.q, turn.v)
@@ -329,7 +330,7 @@ class Run:
             self._progress(step.end / self._times[-1])
         if self.steps >= self.step_limit:
             reason = f"it takes more than {self.step_limit:,} steps"
-            raise CannotGoOn(step.end, step.q, step.v, reason)
+            raise Explained(step.end, step.q, step.v, reason)
 
     def _errors(self) -> list[float]:
         """What each component may err by."""

@@ -17,6 +17,7 @@ from lagcli.numerics.equations.refusal import told
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.steps import (
     CannotGoOn,
+    Explained,
     Inside,
     Step,
     StepSize,
@@ -145,7 +146,7 @@ class Controlled(ABC):
                 if shorter is not None:  # the step is made again, up to the kink
                     size.h = shorter
                     if kinks.stuck(t + shorter, until):
-                        raise CannotGoOn(t, *state[:2], kinks.why())
+                        raise Explained(t, *state[:2], kinks.why())
                     continue
             start, t = t, until if last else t + h
             state = q, v, rate

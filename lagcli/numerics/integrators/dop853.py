@@ -26,7 +26,7 @@ from lagcli.numerics.integrators.controlled import Controlled, State, Trial
 from lagcli.numerics.integrators.steps import (
     DEPENDENT,
     SINGULAR_MASS,
-    CannotGoOn,
+    Explained,
     Inside,
     Method,
     MotionOfMode,
@@ -79,11 +79,11 @@ class Dop853(Controlled):
         (mass, held), (q, v, _) = self.motion.pivots, state
         whole = mass(t, *q, *v)
         if any(abs(x) < _SINGULAR * abs(y) for x, y in zip(whole[::2], whole[1::2], strict=True)):
-            raise CannotGoOn(t, q, v, SINGULAR_MASS)
+            raise Explained(t, q, v, SINGULAR_MASS)
         q_0, v_0, _, t_0 = self.stretch
         both = zip(held(t, *q, *v)[::2], held(t_0, *q_0, *v_0)[::2], strict=True)
         if any(abs(x) < _SINGULAR * abs(y) for x, y in both):
-            raise CannotGoOn(t, q, v, DEPENDENT)
+            raise Explained(t, q, v, DEPENDENT)
 
     def tried(self, t: float, h: float, state: State) -> Trial:
         """A step."""

@@ -20,7 +20,14 @@ from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import told
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.dop853 import added
-from lagcli.numerics.integrators.steps import CannotGoOn, Inside, Step, Stretch, Tolerance
+from lagcli.numerics.integrators.steps import (
+    CannotGoOn,
+    Explained,
+    Inside,
+    Step,
+    Stretch,
+    Tolerance,
+)
 
 Vector = list[float]
 
@@ -121,7 +128,7 @@ class FixedStep(ABC):
                 break
             h /= 2
         else:
-            raise CannotGoOn(begin, q, v, "it takes steps too short for one length")
+            raise Explained(begin, q, v, "it takes steps too short for one length")
         return h, error if error > _ROUNDING else 0.0
 
     def _largest(self, stretch: Stretch, h: float) -> float:

@@ -107,6 +107,14 @@ class CannotGoOn(ArithmeticError):
         self.t, self.q, self.v, self.reason = float(t), list(q), list(v), reason
 
 
+class Explained(CannotGoOn):
+    """The reason says all: the accelerations have nothing to add."""
+
+
+class Grazes(Explained):
+    """Whether a contact is struck is within the error."""
+
+
 class NotPossible(Exception):
     """The method is not for this problem, which it finds out on the way; the sentence says why.
 
