@@ -142,7 +142,7 @@ def _in_determinant(x: Symbol, equations: SlotEquations) -> bool:
     entries = Evaluator([m for row in equations.mass for m in row], 20)
     symbols = {s for row in equations.mass for m in row for s in m.free_symbols}
     source = random.Random("lagcli determinant")
-    point = {s: mpf(source.randint(3000, 13000)) / 10007 for s in symbols}
+    point = {s: mpf(source.randint(3000, 13000)) / 10007 for s in sorted(symbols, key=str)}
     with mpmath.workdps(20):
         values = []
         for at in (mpf(2) / 7, mpf(11) / 9):
