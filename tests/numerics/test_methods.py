@@ -1,8 +1,10 @@
 """The order of each method, and that the generated functions are the equations of motion."""
 
 import math
+import random
 from fractions import Fraction
 
+import numpy as np
 import pytest
 
 from lagcli.numerics.equations.arithmetic import Doubles
@@ -18,7 +20,7 @@ from tests.oracle.reference import Reference
 from tests.oracle.states import random_states
 from tests.read import library
 
-from .running import problem_of
+from .running import problem_of, simulated
 
 
 def motion_of(text):
@@ -125,3 +127,32 @@ def test_a_step_that_is_not_taken_leaves_nothing_in_the_scales():
     steps = list(Dop853(motion, None).steps(Stretch([1.01, 0.5], [0.0, 0.0], 5.0), tolerance))
     assert steps[-1].end == 5.0
     assert tolerance.peaks == pytest.approx([1.01, 0.51, 1.0, 1.6], rel=0.2)
+
+
+def _entries(rng, n):
+    return np.array([[rng.choice((0, 1, 2, -3)) for _ in range(n)] for _ in range(n)])
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_kinetic_energies_with_no_square_of_a_rate_run_in_any_precision(seed):
+    """T = q'^T M q'/2 with 0 on the diagonal of M, V = b q: q = v t - M^-1 b t^2/2."""
+    rng = random.Random(seed)
+    n = rng.choice((2, 4))
+    matrix = np.zeros((n, n), dtype=int)
+    while abs(np.linalg.det(matrix)) < 0.5:
+        upper = np.triu(_entries(rng, n), 1)
+        matrix = upper + upper.T
+    forces, speeds = [rng.randint(-5, 5) for _ in range(n)], [rng.randint(-3, 3) for _ in range(n)]
+    names = "abcd"[:n]
+    kinetic = "+".join(
+        f"({matrix[i, j]})*{names[i]}'*{names[j]}'" for i in range(n) for j in range(i)
+    )
+    potential = "+".join(f"({f})*{q}" for f, q in zip(forces, names, strict=True))
+    start = ", ".join(f"{q}: 0, {q}': {v}" for q, v in zip(names, speeds, strict=True))
+    text = (
+        f"{{coordinates: [{', '.join(names)}], T: {kinetic}, V: {potential}, initial: {{{start}}}}}"
+    )
+    found = simulated(text, 2.0, accuracy=1e-15)
+    expected = 2 * np.array(speeds) - 2 * np.linalg.solve(matrix, forces)
+    assert found.certificate.reached
+    np.testing.assert_allclose(found.rows[-1][1 : 1 + n], expected, rtol=1e-12, atol=1e-12)

@@ -7,7 +7,9 @@ M = L D L^T once for all right sides, then the Schur complement S = A M^-1 A^T:
 Zeros of the structure stay out, and what does not change along the motion is worked out
 once.  There is no exchange of rows: M and S are positive definite where the motion is
 determined, and where they are not, or lose their rank, a pivot vanishes beside its entry.
-The pivots are given back for that, and `null_space` takes over.
+The pivots are given back for that, and `null_space` takes over.  Where a pivot is 0 at every
+state but what is left of its row is not, as with L = x' y', M is replaced by W M W^T: W adds
+another row, whose entry, twice, becomes the pivot.
 
 References
 ----------
@@ -53,8 +55,24 @@ class Factored:
 
     def __init__(self, graph: Graph, matrix: Matrix) -> None:
         self.graph, self.products = graph, 0
-        n = len(matrix)
-        zero = graph.zero
+        #: (j, i): W adds row i to row j
+        self._added: list[tuple[int, int]] = []
+        while (pair := self._factor(matrix)) is not None:
+            if pair in self._added:
+                raise ZeroDivisionError("a pivot is 0")
+            self._added.append(pair)
+            matrix = self._with_added(matrix, *pair)
+
+    def _with_added(self, matrix: Matrix, j: int, i: int) -> Matrix:
+        rows = [list(row) for row in matrix]
+        rows[j] = [self.graph.sum(pair) for pair in zip(rows[j], rows[i], strict=True)]
+        for row in rows:
+            row[j] = self.graph.sum([row[j], row[i]])
+        return rows
+
+    def _factor(self, matrix: Matrix) -> tuple[int, int] | None:
+        """L and D; or a pivot that is 0 and the first row that is not, with it, in its column."""
+        n, zero, graph = len(matrix), self.graph.zero, self.graph
         #: the pivots, and the entries that they came from
         self.pivots: list[tuple[Node, Node]] = []
         #: what L has below its diagonal, by rows and by columns
@@ -64,14 +82,17 @@ class Factored:
             # u_jk = l_jk d_k
             scaled = {k: graph.product(x, self.pivots[k][0]) for k, x in self._rows[j].items()}
             pivot = self._less(matrix[j][j], self._rows[j], scaled)
+            rests = {i: self._less(matrix[i][j], self._rows[i], scaled) for i in range(j + 1, n)}
+            rests = {i: rest for i, rest in rests.items() if rest is not zero}
             if pivot is zero:
-                raise ZeroDivisionError("a pivot is 0")
+                if not rests:
+                    raise ZeroDivisionError("a pivot is 0")
+                return j, min(rests)
             self.pivots.append((pivot, matrix[j][j]))
-            for i in range(j + 1, n):
-                rest = self._less(matrix[i][j], self._rows[i], scaled)
-                if rest is not zero:
-                    self._rows[i][j] = self._columns[j][i] = graph.quotient(rest, pivot)
+            for i, rest in rests.items():
+                self._rows[i][j] = self._columns[j][i] = graph.quotient(rest, pivot)
             self.limit()
+        return None
 
     def limit(self) -> None:
         """Raise where it has become too long."""
@@ -82,6 +103,9 @@ class Factored:
         """x of L D L^T x = right."""
         graph, zero = self.graph, self.graph.zero
         x: dict[int, Node] = {}
+        right = list(right)
+        for j, i in self._added:
+            right[j] = graph.sum([right[j], right[i]])
 
         def put(i: int, value: Node) -> None:
             x.pop(i, None)
@@ -94,6 +118,8 @@ class Factored:
             put(i, graph.quotient(x[i], self.pivots[i][0]))
         for i in reversed(range(len(right))):
             put(i, self._less(x.get(i, zero), self._columns[i], x))
+        for j, i in reversed(self._added):
+            put(i, graph.sum([x.get(i, zero), x.get(j, zero)]))
         return [x.get(i, zero) for i in range(len(right))]
 
     def _less(self, node: Node, left: dict[int, Node], right: dict[int, Node]) -> Node:
