@@ -42,7 +42,10 @@ def cancelled(field: FractionField, element: Element) -> Element:
 
 
 def _rationalized(field: FractionField, element: Element) -> Element:
-    """Multiply by the conjugate of a + b*sqrt(P) where that makes the fraction shorter."""
+    """Multiply by the conjugate of a + b*sqrt(P) where that makes the fraction shorter.
+
+    Of a number P, also where only the denominator is: 9/(1 + 2 sqrt(7)) = (2 sqrt(7) - 1)/3.
+    """
     ring = field.ring
     for index in ring.used(element.denominator):
         generator = field.generators[index]
@@ -55,7 +58,9 @@ def _rationalized(field: FractionField, element: Element) -> Element:
         other = field.element(
             ring.lift(element.numerator) * conjugate, below * ring.lift(conjugate)
         )
-        if other.size() < element.size():
+        fewer = len(other.denominator) < len(element.denominator)
+        allowed = element.size() + (fewer and generator.expression.is_number)
+        if other.size() < allowed:
             element = field.lifted(other)
     return element
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from functools import partial
 
 from sympy import Expr
@@ -17,7 +18,18 @@ from lagcli.algebra.ring import Monomial, Poly, factorization
 from lagcli.algebra.shaping.plan import OPERATION
 from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.writing import Writer
-from lagcli.expression import Expression, has_nested_fraction, operation_count
+from lagcli.expression import (
+    Call,
+    Expression,
+    Number,
+    Quotient,
+    Sum,
+    has_nested_fraction,
+    operation_count,
+    terms_of,
+    walk,
+)
+from lagcli.notation.ordering import bases
 from lagcli.platform.effort import EFFORT
 
 _LONG = 60  # terms of an element of which ...
@@ -76,9 +88,34 @@ def shaped(
     before, after = operation_count(given), operation_count(tree)
     if has_nested_fraction(given):
         before = int(_FLAT * before)
-    if before < after:
+    if before < after and not _divides_by_number_root(given):
         return expression, given
     return shaper.to_sympy(tree), tree
+
+
+def _divides_by_number_root(node: Expression) -> bool:
+    """Whether a sum with the root of a number is a denominator: 9/(1 + 2 sqrt(7))."""
+    below = (part.denominator for part in walk(node) if isinstance(part, Quotient))
+    terms = (term for each in below for term in terms_of(each) if isinstance(each, Sum))
+    factors = (factor for term in terms for factor in bases(term))
+    return any(
+        isinstance(f, Call) and f.function == "sqrt" and isinstance(f.arguments[0], Number)
+        for f in factors
+    )
+
+
+def fraction(expression: Expr, order: Sequence[str] = ()) -> Expression:
+    """N/D without fractions in N and D, each in its shortest shape; see `shape`."""
+    field = Field([expression])
+    try:
+        element = cancelled(field, field(expression))
+    except ZeroDivisionError:
+        return shape(expression, order)
+    above, below = (
+        (shape(field.polynomial_to_sympy(field.ring.lift(poly)), order), Fraction(power))
+        for poly, power in ((element.numerator, 1), (element.denominator, -1))
+    )
+    return Writer(order).product(Fraction(1), [above, below])
 
 
 def is_zero(expression: Expr, relations: Relations | None = None) -> bool | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
+from lagcli.algebra.circular_factors import single_angles, tangents, upright
 from lagcli.evaluation import value_of
 from lagcli.expression import (
     ONE,
@@ -47,9 +48,9 @@ class Writer:
         """coefficient * prod base^exponent, with what divides in one denominator."""
         if coefficient == 0:
             return ZERO
-        coefficient, pairs = _upright(*_flattened(coefficient, factors))
-        coefficient, pairs = _single_angles(coefficient, _merged(pairs))
-        pairs = self._joined_exponentials(self._into_exponentials(_tangents(pairs)))
+        coefficient, pairs = upright(*_flattened(coefficient, factors))
+        coefficient, pairs = single_angles(coefficient, _merged(pairs))
+        pairs = self._joined_exponentials(self._into_exponentials(tangents(pairs)))
         pairs = _powers_of_moduli(self._into_roots(_without_moduli(pairs)))
         coefficient, pairs = self._joined_roots(coefficient, pairs)
         if coefficient < 0:
@@ -139,7 +140,7 @@ class Writer:
     ) -> tuple[Fraction, list[Factor]]:
         """sqrt(a)*sqrt(b)/sqrt(c) as sqrt(a*b/c), sqrt(k)*r^(3/2) as r*sqrt(k*r)."""
         half = Fraction(1, 2)
-        pairs = self._joined_higher_roots(pairs)
+        coefficient, pairs = self._joined_higher_roots(coefficient, pairs)
         roots = [(b, e) for b, e in pairs if abs(e) == half or _is_half_power(b, e)]
         if len(roots) < 2 and not any(isinstance(base, Number) for base, _ in roots):
             return coefficient, pairs
@@ -168,17 +169,32 @@ class Writer:
             return coefficient, [*rest, (radicand.denominator, -half)]
         return coefficient, [*rest, (radicand, half)]
 
-    def _joined_higher_roots(self, pairs: list[Factor]) -> list[Factor]:
-        """a^(1/4)/(m^(1/4)*sqrt(w)) as (a/(m*w^2))^(1/4)."""
+    def _joined_higher_roots(
+        self, coefficient: Fraction, pairs: list[Factor]
+    ) -> tuple[Fraction, list[Factor]]:
+        """a^(1/4)/(m^(1/4)*sqrt(w)) as (a/(m*w^2))^(1/4), (9*a)^(1/3)/3 as (a/3)^(1/3).
+
+        With a root of a sum within: (a^2 + b^2)^(1/4)/sqrt(l) as sqrt(sqrt(a^2 + b^2)/l).
+        """
         for index in sorted({e.denominator for _, e in pairs if e.denominator > 2}, reverse=True):
             roots = [p for p in pairs if p[1].denominator > 1 and _is_in_root(index, *p)]
             if len(roots) > 1:
-                whole = self.product(Fraction(1), [_raised(base, e * index) for base, e in roots])
+                number, inside = _flattened(Fraction(1), [_raised(b, e * index) for b, e in roots])
+                absorbed = number / coefficient.denominator**index
+                if _height(absorbed) < _height(number):
+                    number, coefficient = absorbed, coefficient * coefficient.denominator
+                whole = self.product(number, inside)
                 rest = [pair for pair in pairs if pair not in roots]
                 if isinstance(whole, Quotient) and whole.numerator == ONE:
-                    return [*rest, (whole.denominator, Fraction(-1, index))]
-                return [*rest, (whole, Fraction(1, index))]
-        return pairs
+                    return coefficient, [*rest, (whole.denominator, Fraction(-1, index))]
+                return coefficient, [*rest, (whole, Fraction(1, index))]
+        half = Fraction(1, 2)
+        if any(abs(e) == half for _, e in pairs):
+            pairs = [
+                (Call("sqrt", (b,)), 2 * e) if isinstance(b, Sum) and e.denominator == 4 else (b, e)
+                for b, e in pairs
+            ]
+        return coefficient, pairs
 
     def _turned(self, coefficient: Fraction, pairs: list[Factor]) -> tuple[Fraction, list[Factor]]:
         """m*(x'' - a - b) for -m*(-x'' + a + b): no minus before a bracket that has one first."""
@@ -252,6 +268,11 @@ def _is_in_root(index: int, base: Expression, exponent: Fraction) -> bool:
     return plain and abs(exponent) < 1 and index % exponent.denominator == 0
 
 
+def _height(value: Fraction) -> int:
+    """How long a rational is."""
+    return abs(value.numerator) * value.denominator
+
+
 def _raised(base: Expression, exponent: Fraction) -> Factor:
     """|p|^2 as p^2."""
     even = isinstance(base, Call) and exponent % 2 == 0
@@ -306,20 +327,6 @@ def _flattened(coefficient: Fraction, factors: Iterable[Factor]) -> tuple[Fracti
     return coefficient, result
 
 
-def _upright(coefficient: Fraction, pairs: list[Factor]) -> tuple[Fraction, list[Factor]]:
-    """sin(-u) = -sin(u), cos(-u) = cos(u)."""
-    found: list[Factor] = []
-    for base, exponent in pairs:
-        if isinstance(base, Call) and base.function in ("sin", "cos") and exponent.denominator == 1:
-            (angle,) = base.arguments
-            if isinstance(angle, Negative):
-                base = Call(base.function, (angle.operand,))
-                if base.function == "sin" and exponent % 2:
-                    coefficient = -coefficient
-        found.append((base, exponent))
-    return coefficient, found
-
-
 def _modulus(node: Expression) -> Expression:
     absolute = isinstance(node, Call) and node.function in ("abs", "exp", "cosh", "sqrt")
     return node if absolute else Call("abs", (node,))
@@ -354,61 +361,6 @@ def _without_moduli(pairs: list[Factor]) -> list[Factor]:
                 del exponents[modulus], exponents[base]
                 exponents[Quotient(rest, factor)] = exponent
                 break
-    return list(exponents.items())
-
-
-def _single_angles(coefficient: Fraction, pairs: list[Factor]) -> tuple[Fraction, list[Factor]]:
-    """sin(2x)/sin(x) as 2 cos(x), and sin(2x)/cos(x) as 2 sin(x)."""
-    exponents = dict(pairs)
-    for base, exponent in pairs:
-        if not isinstance(base, Call) or base.function not in ("sin", "cos") or exponent >= 0:
-            continue
-        sine = Call("sin", (_doubled(base.arguments[0]),))
-        power = exponents.get(sine, Fraction(0))
-        if power <= 0 or power.denominator != 1:
-            continue
-        for function in ("sin", "cos"):
-            half = Call(function, base.arguments)
-            exponents[half] = exponents.get(half, Fraction(0)) + power
-        del exponents[sine]
-        coefficient *= 2 ** int(power)
-    return coefficient, [pair for pair in exponents.items() if pair[1]]
-
-
-def _doubled(node: Expression) -> Expression:
-    """Twice an angle, as it is written: 2 a - 2 b."""
-    match node:
-        case Sum(terms=terms):
-            return Sum(tuple(map(_doubled, terms)))
-        case Negative(operand=operand):
-            return Negative(_doubled(operand))
-        case Product(factors=(Number(value=value), *rest)):
-            return Product((Number(2 * value), *rest))
-        case Product(factors=factors):
-            return Product((Number(Fraction(2)), *factors))
-        case _:
-            return Product((Number(Fraction(2)), node))
-
-
-_RATIOS = {"sin": ("cos", "tan"), "sinh": ("cosh", "tanh")}
-
-
-def _tangents(pairs: list[Factor]) -> list[Factor]:
-    """sin(x)/cos(x) as tan(x), cos(x)/sin(x) as 1/tan(x)."""
-    exponents = dict(pairs)
-    for base, exponent in pairs:
-        if not isinstance(base, Call) or base.function not in _RATIOS or base.primes:
-            continue
-        cosine, tangent = _RATIOS[base.function]
-        other = Call(cosine, base.arguments)
-        second = exponents.get(other, Fraction(0))
-        if exponent * second >= 0:
-            continue
-        # sin^a cos^-b = tan^a cos^(a - b)
-        if abs(exponent) == abs(second):
-            del exponents[base], exponents[other]
-            ratio = Call(tangent, base.arguments)
-            exponents[ratio] = exponents.get(ratio, Fraction(0)) + exponent
     return list(exponents.items())
 
 

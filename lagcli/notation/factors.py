@@ -74,7 +74,7 @@ def with_base(node: Expression, base: Expression) -> Expression:
 
 
 def with_whole_powers(node: Expression) -> Expression:
-    """l^(3/2) as l sqrt(l), 1/tan as cot, in a product, a quotient or alone."""
+    """l^(3/2) as l sqrt(l), 1/tan as cot, |a| |b| as |a b|, in a product, a quotient or alone."""
     if isinstance(node, Power):
         return quotient_of(_whole(node), [])
     minus, above, below = parts_of(node)
@@ -82,10 +82,21 @@ def with_whole_powers(node: Expression) -> Expression:
     if turned:
         below = [f for f in below if id(f) not in turned]
         above = [*(f for f in above if f != ONE), *turned.values()]
-    above = [part for factor in above for part in _whole(factor)]
-    below = [part for factor in below for part in _whole(factor)]
+    above = _with_one_modulus([part for factor in above for part in _whole(factor)])
+    below = _with_one_modulus([part for factor in below for part in _whole(factor)])
     whole = quotient_of(above or [ONE], below)
     return Negative(whole) if minus else whole
+
+
+def _with_one_modulus(factors: list[Expression]) -> list[Expression]:
+    """|q B| for |q| |B|, of letters."""
+    moduli = [f for f in factors if isinstance(f, Call) and f.function == "abs"]
+    letters = [part for f in moduli for part in factors_of(f.arguments[0])]
+    if len(moduli) < 2 or not all(isinstance(part, Name) for part in letters):
+        return factors
+    place = factors.index(moduli[0])
+    left = [f for f in factors if f not in moduli]
+    return [*left[:place], Call("abs", (Product((*letters,)),)), *left[place:]]
 
 
 def _reciprocal(node: Expression) -> Expression | None:

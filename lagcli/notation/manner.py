@@ -10,10 +10,10 @@ minus goes and whether a number comes first does not change a value, and follows
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
-from lagcli.evaluation import sign_at_random
+from lagcli.evaluation import sign_at_random, value_of
 from lagcli.expression import (
     ONE,
     ZERO,
@@ -32,6 +32,8 @@ from lagcli.expression import (
     terms_of,
     walk,
 )
+from lagcli.notation.angles import difference_of_angles, with_versines
+from lagcli.notation.brackets import Momenta, squares_as_brackets
 from lagcli.notation.factors import (
     odd_base,
     parts_of,
@@ -74,6 +76,8 @@ class Manner:
                     self._signs[key] = sign if self._signs.get(key, sign) == sign else 0
         self._ordering = Ordering(order_of_names(problem))
         self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
+        names = (q.name for q in problem.coordinates)
+        self._momenta = Momenta(names, self._positive, self._ordering)
 
     def anew(self) -> None:
         """Begin another section, which is written as if it were the only one."""
@@ -82,7 +86,7 @@ class Manner:
 
     def __call__(self, node: Expression) -> Expression:
         """The formula as the file would write it; its value stays."""
-        return self._in_manner(node, inside=False)
+        return squares_as_brackets(self._in_manner(node, inside=False))
 
     def _in_manner(self, node: Expression, *, inside: bool) -> Expression:
         """The same; `inside` a function or a root the sign of a denominator is left alone."""
@@ -102,7 +106,12 @@ class Manner:
                 before = quotient_of(list(node.factors[:-1]), [])
                 return with_last(self._written(before, inside=inside), series)
             case Product() | Quotient():
-                return self._signed(with_whole_powers(node), inside=inside)
+                node = with_whole_powers(node)
+                if self._momenta.occur(node):
+                    node = self._momenta.product(node)
+                return self._signed(node, inside=inside)
+            case Call(function="sqrt", arguments=(Sum() as inner,)) if self._momenta.occur(inner):
+                return self._momenta.root(inner)
             case Power():
                 return self._power(node)
             case Call(function=function, arguments=(Sum() as inner,)) if function in ODD | EVEN:
@@ -113,7 +122,7 @@ class Manner:
                 return negative_of(inner)
             case Negative(operand=Product() | Quotient() as inner):
                 return self._signed(node, inside=inside) if _sums(inner) else node
-            case Sum(terms=(one, other)) if angle := _difference_of_angles(one, other):
+            case Sum(terms=(one, other)) if angle := difference_of_angles(one, other):
                 return angle
             case Sum():
                 like = self._sums.like(node)
@@ -126,7 +135,7 @@ class Manner:
 
     def _sum(self, node: Sum) -> Expression:
         """The sum, its brackets as in the denominator above: a - b (u - v), not a + b (v - u)."""
-        first, *rest = _with_versines(self._multiplied(_ordered(node)).terms)
+        first, *rest = with_versines(self._multiplied(_ordered(node)).terms)
         return Sum((first, *map(self._as_within, rest))) if rest else first
 
     def _multiplied(self, node: Sum) -> Sum:
@@ -195,8 +204,12 @@ class Manner:
         if below and (positive := _determinant(node)) is not None:
             return not positive
         number = next((t for t in node.terms if _is_number(t)), None)
+        if number is not None and (value := value_of(node)) is not None:
+            return value < 0  # sqrt(33) - 1
         if number is not None:
             return isinstance(number, Negative)
+        if (momentum := self._momenta.turned(node)) is not None:
+            return momentum
         return True if all(isinstance(t, Negative) for t in node.terms) else None
 
     def _function(self, node: Call, inner: Sum) -> Expression:
@@ -350,45 +363,6 @@ def _brackets(node: Sum) -> Iterator[Sum]:
             base, _ = odd_base(factor)
             if base is not None:
                 yield base
-
-
-def _with_versines(terms: Sequence[Expression]) -> list[Expression]:
-    """a (1 - cos x) for a - a cos x among other terms."""
-    found = list(terms)
-    for term in terms:
-        minus, above, below = parts_of(term)
-        cosines = [f for f in above if isinstance(f, Call) and f.function == "cos"]
-        if len(cosines) != 1 or len(above) == 1:
-            continue
-        rest = quotient_of([f for f in above if f is not cosines[0]], below)
-        other = rest if minus else Negative(rest)
-        if other in found and len(found) > 2:
-            versine = Sum((ONE, Negative(cosines[0])))
-            joined = quotient_of([*(f for f in above if f is not cosines[0]), versine], below)
-            found[found.index(other)] = joined if minus else Negative(joined)
-            found.remove(term)
-    return found
-
-
-def _difference_of_angles(one: Expression, other: Expression) -> Expression | None:
-    """cos a cos b + sin a sin b = cos(a - b), sin a cos b - cos a sin b = sin(a - b)."""
-    match (one, other):
-        case (
-            Product(factors=(Call(function="sin", arguments=(a,)), Call(arguments=(b,)) as second)),
-            Product(factors=(Call(function="cos", arguments=(c,)), Call(arguments=(d,)) as fourth)),
-        ) if (a, b) == (c, d) and second.function == "sin" and fourth.function == "cos":
-            return Call("cos", (Sum((a, Negative(b))),))
-        case (
-            Product(factors=(Call(function="sin", arguments=(a,)), Call(arguments=(b,)) as second)),
-            Negative(
-                operand=Product(
-                    factors=(Call(function="sin", arguments=(c,)), Call(arguments=(d,)) as fourth)
-                )
-            ),
-        ) if (a, b) == (d, c) and second.function == fourth.function == "cos":
-            return Call("sin", (Sum((a, Negative(b))),))
-        case _:
-            return None
 
 
 def _begins_better(node: Sum) -> bool:

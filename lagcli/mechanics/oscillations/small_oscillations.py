@@ -20,7 +20,8 @@ from sympy import Expr, I, Symbol
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.equations import written
-from lagcli.expression import Expression
+from lagcli.algebra.simplification import fraction
+from lagcli.expression import Expression, length
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
@@ -263,8 +264,10 @@ class SmallOscillations:
         return {q.name: self._tree(value) for q, value in shown(point).items()}
 
     def _shape(self, displacements: Sequence[Expr]) -> dict[str, Expression]:
+        """Each amplitude as one fraction, but where that is longer to read."""
+        order = self.system.order
         return {
-            name: self._tree(value)
+            name: min(fraction(value, order), self._tree(value), key=length)
             for name, value in zip(self.system.names, displacements, strict=True)
         }
 
