@@ -6,30 +6,43 @@ that are no single terms as letters.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from math import gcd
 from typing import cast
 
 from lagcli.expression import (
+    Call,
     Expression,
     Name,
     Negative,
     Number,
+    PartialCall,
     Power,
     Product,
     Quotient,
     Sum,
     children,
     operation_count,
+    quotient_of,
+    terms_of,
     walk,
 )
-from lagcli.notation.likeness import Monomial, Polynomial, inverse, joined, multiplied_out
+from lagcli.notation.likeness import (
+    Monomial,
+    Polynomial,
+    inverse,
+    joined,
+    multiplied_out,
+    signed_key,
+)
 from lagcli.notation.ordering import Ordering
 from lagcli.rewriting import rebuilt
 
 #: How many times as long as the answer's the file's own sum may be.
 _LONGER = 1.4
+#: Terms of a sum, or a part of one, that is looked for within longer sums.
+_SHORT = 4
 
 
 class GivenSums:
@@ -48,12 +61,68 @@ class GivenSums:
     ) -> None:
         self._found: dict[frozenset[Expression], list[tuple[Polynomial, Sum]]] = {}
         self._ordering = ordering
+        self._short: list[tuple[frozenset[Expression], Polynomial, Expression]] = []
         for whole in energies:
             self._keep(whole, multiplied_out(whole))
         for part in (part for node in formulas for part in walk(node)):
             value = multiplied_out(part) if isinstance(part, Sum) else None
             if value and not set.intersection(*({x for x, _ in term} for term in value)):
                 self._keep(cast(Sum, part), value)
+        for leaves, found in self._found.items():
+            for value, shown in found:
+                self._keep_short(leaves, value, shown)
+
+    def _keep_short(self, leaves: frozenset[Expression], value: Polynomial, node: Sum) -> None:
+        """Keep a sum and its square, to be found within longer sums."""
+        if len(value) > _SHORT or any(isinstance(part, Quotient) for part in walk(node)):
+            return
+        square = Power(node, Number(Fraction(2)))
+        for part, out in ((square, multiplied_out(square)), (node, value)):
+            if out and all(part != known for _, _, known in self._short):
+                self._short.append((leaves, out, part))
+
+    def within(self, node: Sum) -> Sum:
+        """a (x + y)² + b for a x² + 2 a x y + a y² + b, where the file has x + y."""
+        leaves = _leaves(node)
+        near = [each for each in self._short if each[0] <= leaves]
+        if not near or len(node.terms) < 2:
+            return node
+        parts = [multiplied_out(term) for term in node.terms]
+        if any(part is None or len(part) > _SHORT for part in parts):
+            return node
+        letters: dict[str, Expression] | None = None
+        terms, polys = list(node.terms), cast(list[Polynomial], parts)
+        for _, value, given in near:
+            for used, ratio, scale in _multiples(polys, value):
+                letters = letters or _letters(node)
+                if not all(letter in letters for letter, _ in scale):
+                    continue
+                whole = self._times(ratio, {letters[x]: e for x, e in scale}, given)
+                before = sum(operation_count(terms[k]) for k in used) + len(used) - 1
+                if operation_count(whole) < before + _worth(given):
+                    rest = [k for k in range(len(terms)) if k not in used[1:]]
+                    terms[used[0]] = whole
+                    polys[used[0]] = {}
+                    terms, polys = [terms[k] for k in rest], [polys[k] for k in rest]
+                    break
+        return node if len(terms) == len(node.terms) else Sum(tuple(terms))
+
+    def _times(
+        self, ratio: Fraction, powers: dict[Expression, int], given: Expression
+    ) -> Expression:
+        """The product of a number, powers and a sum of the file or its square."""
+        found: list[list[Expression]] = []
+        for sign, number in (1, abs(ratio.numerator)), (-1, ratio.denominator):
+            chosen = [(x, Fraction(sign * e)) for x, e in powers.items() if sign * e > 0]
+            if sign > 0:
+                chosen.append((_base(given), Fraction(2 if isinstance(given, Power) else 1)))
+            shown = [
+                base if exponent == 1 else Power(base, Number(exponent))
+                for base, exponent in self._ordering.arranged(chosen)
+            ]
+            found.append([Number(Fraction(number)), *shown] if number != 1 else shown)
+        whole = quotient_of(*found)
+        return Negative(whole) if ratio < 0 else whole
 
     def _keep(self, node: Sum, value: Polynomial | None) -> None:
         if value and len(value) >= len(node.terms) and is_tidy(node):  # M + M is 2 M
@@ -85,6 +154,41 @@ class GivenSums:
                 if value == {joined(t, scale): ratio * c for t, c in other.items()}:
                     return ratio, scale, given
         return None
+
+
+def _worth(given: Expression) -> int:
+    """Operations that a sum of the file may cost: a root, which it has above and below."""
+    roots = [t for t in terms_of(given) if isinstance(t, Call) and t.function == "sqrt"]
+    return sum(operation_count(root) + 1 for root in roots) + (len(terms_of(given)) > 2)
+
+
+def _multiples(
+    parts: Sequence[Polynomial], value: Polynomial
+) -> Iterator[tuple[list[int], Fraction, Monomial]]:
+    """Places k, c and m where the parts at these places are together c m times a sum."""
+    owner = {term: k for k, part in enumerate(parts) for term in part}
+    first = next(iter(value))
+    for term, place in owner.items():
+        ratio, scale = parts[place][term] / value[first], joined(term, inverse(first))
+        wanted = {joined(t, scale): ratio * c for t, c in value.items()}
+        used = sorted({owner[t] for t in wanted if t in owner})
+        if not scale or len(used) < 2 or sum(len(parts[k]) for k in used) != len(wanted):
+            continue
+        if all(wanted.get(t) == c for k in used for t, c in parts[k].items()):
+            yield used, ratio, scale
+
+
+def _letters(node: Expression) -> dict[str, Expression]:
+    """What stands for the letters of a polynomial."""
+    found: dict[str, Expression] = {}
+    for part in walk(node):
+        if isinstance(part, (Call, PartialCall)):
+            sign, key = signed_key(part)
+            if sign > 0:
+                found[repr(key)] = part
+        else:
+            found[repr(part)] = part
+    return found
 
 
 def _leaves(node: Expression) -> frozenset[Expression]:

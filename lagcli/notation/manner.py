@@ -135,7 +135,7 @@ class Manner:
 
     def _sum(self, node: Sum) -> Expression:
         """The sum, its brackets as in the denominator above: a - b (u - v), not a + b (v - u)."""
-        first, *rest = with_versines(self._multiplied(_ordered(node)).terms)
+        first, *rest = with_versines(self._sums.within(self._multiplied(_ordered(node))).terms)
         return Sum((first, *map(self._as_within, rest))) if rest else first
 
     def _multiplied(self, node: Sum) -> Sum:
