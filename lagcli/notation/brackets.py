@@ -60,7 +60,7 @@ class Momenta:
         """Whether the one bare momentum of a difference has the minus; None without one."""
         bare = [t for t in node.terms if self._is_bare(t)]
         others = [t for t in node.terms if t not in bare]
-        if len(bare) != 1 or len(others) != 1 or isinstance(others[0], Name):
+        if len(bare) != 1 or len(others) != 1 or self._ordering.is_parameter(others[0]):
             return None
         return isinstance(bare[0], Negative)
 
@@ -84,12 +84,13 @@ class Momenta:
     def product(self, node: Expression) -> Expression:
         """A product with the numbers in front of momenta and the letters of roots cancelled."""
         minus, above, below = parts_of(node)
-        number, powers = Fraction(1), dict[Expression, int]()
+        number, powers, changed = Fraction(1), dict[Expression, int](), False
         for factors, sign in (above, 1), (below, -1):
             for base, exponent in map(whole_power, factors):
                 if isinstance(base, Number):
                     number *= base.value ** (sign * exponent)
                 else:
+                    changed |= base in powers
                     powers[base] = powers.get(base, 0) + sign * exponent
         over_sum = any(isinstance(base, Sum) and e < 0 for base, e in powers.items())
         for base, exponent in () if over_sum else [*powers.items()]:
@@ -99,6 +100,9 @@ class Momenta:
             if times > 1 and number.denominator % times**exponent == 0:
                 number *= times**exponent
                 powers[self._over(base, times)] = powers.pop(base)
+                changed = True
+        if not changed:
+            return node
         whole = self._quotient(number, powers)
         return Negative(whole) if minus else whole
 
@@ -221,30 +225,34 @@ class Momenta:
         return Negative(whole) if minus else whole
 
 
-def squares_as_brackets(node: Expression) -> Expression:
-    """(a − b)² for (b − a)² in a formula that has a − b."""
+def squares_as_brackets(node: Expression, known: dict[Key, int]) -> Expression:
+    """(a − b)² for (b − a)² in a formula that has a − b.
+
+    `known` are the signs of squares that were written before: all rows have the same one.
+    """
     signs: dict[Key, int] = {}
-    squares = set[Expression]()
+    squares = set[Sum]()
     for base, odd in _differences(node):
         if odd:
             sign, key = signed_key(base)
             signs[key] = 0 if signs.get(key, sign) != sign else sign
         else:
             squares.add(base)
-    turned = {
-        base
-        for base, (sign, key) in ((b, signed_key(b)) for b in squares)
-        if signs.get(key, sign) == -sign
-    }
+    turned = set[Sum]()
+    for base in squares:
+        sign, key = signed_key(base)
+        if known.setdefault(key, signs.get(key) or sign) != sign:
+            turned.add(base)
     return _turned(node, turned) if turned else node
 
 
-def _turned(node: Expression, turned: set[Expression]) -> Expression:
-    node = rebuilt(node, lambda part: _turned(part, turned))
+def _turned(node: Expression, turned: set[Sum]) -> Expression:
+    found = rebuilt(node, lambda part: _turned(part, turned))
     if isinstance(node, Power) and node.base in turned and parity(node.exponent) == 0:
-        assert isinstance(node.base, Sum)
-        return Power(Sum((*map(opposite, node.base.terms[::-1]),)), node.exponent)
-    return node
+        assert isinstance(found, Power)
+        assert isinstance(found.base, Sum)
+        return Power(Sum((*map(opposite, found.base.terms[::-1]),)), node.exponent)
+    return found
 
 
 def _differences(node: Expression) -> Iterator[tuple[Sum, bool]]:

@@ -73,8 +73,11 @@ class GivenSums:
                 self._keep_short(leaves, value, shown)
 
     def _keep_short(self, leaves: frozenset[Expression], value: Polynomial, node: Sum) -> None:
-        """Keep a sum and its square, to be found within longer sums."""
-        if len(value) > _SHORT or any(isinstance(part, Quotient) for part in walk(node)):
+        """Keep a sum and its square, to be found within longer sums; none of squared rates."""
+        if len(value) > _SHORT or any(
+            isinstance(part, Quotient) or (isinstance(part, Power) and _is_rate(part.base))
+            for part in walk(node)
+        ):
             return
         square = Power(node, Number(Fraction(2)))
         for part, out in ((square, multiplied_out(square)), (node, value)):
@@ -154,6 +157,10 @@ class GivenSums:
                 if value == {joined(t, scale): ratio * c for t, c in other.items()}:
                     return ratio, scale, given
         return None
+
+
+def _is_rate(node: Expression) -> bool:
+    return isinstance(node, Name) and node.primes > 0
 
 
 def _worth(given: Expression) -> int:

@@ -66,6 +66,7 @@ class Manner:
         self._signs: dict[Key, int] = {}  # of a sum: that of the file, 0 where it has both
         self._known: dict[tuple[Expression, bool], Expression] = {}
         self._below: dict[Key, int] = {}  # of a denominator: its sign when it was first written
+        self._squares: dict[Key, int] = {}  # of a squared bracket: its sign when first written
         self._within: dict[Key, int] = {}  # of a bracket in a denominator: the same
         quantities = (*problem.parameters, *problem.coordinates)
         self._positive = frozenset(q.name for q in quantities if q.assume == "positive")
@@ -81,12 +82,12 @@ class Manner:
 
     def anew(self) -> None:
         """Begin another section, which is written as if it were the only one."""
-        for memory in (self._known, self._below, self._within):
+        for memory in (self._known, self._below, self._within, self._squares):
             memory.clear()
 
     def __call__(self, node: Expression) -> Expression:
         """The formula as the file would write it; its value stays."""
-        return squares_as_brackets(self._in_manner(node, inside=False))
+        return squares_as_brackets(self._in_manner(node, inside=False), self._squares)
 
     def _in_manner(self, node: Expression, *, inside: bool) -> Expression:
         """The same; `inside` a function or a root the sign of a denominator is left alone."""

@@ -21,7 +21,7 @@ from sympy import Expr, I, Symbol
 from lagcli.algebra import is_zero
 from lagcli.algebra.equations import written
 from lagcli.algebra.simplification import fraction
-from lagcli.expression import Expression, length
+from lagcli.expression import Expression, Power, Quotient, length, walk
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.characteristic import Characteristic
@@ -264,12 +264,14 @@ class SmallOscillations:
         return {q.name: self._tree(value) for q, value in shown(point).items()}
 
     def _shape(self, displacements: Sequence[Expr]) -> dict[str, Expression]:
-        """Each amplitude as one fraction, but where that is longer to read."""
-        order = self.system.order
-        return {
-            name: min(fraction(value, order), self._tree(value), key=length)
-            for name, value in zip(self.system.names, displacements, strict=True)
-        }
+        pairs = zip(self.system.names, displacements, strict=True)
+        return {name: self._amplitude(value) for name, value in pairs}
+
+    def _amplitude(self, value: Expr) -> Expression:
+        """One fraction where that is shorter to read, and has no (a + b)^(3/2)."""
+        tree, whole = self._tree(value), fraction(value, self.system.order)
+        halves = any(isinstance(p, Power) and isinstance(p.exponent, Quotient) for p in walk(whole))
+        return tree if halves else min(tree, whole, key=length)
 
     def _tree(self, expression: Expr) -> Expression:
         return written(expression, self.system.order)
