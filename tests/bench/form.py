@@ -12,15 +12,12 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from functools import cache
 from itertools import combinations
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from lagcli import load
-from lagcli.algebra import is_zero
-from lagcli.algebra.build import Builder
 from lagcli.algebra.entry import Field
 from lagcli.expression import (
     Call,
@@ -38,6 +35,7 @@ from lagcli.expression import (
 )
 from lagcli.problem_data import Problem
 from lagcli.reader.expressions import parse_text
+from tests.bench.exchange import built, canonical, not_exchanged, rational
 from tests.bench.measure import ROOT, Row
 from tests.bench.printed import COUNTED, formulas, library, solved
 
@@ -108,19 +106,6 @@ def half_powers(node: Expression) -> Iterator[Expression]:
                 yield part
 
 
-def rational(node: Expression) -> Fraction | None:
-    """The value of a number, None of anything else."""
-    match node:
-        case Number(value=value):
-            return value
-        case Negative(operand=Number(value=value)):
-            return -value
-        case Quotient(numerator=Number(value=a), denominator=Number(value=b)):
-            return a / b
-        case _:
-            return None
-
-
 def differences(node: Expression) -> Iterator[tuple[Expression, Expression]]:
     """(a, b) of every a - b."""
     for part in walk(node):
@@ -130,44 +115,6 @@ def differences(node: Expression) -> Iterator[tuple[Expression, Expression]]:
                 yield first, second.operand
             elif isinstance(first, Negative) and not isinstance(second, Negative):
                 yield second, first.operand
-
-
-@cache
-def canonical(node: Expression) -> tuple:
-    """A key that does not depend on the order of terms and factors, nor on where a minus stands."""
-    match node:
-        case Negative(operand=operand):
-            sign, key = canonical(operand)
-            return -sign, key
-        case Sum(terms=terms):
-            keys = sorted((canonical(t) for t in terms), key=lambda pair: repr(pair[::-1]))
-            lead = keys[0][0]
-            return lead, ("+", tuple((s * lead, k) for s, k in keys))
-        case Product(factors=factors):
-            keys = sorted((canonical(f) for f in factors), key=lambda pair: repr(pair[::-1]))
-            sign = 1
-            for s, _ in keys:
-                sign *= s
-            return sign, ("*", tuple(k for _, k in keys))
-        case Quotient(numerator=above, denominator=below):
-            (a, one), (b, other) = canonical(above), canonical(below)
-            return a * b, ("/", one, other)
-        case Power(base=base, exponent=exponent):
-            sign, key = canonical(base)
-            even = rational(exponent)
-            odd = even is None or even.denominator != 1 or even.numerator % 2
-            return sign if odd else 1, ("^", key, canonical(exponent))
-        case Call(function=function, arguments=arguments, primes=primes):
-            keys = tuple(map(canonical, arguments))
-            if function in ("cos", "abs", "cosh"):
-                return 1, (function, primes, tuple(k for _, k in keys))
-            if function in ("sin", "tan", "sinh", "tanh"):
-                return keys[0][0], (function, primes, tuple(k for _, k in keys))
-            return 1, (function, primes, keys)
-        case PartialCall(function=function, indices=indices, arguments=arguments):
-            return 1, (function, indices, tuple(map(canonical, arguments)))
-        case _:
-            return 1, (str(node),)
 
 
 def tokens(node: Expression) -> int:
@@ -258,31 +205,12 @@ def unlike_denominators(rows: Iterable[Expression]) -> list[tuple[Expression, Ex
 
 def _monomial_ratio(a: Expression, b: Expression) -> bool:
     try:
-        one, other = (_built(x) for x in (a, b))
+        one, other = (built(x) for x in (a, b))
         field = Field([one, other])
         ratio = field(one) / field(other)
     except (ZeroDivisionError, TypeError, KeyError, AttributeError):
         return False
     return len(ratio.numerator) == 1 == len(ratio.denominator)
-
-
-def _built(node: Expression):
-    import sympy
-
-    names = {str(p): sympy.Symbol(str(p), positive=True) for p in walk(node) if isinstance(p, Name)}
-    rename = {text: Name(f"v{k}") for k, text in enumerate(names)}
-    plain = {rename[text].name: symbol for text, symbol in names.items()}
-    plain |= {"pi": sympy.pi}
-
-    def renamed(part: Expression) -> Expression:
-        from lagcli.rewriting import rebuilt
-
-        if isinstance(part, Name):
-            return rename[str(part)]
-        return rebuilt(part, renamed)
-
-    calls = {p.function: len(p.arguments) for p in walk(node) if isinstance(p, (Call, PartialCall))}
-    return Builder(plain, calls, lambda e: e, lambda n: ValueError(str(n)))(renamed(node))
 
 
 # -- the book -----------------------------------------------------------------------------------
@@ -308,69 +236,6 @@ def of_book(problem: Problem) -> dict[str, Expression]:
     if expect.hamiltonian is not None:
         found["/hamiltonian/hamiltonian"] = expect.hamiltonian
     return {path: expanded(node, problem.definitions) for path, node in found.items()}
-
-
-# -- exchange -------------------------------------------------------------------------------------
-
-
-def exchanges(problem: Problem) -> Iterator[dict[str, str]]:
-    """Exchanges of two indices, or of x and y, under which L, the constraints and the forces may stay."""
-    names = [q.name for q in (*problem.coordinates, *problem.parameters)]
-    for a, b in (("1", "2"), ("2", "3"), ("1", "3"), ("x", "y"), ("A", "B"), ("a", "b")):
-        pairs = {n: n[:-1] + (b if n.endswith(a) else a) for n in names if n[-1:] in (a, b)}
-        pairs = {n: m for n, m in pairs.items() if m in names}
-        if any(n in pairs for n in (q.name for q in problem.coordinates)):
-            yield pairs
-
-
-def exchanged(node: Expression, pairs: Mapping[str, str]) -> Expression:
-    """The formula with the names exchanged."""
-    from lagcli.rewriting import rebuilt
-
-    if isinstance(node, Name):
-        if node.name.startswith("p_") and node.name[2:] in pairs:
-            return Name("p_" + pairs[node.name[2:]], node.primes)
-        return Name(pairs.get(node.name, node.name), node.primes)
-    return rebuilt(node, lambda part: exchanged(part, pairs))
-
-
-def symmetric_under(problem: Problem, lagrangian: Expression, pairs: Mapping[str, str]) -> bool:
-    """Whether L, the forces and the constraints are the same after the exchange."""
-    if any(point.force is not None for point in problem.points):
-        return False
-    zeros = [Sum((c.equation.left, Negative(c.equation.right))) for c in problem.constraints]
-    forces = problem.forces.items()
-    before, after = (
-        {canonical(e)[1] for e in zeros},
-        {canonical(exchanged(e, pairs))[1] for e in zeros},
-    )
-    acting = {name: canonical(e) for name, e in forces}
-    acted = {pairs.get(name, name): canonical(exchanged(e, pairs)) for name, e in forces}
-    lost = problem.dissipation or Number(Fraction(0))
-    if before != after or acting != acted or canonical(lost) != canonical(exchanged(lost, pairs)):
-        return False
-    try:
-        return is_zero(_built(Sum((lagrangian, Negative(exchanged(lagrangian, pairs)))))) is True
-    except (ZeroDivisionError, TypeError, KeyError, AttributeError):
-        return False
-
-
-def not_exchanged(problem: Problem, found: Mapping[str, Expression]) -> Iterator[str]:
-    """The paths whose formula is not the exchanged one of the other body."""
-    lagrangian = found.get("/lagrangian/lagrangian")
-    if lagrangian is None:
-        return
-    for pairs in exchanges(problem):
-        if not symmetric_under(problem, lagrangian, pairs):
-            continue
-        for path, node in found.items():
-            *head, last = path.split("/")
-            other = "/".join([*head, pairs.get(last, last)])
-            section = path.split("/")[1]
-            if section not in ("accelerations", "momenta", "energy", "hamiltonian"):
-                continue
-            if other in found and canonical(exchanged(node, pairs)) != canonical(found[other]):
-                yield path
 
 
 # -- the report -----------------------------------------------------------------------------------
@@ -447,7 +312,7 @@ def rows(found: Mapping[Path, Mapping[str, Expression]], *, listed: bool = False
 
 def of_library() -> dict[Path, dict[str, Expression]]:
     """Every counted formula of the library."""
-    sections = ("lagrangian", *COUNTED)
+    sections = ("lagrangian", "equations", *COUNTED)
     return {path: solved(path, sections) for path in library()}
 
 
@@ -458,7 +323,7 @@ def of_kept(kept: Path) -> dict[Path, dict[str, Expression]]:
         ROOT / file: {
             key: parse_text(text)
             for key, text in entry["formulas"].items()
-            if is_counted(key) or key == "/lagrangian/lagrangian"
+            if is_counted(key) or key.startswith(("/lagrangian/", "/equations/"))
         }
         for file, entry in data.items()
         if "error" not in entry["formulas"]

@@ -2,13 +2,17 @@
 
 import json
 
+from lagcli import load
+from lagcli.expression import Name, Sum
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.system import System
 from lagcli.pipeline import read
 from tests.bench import certificate, library
 from tests.bench.compare import compare
+from tests.bench.exchange import not_exchanged
 from tests.bench.formulas import expanded
-from tests.bench.measure import Row
+from tests.bench.measure import ROOT, Row
+from tests.bench.printed import solved
 
 
 def problem(cpu, lagcli_cpu, *, fails=None, late=False, formula=None):
@@ -113,3 +117,12 @@ def test_what_is_shown_beyond_the_accuracy_is_no_claim():
     assert not judged["reached"]
     told["rows"][0][1] = "1.1"
     assert not certificate.judged(told, 1e-6, reference)["holds"]
+
+
+def test_a_row_that_is_not_the_exchanged_one_is_noticed():
+    path = ROOT / "problems/chains/coupled-pendulums.yaml"
+    found = solved(path, ("lagrangian", "equations", "multipliers"))
+    assert not list(not_exchanged(load(path), found))
+    row = "/equations/equations/1/left"
+    broken = {**found, row: Sum((found[row], Name("k")))}
+    assert row in list(not_exchanged(load(path), broken))
