@@ -100,6 +100,11 @@ class Atoms:
         tree = self.trees[atom]
         return isinstance(tree, Name) and tree.name.startswith("p_")
 
+    def is_rate(self, atom: int) -> bool:
+        """Whether it is the name of a velocity."""
+        tree = self.trees[atom]
+        return isinstance(tree, Name) and tree.primes > 0
+
     def generator(self, number: int) -> Term:
         """A generator of the field in atoms."""
         known = self._of_generator.get(number)

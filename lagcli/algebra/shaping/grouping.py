@@ -25,6 +25,7 @@ _SHORTENINGS = 20  # attempts
 _MIN_KERNEL = 5  # terms among which (a + b)*(c + d) + rest is looked for
 _MAX_KERNEL = 60
 _FORM = 1.25  # times as long a quadratic form in the momenta may be, its terms in order
+_RATES = 1  # operations that a sum may have more, its terms collected by velocities
 _EFFORT = 400  # splits that are tried in all; then the most promising one only
 
 
@@ -119,18 +120,26 @@ class Grouper:
             if best is None or candidate.score < best.score:
                 best = candidate
         assert best is not None
-        form = self._by_momenta(inner, spread)
-        return best if form is None or form.cost > _FORM * best.cost else form
+        if self._of_forms(inner):
+            form = self._collected(inner, self.atoms.is_momentum, spread, others=False)
+            if form is not None and form.cost <= _FORM * best.cost:
+                return form
+        form = self._collected(inner, self.atoms.is_rate, spread, others=True)
+        return best if form is None or form.cost > best.cost + _RATES else form
 
-    def _by_momenta(self, terms: Integers, spread: bool) -> PlannedSum | None:
-        """A form a p_x² + b p_x p_y + c p_y² with each of the three collected."""
-        if not self._of_forms(terms):
-            return None
+    def _collected(
+        self, terms: Integers, kind: Callable[[int], bool], spread: bool, *, others: bool
+    ) -> PlannedSum | None:
+        """A form a p_x² + b p_x p_y + c p_y² with each of the three collected.
+
+        With `others` beside terms without any: (a² − b²) u'² + (m + M) g.
+        """
         groups: dict[Term, Integers] = {}
         for term, value in terms.items():
-            momenta = tuple(pair for pair in term if self.atoms.is_momentum(pair[0]))
-            groups.setdefault(momenta, {})[term] = value
-        if len(groups) < 3 or () in groups:
+            group = tuple(pair for pair in term if kind(pair[0]))
+            groups.setdefault(group, {})[term] = value
+        few = len(groups) < (2 if others else 3) or len(groups) == len(terms)
+        if few or (() in groups) != others:
             return None
         plans = [self._group(each, spread) for each in groups.values()]
         parts = [plan for plan in plans if isinstance(plan, PlannedProduct)]
