@@ -35,6 +35,7 @@ from lagcli.platform.effort import EFFORT
 _LONG = 60  # terms of an element of which ...
 _OF_LONG = 2  # ... no more than these equal forms are shaped
 _EQUAL = 3  # numerators that are shaped
+_GIVEN_ROOT = 4  # operations that a formula may have more with sqrt(1 - v²/c²) as it was put in
 _FLAT = 1.3  # times as long as nested fractions are a formula without any may be
 _MAX_SHAPED = 1500  # terms; beyond, a formula is written as it was found
 
@@ -178,7 +179,9 @@ class ReadableShapes:
         for parts in self._divided(element):
             shapes += [(shaper.together(parts), shaper) for shaper in self._shapers]
         # sqrt(1 - v²/c²), where it was put in so, may cost one operation more than sqrt(c² - v²)
-        plan, shaper = min(shapes, key=lambda pair: pair[0].score - OPERATION * pair[1].scaled)
+        plan, shaper = min(
+            shapes, key=lambda pair: pair[0].score - _GIVEN_ROOT * OPERATION * pair[1].scaled
+        )
         return shaper.written(plan), shaper
 
     def pair(self, element: Element) -> tuple[Expr, Expression]:

@@ -62,6 +62,8 @@ class Momenta:
         others = [t for t in node.terms if t not in bare]
         if len(bare) != 1 or len(others) != 1 or self._ordering.is_parameter(others[0]):
             return None
+        if parts_of(others[0])[2]:  # a fraction
+            return None
         return isinstance(bare[0], Negative)
 
     def _is_bare(self, term: Expression) -> bool:

@@ -243,6 +243,10 @@ class Manner:
                 base, odd = odd_base(factor)
                 if base is None or not odd:
                     continue
+                if _accelerates(base.terms[0]):  # a bracket, not an equation of motion
+                    base = Sum((*positive_first(base.terms),))
+                    factors[place] = with_base(factor, base)
+                    factor = factors[place]
                 wrong = self._wrong(base, below=factors is below and not inside)
                 if wrong:
                     turned = self._in_manner(negative_of(base), inside=inside)
@@ -304,7 +308,8 @@ class Manner:
                     number *= like[0] ** (sign * exponent)
                     factors[place] = with_base(factor, like[1])
         whole = [any(isinstance(f, Number) for f in factors) for factors in (above, below)]
-        if number == 1 and not all(whole):
+        within = any(isinstance(f, Number) for factors in (above, below) for f in factors[1:])
+        if number == 1 and not within and not all(whole):
             return minus, above, below
         for factors, sign in (above, 1), (below, -1):
             numbers = [f for f in factors if isinstance(f, Number)]

@@ -153,7 +153,8 @@ class Ordering:
         letters = _flat(self._letters(node))
         timed = any(part == Name("t") for part in _factor_names(node))
         later = variables == (len(self._index),) and (timed or _has_function(node))
-        return (-accelerations, not number, -velocities, variables, later, letters)
+        fast = velocities if accelerations else -velocities  # x'' + y' (x' y'' - y' x'')/c²
+        return (-accelerations, not number, fast, variables, later, letters)
 
     def _variables(self, node: Expression) -> Iterator[int]:
         """Positions of the coordinates among the factors, of those with the most primes."""
