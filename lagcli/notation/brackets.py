@@ -62,7 +62,7 @@ class Momenta:
         others = [t for t in node.terms if t not in bare]
         if len(bare) != 1 or len(others) != 1 or self._ordering.is_parameter(others[0]):
             return None
-        if parts_of(others[0])[2]:  # a fraction
+        if not all(map(self._ordering.is_parameter, parts_of(others[0])[2])):
             return None
         return isinstance(bare[0], Negative)
 
