@@ -141,6 +141,8 @@ class Grouper:
         few = len(groups) < (2 if others else 3) or len(groups) == len(terms)
         if few or (() in groups) != others:
             return None
+        if any(sum(e for _, e in group) != 2 for group in groups if group):
+            return None  # c (x' − y') stays together
         plans = [self._group(each, spread) for each in groups.values()]
         parts = [plan for plan in plans if isinstance(plan, PlannedProduct)]
         return total(parts) if len(parts) == len(plans) else None
