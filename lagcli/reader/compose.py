@@ -131,9 +131,15 @@ class _Composer:
         entries: dict[str, tuple[Scalar, DocumentNode]] = {}
         for key, value in zip(children[::2], children[1::2], strict=True):
             if not isinstance(key, Scalar):
-                self._report(key.start, key.end, "a key must be a text")
+                hint = "a map has one pair of braces, a placeholder is no value: write key: value"
+                self._report(key.start, key.end, "a key must be a text", hint)
             elif key.label == "<<":
-                self._report(key.start, key.end, "the merge key '<<' is not part of the format")
+                self._report(
+                    key.start,
+                    key.end,
+                    "the merge key '<<' is not part of the format",
+                    "write what it stands for",
+                )
             elif key.label in entries:
                 first = entries[key.label][0]
                 related = ((first.span, "first given here"),)

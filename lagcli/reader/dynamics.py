@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from lagcli.expression import Expression
     from lagcli.reader.sections import Sections
 
+_CARTESIAN = "write [x, y], in polar coordinates [r*cos(phi), r*sin(phi)]"
 _POINT_ATTRIBUTES = ("position", "mass", "force")
 
 
@@ -128,6 +129,8 @@ def _by_axes(node: DocumentNode) -> str:
     entries = node.entries if isinstance(node, Mapping) else []
     axes = [value for key, value in entries if key.label.casefold() in {"x", "y", "z"}]
     written = [value.value for value in axes if isinstance(value, Scalar)]
+    if "polar" in {key.label for key, _ in entries}:
+        return "r*cos(phi), r*sin(phi)"
     return ", ".join(written) or "x, y"
 
 
@@ -139,7 +142,7 @@ def _components(sections: Sections, node: DocumentNode, what: str, hint: str) ->
 
 def _position(sections: Sections, node: DocumentNode, name: str) -> tuple[Expression, ...]:
     what = f"the position of '{name}'"
-    items = _components(sections, node, what, "write [x, y]")
+    items = _components(sections, node, what, _CARTESIAN)
     if isinstance(node, Sequence) and not 1 <= len(items) <= 3:
         sections.error(f"{what} has {len(items)} components, it may have 1 to 3", node.span)
     return tuple(sections.expression(item, what, POSITION) for item in items)

@@ -7,7 +7,10 @@ instead of several that nobody would understand.
 
 from __future__ import annotations
 
+import re
+
 from lagcli.diagnostics import Diagnostic
+from lagcli.reader.habits import function_meant
 from lagcli.reader.misshapen import as_list
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 
@@ -55,6 +58,8 @@ def _mend(
             one = " ".join(whole.split())
             is_list = as_list(one) != f"[{one}]"
             hint = f"write a list as {as_list(one)}" if is_list else f'put it in quotes: "{one}"'
+            for name, inside in re.findall(r"(\w+)\(([^()]*)\)", one):
+                hint = function_meant(name, [each.strip() for each in inside.split(",")]) or hint
             message = "inside { } and [ ] a comma ends the value"
             mistakes.append(Diagnostic(message, first.text.span(first.start, end), hint))
             if isinstance(first, Scalar):

@@ -14,6 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any, get_args
 
+from lagcli.expression import FUNCTIONS
 from lagcli.problem_data import Assumption
 
 #: Keys whose value is a map or a list.
@@ -29,7 +30,10 @@ SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegat
 _PARTS = {
     **dict.fromkeys(("until", "accuracy", "method"), "simulation"),
     **dict.fromkeys(("places", "rods", "springs", "trails"), "picture"),
-    **dict.fromkeys(("accelerations", "charges", "equilibria", "modes", "trajectory"), "expect"),
+    **dict.fromkeys(
+        ("accelerations", "charges", "equilibria", "modes", "trajectory", "degrees_of_freedom"),
+        "expect",
+    ),
 }
 COMMENT = "a comment begins with '#'"
 CASES = frozenset("if for when where else otherwise piecewise Piecewise".split())
@@ -40,6 +44,9 @@ _WITH_UNIT = re.compile(
     r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*"
     r"(?P<unit>(?:[kmcµu]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa)|rad|deg|min|h|mol)(?:[ \^*/].*)?)"
 )
+#: Words for a kind of number, before a name in other languages.
+_TYPES = frozenset("Real real float double int Integer parameter const var let symbol".split())
+_ANGLES = frozenset("theta phi psi alpha beta gamma varphi angle θ φ ϕ ψ α β γ".split())
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 IN_FULL = {
     **dict.fromkeys(("integrate", "Integral", "int", "integral"), "write the antiderivative"),
@@ -66,7 +73,7 @@ def meanings(table: str) -> dict[str, str]:
 
 def key_meant(word: str, known: tuple[str, ...]) -> str | None:
     """The key of a problem that a word stands for elsewhere, also with arguments: `V(x)`."""
-    word = re.sub(r"\s*\(.*\)$|^[$*_]+|[$*_]+$|\\math\w+|[{}]", "", word)
+    word = re.sub(r"^(?:\d+[.)]|[•·▪–—])\s*|\s*\(.*\)$|^[$*_]+|[$*_]+$|\\math\w+|[{}]", "", word)
     if word in known:
         return word
     keys = habits()["keys"]
@@ -91,7 +98,9 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
         return "a state stands under initial, as in initial: {x: 1}"
     if "accelerations" in known and word.endswith("''"):
         return f"write accelerations: {{{word[:-2]}: {value.strip()}}}"
-    key = meanings("keys").get(word, word)
+    if "source" in known and len(value.split()) > 1 and re.fullmatch(r"[\w\s,.;-]*", value):
+        return f"write description: {word}: …, with quotes around it"
+    key = meanings("keys").get(word.replace("-", "_"), word)
     part = _PARTS.get(key)
     if part in known:
         return f"write {part}: {{{key}: {value or '…'}}}"
@@ -100,7 +109,10 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
     return ""
 
 
-_PROGRAM = re.compile(r"\s*((import|from|def|class|return|print|using|function|end)\b|\\\w|#inc)")
+_PROGRAM = re.compile(
+    r"\s*((import|from|def|class|return|print|using|function|end|model|block|package|module|program"
+    r"|syms|clear|clc|close|var|let|const|parameter|double|float|real|Real)\b|\\\w|#inc)"
+)
 
 
 def colon_advice(line: str) -> str:
@@ -108,6 +120,8 @@ def colon_advice(line: str) -> str:
     found = re.match(r"\s*([^\W\d]\w*)(?:\s*[=:：]\s*|\s+)([^-+*/^].*)", line)
     if re.match(r"\s*(/[/*]|['\"]{3}|;|%|--|<!)", line):
         return COMMENT
+    if item := re.match(r"\s*[–—•·*]\s+(.*)", line):
+        return f"an item of a list begins with a hyphen: write - {item[1].strip()}"
     if re.match(r"\s*<\w", line):
         return "write key: value, without tags"
     if _PROGRAM.match(line):
@@ -131,11 +145,15 @@ def is_constant(word: str, value: str) -> bool:
 
 def name_meant(name: str) -> str:
     """A valid name for one with raised or lowered digits, LaTeX or blanks; `theta_1` for θ₁."""
+    if made := re.fullmatch(r"(?:\w+\.)?[a-zA-Z]+\(\s*['\"](\w+)['\"].*\)(?:\(t\))?", name):
+        return made[1]
     if declared := re.fullmatch(r"\s*(\w+)\s*=\s*[\w.]+\(.*", name):
         return declared[1]
-    given = re.fullmatch(r"\s*(\w+'?)\s*[=:]\s*(\S+)\s*", name)
-    if given:
+    if given := re.fullmatch(r"\s*(\w+'*)\s*(?:=>|[=:]|:=|[-=]>|→|⇒)\s*(\S+)\s*", name):
         return f"{given[1]}: {given[2]}"
+    typed = re.fullmatch(r"(?:[Pp]arameter\s+|const\s+|final\s+)?(?:\w+\s+)?(\w+)", name)
+    if typed and _TYPES & set(name.split()[:-1]):
+        return typed[1]
     related = re.fullmatch(r"\s*(\w+)\s*(\W+?)\s*0\s*", name)
     if related and related[2] in SIGNS:
         return f"{related[1]}: {{assume: {SIGNS[related[2]]}}}"
@@ -194,15 +212,15 @@ def function_meant(name: str, arguments: list[str]) -> str:
             return f"the acceleration of {x} is {x}'': write {x}''"
         return f"the velocity of {x} is {x}': write {x}'" if _plain(x) else ""
     if name in {"pow", "power", "Pow"} and len(arguments) == 2:
-        return f"write {_group(arguments[0])}^{_group(arguments[1])}"
+        return f"write {group(arguments[0])}^{group(arguments[1])}"
     if name in {"Eq", "Equality"}:
         return "write left = right"
     if name in {"sq", "square"} and len(arguments) == 1:
-        return f"write {_group(arguments[0])}^2"
+        return f"write {group(arguments[0])}^2"
     if name in CASES:
         return CASE
     if name in {"norm", "hypot"} and arguments[1:]:
-        return "write sqrt(" + " + ".join(f"{_group(each)}^2" for each in arguments) + ")"
+        return "write sqrt(" + " + ".join(f"{group(each)}^2" for each in arguments) + ")"
     if name in IN_FULL:
         return IN_FULL[name]
     written_out = habits()["written_out"].get(name, "")
@@ -227,51 +245,21 @@ def velocity_meant(name: str, coordinates: list[str]) -> str:
             return f"write {coordinate}'"
         if name in {f"a{coordinate}", f"dd{coordinate}", f"d2{coordinate}"}:
             return f"the acceleration of {coordinate} is {coordinate}''"
+        stem, _, index = coordinate.partition("_")
+        if stem in _ANGLES and name.partition("_")[::2] in {(w, index) for w in ("omega", "ω")}:
+            velocity = f"the velocity of {coordinate} is {coordinate}'"
+            return f"{velocity}; for another {name}, declare it under 'parameters'"
     return ""
 
 
-#: LaTeX with arguments: \frac{a}{b}, \dot{x}, \dot x, \dot\theta.
-_MACRO = re.compile(r"\\([A-Za-z]+)")
-_ARGUMENT = re.compile(r"\s*(?:\{([^{}]*)\}|(\\[A-Za-z]+|\w))")
-
-
-def latex_meant(text: str) -> str:
-    """What to write instead of the LaTeX with which a text begins."""
-    if re.match(r"\\[,;:! ]", text):
-        return f"leave out {text[:2]}"
-    macro = _MACRO.match(text)
-    if macro is None:
-        return ""
-    name, rest = macro[1], text[macro.end() :]
-    arguments = _arguments(rest, 2 if name in {"frac", "dfrac", "tfrac"} else 1)
-    first = arguments[0] if arguments else "x"
-    if name in {"dot", "ddot"}:
-        return f"write {first}" + ("'" if name == "dot" else "''")
-    if name in {"frac", "dfrac", "tfrac"} and len(arguments) == 2:
-        return f"write {_group(first)}/{_group(arguments[1])}"
-    if name == "sqrt":
-        return f"write sqrt({first})"
-    if name in {"cdot", "times"}:
-        return "write '*'"
-    if name in {"partial", "nabla"}:
-        return "write diff(expression, name); a force that V has is found from V"
-    if name in {"sum", "int", "prod"}:
-        return IN_FULL[name]
-    if name in {"vec", "mathbf", "boldsymbol", "begin", "end", "pmatrix"}:
-        return "a vector is written by its components"
-    if name in {"mathrm", "operatorname", "text"} and first != "x":
-        return f"write {first}"
-    if name in {"left", "right", "bigl", "bigr", "mathrm", "text", ""}:
-        return f"leave out \\{name}"
-    return f"write {meanings('functions').get(name, name)}"
-
-
-def _arguments(text: str, count: int) -> list[str]:
-    found: list[str] = []
-    while len(found) < count and (one := _ARGUMENT.match(text)):
-        found.append((one[1] or one[2] or "").lstrip("\\").strip())
-        text = text[one.end() :]
-    return found
+def called_meant(name: str, inside: str) -> str:
+    """What `Cos[theta[t]]` means: `cos(theta)`; nothing where the name is no function."""
+    inside = re.sub(r"(\w)[\[(]t[\])]", r"\1", inside)
+    arguments = [each.strip() for each in inside.split(",")]
+    usual = meanings("functions").get(name, name.casefold().replace("arc", "a"))
+    return function_meant(name, arguments) or (
+        f"write {usual}({', '.join(arguments)})" if usual in FUNCTIONS else ""
+    )
 
 
 def _dotted(letter: str) -> str:
@@ -282,5 +270,6 @@ def _plain(text: str) -> bool:
     return re.fullmatch(r"\w+", text) is not None
 
 
-def _group(text: str) -> str:
+def group(text: str) -> str:
+    """A text as one factor: in parentheses unless it is a name."""
     return text if re.fullmatch(r"\w+'*", text) else f"({text})"

@@ -27,8 +27,23 @@ def one_sum(node: DocumentNode, what: str) -> str:
     if what.startswith("the initial") and len(written) == 2:
         return "write x: {}, x': {}".format(*written)
     if what == "'until'" and written:
-        return f"a motion begins at t = 0: write {written[-1]}"
+        return f"a motion begins at t = 0: write {written[-1].split()[-1]}"
     return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""
+
+
+def range_end(written: str) -> str:
+    """The 10 of `0..10`, `(0, 10)`, `0:0.1:10`, `0 to 10 s`; nothing for one number."""
+    number = r"(\d+(?:\.\d+)?(?:e-?\d+)?)"
+    between = rf"0(?:\.0*)?\s*(?:\.\.+|…|[:,;–]|-|to|until|bis|\s)\s*(?:{number}\s*[:,;]\s*)?"
+    written = re.sub(
+        r"^(?:\w+\.)?(?:linspace|arange|range|tspan)\(\s*(.*)\)$", r"\1", written.strip()
+    )
+    if spaced := re.fullmatch(r"0(?:\.0*)?\s*,\s*([\d.]+)\s*(?:,.*)?", written):
+        return spaced[1]
+    found = re.fullmatch(
+        rf"[(\[]?\s*{between}{number}\s*(?:s|sec|seconds)?\s*[)\]]?", written.strip()
+    )
+    return found[2] if found else ""
 
 
 def as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
@@ -67,3 +82,22 @@ def as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
     if fits and isinstance(node, fits) and written:
         return f"write {{{names[0]}: {written}}}"
     return f"it has the keys {', '.join(names)}"
+
+
+def as_text(node: DocumentNode) -> str:
+    """How a list or a map is written as the text that it should be, or as an entry of a map."""
+    inner = node.items if isinstance(node, Sequence) else []
+    entries = node.entries if isinstance(node, Mapping) else []
+    first = (*inner, *(key for key, _ in entries))[:1]
+    if not (first and isinstance(first[0], Scalar)):
+        return ""
+    written = [(key.label, value.value) for key, value in entries if isinstance(value, Scalar)]
+    if len(entries) < 2 or len(written) < len(entries):
+        return f"write {first[0].value}"
+    name, value = written[0]
+    said = [f"{key}: {each}" for key, each in written[1:]]
+    if name in {"name", "id"}:
+        name = value
+    elif value:
+        said = [f"value: {value}", *said]
+    return f"write {name}: {{{', '.join(said)}}}, without '-'"

@@ -22,7 +22,7 @@ from lagcli.problem_data import Assumption
 from lagcli.reader.habits import IN_FULL, function_meant, meanings, product_meant, velocity_meant
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import alike, closest, did_you_mean
-from lagcli.reader.undeclared import UNDECLARED
+from lagcli.reader.undeclared import COORDINATE, UNDECLARED
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -239,7 +239,7 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         one = f"the velocity of {coordinates[0]} is {velocities}"
         return f"the velocities are {velocities}" if coordinates[1:] else one
     if not hint and primes and role.order > 0:
-        return "declare it under 'coordinates'"
+        return COORDINATE
     if not hint and what.startswith("the value of") and name in _NO_VALUE:
         return "a parameter without a value is written without ':', or as [m, k]"
     if not hint and name in (usual := meanings("names")):

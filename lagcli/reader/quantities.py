@@ -209,14 +209,18 @@ def _said(sections: Sections, attributes: dict[str, DocumentNode]) -> _Said:
         elif text is not None:
             hint = did_you_mean(text.value, _ASSUMPTIONS) or f"known are {', '.join(_ASSUMPTIONS)}"
             sign = _sign(text)
-            hint = f"write {sign}" if sign else hint
+            hint = f"write {sign}" if sign else hint.replace("known are", "write one of")
             sections.error(f"unknown assumption '{text.value}'", text.span, hint)
     return said
 
 
 def _sign(node: DocumentNode | None) -> str:
     """`positive` for `> 0` and `x > 0`; nothing for other texts."""
-    found = isinstance(node, Scalar) and re.fullmatch(r"\s*\w*\s*(\W+?)\s*0?\s*", node.value)
+    if not isinstance(node, Scalar):
+        return ""
+    if assumed := re.search(r"\(.*\b(positive|negative|nonnegative|real)\s*=\s*True", node.value):
+        return assumed[1]
+    found = re.fullmatch(r"\s*\w*\s*(\W+?)\s*0?\s*", node.value)
     return SIGNS.get(found[1], "") if found else ""
 
 
@@ -234,7 +238,9 @@ def _check_symbol(sections: Sections, text: Scalar) -> None:
 
     wrong = symbol_mistake(text.value)
     if wrong:
-        sections.error(f"a symbol must be simple LaTeX: {wrong}", text.span)
+        escaped = text.style == '"' and not text.value.isprintable()
+        hint = "in double quotes a backslash is an escape: use single quotes" if escaped else ""
+        sections.error(f"a symbol must be simple LaTeX: {wrong}", text.span, hint)
 
 
 def _check_cycles(sections: Sections, parameters: list[Parameter]) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from lagcli.expression import Expression, Name
+from lagcli.expression import ZERO, Expression, Name
 from lagcli.problem_data import (
     METHODS,
     Lasting,
@@ -16,6 +16,7 @@ from lagcli.problem_data import (
     Where,
 )
 from lagcli.reader.habits import name_meant, velocity_meant
+from lagcli.reader.misshapen import range_end
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar
 from lagcli.reader.quantities import is_decimal_part
@@ -76,7 +77,7 @@ def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name
         plain = re.sub(r"(\(\s*0\s*\)|_?0)$", "", key.label)
         if plain != key.label and plain.rstrip("'") in coordinates:
             hint = f"write {plain}"
-        if "=" in key.label:
+        if re.search(r"[=→>]", key.label):
             hint = f"write {name_meant(key.label)}"
         if letters == "t":
             hint = "a motion begins at t = 0: leave it out"
@@ -97,6 +98,8 @@ def read_find(sections: Sections, node: DocumentNode) -> tuple[Question, ...]:
         "write name: {where: equation, for: x}, {value: expression, in_terms_of: [x]}, "
         "{always: inequality, for: p} or {reaches: x = value, for: p}"
     )
+    if isinstance(node, Scalar) and "=" not in node.value:
+        hint = f"leave it out: equations of motion and charges are found; or {hint}"
     for key, value in sections.entries(node, "find", hint):
         what = f"the question '{key.label}'"
         found = sections.attributes(value, what, _QUESTION_ATTRIBUTES)
@@ -196,4 +199,8 @@ def read_simulation(sections: Sections, node: DocumentNode) -> SimulationDefault
 
 
 def _number(sections: Sections, node: DocumentNode, what: str) -> Expression:
+    if what == "'until'" and isinstance(node, Scalar) and (end := range_end(node.value)):
+        hint = f"a motion begins at t = 0: write {end}"
+        sections.error("'until' is one time, no range", node.span, hint)
+        return ZERO
     return sections.expression(node, what, NUMBERS)

@@ -29,7 +29,9 @@ _FORCES: dict[str, ForceKind] = {
 
 def declare_constraints(sections: Sections, node: DocumentNode) -> list[Declared]:
     """Enter the multipliers into the scope."""
-    entries = sections.entries(node, "constraints", "write name: equation")
+    entries = sections.entries(
+        node, "constraints", "write name: equation, as in rolling: x' = R*theta'"
+    )
     given = (declared(sections, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
     return [one for one in given if one is not None]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, NamedTuple
@@ -144,7 +145,9 @@ def name_mistake(name: str) -> tuple[str, str] | None:
         meaning = {"t": "the time", "pi": "the number", "diff": "the partial derivative"}
         meant = meaning.get(name, "a function")
         return f"'{name}' is {meant} and cannot be declared", f"choose another name: {name}_1"
-    if "=" not in name and any(prime in name for prime in "'’′″‴"):
+    if quoted := re.fullmatch(r"[‘'’](\w+)['’‘]", name):
+        return f"'{name}' is not a name", f"leave out the quotes: write {quoted[1]}"
+    if not set("=>→(") & set(name) and any(prime in name for prime in "'’′″‴"):
         return f"'{name}' is not a name", "declare it without primes; x' is the velocity of x"
     if not name:
         return "a name is missing", ""

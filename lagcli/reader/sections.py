@@ -21,7 +21,7 @@ from lagcli.reader.habits import (
     unit_behind,
 )
 from lagcli.reader.limits import MISTAKES
-from lagcli.reader.misshapen import as_list, as_map, one_sum
+from lagcli.reader.misshapen import as_list, as_map, as_text, one_sum
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.scope import NUMBERS, VALUES, Kind, Role, Scope, name_mistake
@@ -111,6 +111,9 @@ class Sections:
         given = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
         if isinstance(node, Scalar) and (one := as_list(node.value)) != f"[{node.value.strip()}]":
             given = one[1:-1].split(", ")
+        elif isinstance(node, Scalar) and (listed := re.search(r"\(\[(.*)\]\)$", node.value)):
+            given = listed[1].split(",")
+        given = [part.strip() for each in given for part in each.split(";")]
         if len(given) == 2 * len(names):
             names += [f"{name}'" for name in names]
         values = [each.rpartition("=")[2].strip() or "…" for each in given]
@@ -132,10 +135,7 @@ class Sections:
     def scalar(self, node: DocumentNode, what: str) -> Scalar | None:
         """A text that is not empty."""
         if not isinstance(node, Scalar):
-            inner = node.items if isinstance(node, Sequence) else []
-            inner = [key for key, _ in node.entries] if isinstance(node, Mapping) else inner
-            first = inner[0].value if inner and isinstance(inner[0], Scalar) else ""
-            hint = f"write {first}" if first else ""
+            hint = as_text(node)
             self.error(f"{what} must be a text, not {kind(node)}", node.span, hint)
             return None
         if node.broken:

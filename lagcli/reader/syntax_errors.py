@@ -14,23 +14,22 @@ from lagcli.reader.habits import (
     IN_FULL,
     fraction,
     function_meant,
-    latex_meant,
     meanings,
     superscript,
     unit_behind,
 )
+from lagcli.reader.strange_characters import END_VALUE, character_meant, prime_meant
 
 if TYPE_CHECKING:
     from lagcli.reader.automaton import Token, Unexpected
     from lagcli.reader.positions import Excerpt
 
 _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
-_END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
 #: A number in powers of ten that is not written as one: 2.0e, 2e - 3, 1.5d-3; 6.67 x 10^-11.
 _EXPONENT = re.compile(r"([\d.]+)(?:\s*([eE])\s*|([dD])(?=[-+\d]))([-+]?)\s*(\d*)(?![\w(.'])")
 _TIMES_TEN = re.compile(r"([\d.]+)\s*[xX]\s*10\s*(?:\^|\*\*|[eE])?\s*[({]?\s*(-?)[\s+]*(\d+)")
-#: A derivative as a method: x.diff(t), x.diff(t, 2), V.diff(x).
-_METHOD = re.compile(r"\.(?:diff|dt|ddt|dot)\b(?:\(\s*(\w*)\s*(?:,\s*(\w+)\s*)?\))?")
+#: At least three words, one of them longer than the names of most quantities.
+_PROSE = re.compile(r"(?=.*\b[^\W\d_]{5,}\b)[^\W\d_]+(?:[ ,]+[^\W\d_]+){2,}\.?")
 
 
 def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str) -> Diagnostic:
@@ -56,7 +55,7 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
         return _unexpected_character(error.place, tokens, excerpt)
     place = next(i for i, other in enumerate(tokens) if other.start_pos == token.start_pos)
     previous = tokens[place - 1] if place else None
-    if previous is not None and previous.type in _END_VALUE and token.type in _BEGIN_VALUE:
+    if previous is not None and previous.type in END_VALUE and token.type in _BEGIN_VALUE:
         following = tokens[place + 1] if place + 1 < len(tokens) else None
         if place >= 3 and tokens[place - 2].type == "_POWER" and tokens[place - 3] in FUNCTIONS:
             function = tokens[place - 3]
@@ -68,7 +67,7 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
             return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt), hint)
         if CASES & {str(previous), str(token)} and (name := _called(tokens[:place])) in IN_FULL:
             return Diagnostic("a formula has no loops", _span(token, excerpt), IN_FULL[name])
-        return _missing_product(previous, token, following, excerpt)
+        return _missing_product(previous, token, following, excerpt, start)
     if token.type == "COMPARISON" and CASES & {str(other) for other in tokens}:
         return Diagnostic("a formula has no cases", _span(token, excerpt), CASE)
     if [str(other) for other in tokens[place - 1 : place + 1]] == ["-", ">"]:
@@ -91,7 +90,7 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
         if grouped and tokens and tokens[-1].type == "NUMBER":
             hint = f"write {tokens[-1]}{grouped[1].replace(character, '')}"
             return Diagnostic("digits are not grouped by a prime", span, hint)
-        return Diagnostic("a prime without a name", span, _prime_advice(tokens))
+        return Diagnostic("a prime without a name", span, prime_meant(tokens))
     if not character.isprintable():
         return Diagnostic(f"{shown} has no meaning in an expression", span, "leave it out")
     if character in '"“”„' and not (tokens and tokens[-1].type == "NAME"):
@@ -101,65 +100,14 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
         return Diagnostic("angles are in radians", span, f"write {number}*pi/180")
     if fraction(character):
         return Diagnostic(f"{shown} has no meaning", span, f"write {fraction(character)}")
-    hint = _meant(excerpt.value[at:], tokens) or meanings("characters").get(character, "")
+    hint = character_meant(excerpt.value[at:], tokens) or meanings("characters").get(character, "")
     return Diagnostic(f"{shown} has no meaning in an expression", span, hint)
-
-
-def _meant(rest: str, tokens: list[Token]) -> str:
-    """What was meant by LaTeX, by `math.pi`, by `10%`; nothing where that is unclear."""
-    before = tokens[-1].type if tokens else ""
-    if re.match(r"%\s*[A-Za-z]", rest) and before in _END_VALUE:
-        return COMMENT
-    if rest.startswith(("!=", ":=")):
-        return "write an equation with '='"
-    if rest[0] == "[" and before == "LPAR":
-        return "a vector is written by its components"
-    index = re.match(r"\[(\d+)\]|\{(\w+)\}", rest)
-    if index and before == "NAME" and (index[1] or tokens[-1].endswith("_")):
-        return f"write {tokens[-1].rstrip('_')}_{index[1] or index[2]}"
-    if re.match(r"\\\s*\d", rest):
-        return "division is written with '/'"
-    if by_element := re.match(r"\.([*/^'])", rest):
-        return f"write {by_element[1]}"
-    if rest[0] == "%" and before == "NUMBER":
-        return f"write {tokens[-1]}/100"
-    unit = re.match(r"\[([^\[\]]+)\]\s*$", rest)
-    if unit and before in _END_VALUE and unit_behind(f"1 {unit[1]}"):
-        return f"leave out '{unit[0].strip()}': units stand where names are declared"
-    name = next((str(each) for each in reversed(tokens) if each.type == "NAME" and each != "t"), "")
-    if (derived := _METHOD.match(rest)) and before in {"NAME", "RPAR"}:
-        variable, again = derived.groups("")
-        if variable not in {"", "t"}:
-            return f"write diff({name}, {variable})"
-        return f"write {name}" + ("''" if again in {"2", "t"} else "'")
-    if rest.startswith("[t]") and before == "NAME":
-        return f"a coordinate is a function of t by itself: write {tokens[-1]}"
-    word = re.match(r"(?:\.|::)([A-Za-z]\w*)(?:\(([^()]*)\))?", rest)
-    if word and before == "NAME":
-        arguments = [each.strip() for each in (word[2] or "").split(",") if each.strip()]
-        usual = meanings("functions").get(word[1], word[1])
-        return function_meant(word[1], arguments) or f"write {usual}"
-    return latex_meant(rest)
-
-
-def _prime_advice(tokens: list[Token]) -> str:
-    if [token.type for token in tokens[-4:]] == ["NAME", "LPAR", "NAME", "RPAR"] and (
-        tokens[-2] == "t"
-    ):
-        return f"a coordinate is a function of t by itself: write {tokens[-4]}'"
-    if [token.type for token in tokens[-3:]] == ["LPAR", "NAME", "RPAR"]:
-        return f"write {tokens[-2]}'"
-    if [token.type for token in tokens[-3:]] == ["NAME", "_POWER", "NUMBER"]:
-        return f"write {tokens[-3]}'^{tokens[-1]}"
-    if tokens and tokens[-1].type == "RPAR":
-        return "a prime stands behind a name; give the expression a name under 'definitions'"
-    return "a prime stands right behind a name, without a blank"
 
 
 def _unexpected_end(tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
     """The text ends too early: an open parenthesis, or an operator without its right side."""
     last = tokens[-1]
-    if last.type not in _END_VALUE:
+    if last.type not in END_VALUE:
         hint = f"write what follows, or leave out '{last}'"
         return Diagnostic(f"nothing follows '{last}'", _span(last, excerpt), hint)
     open_ = _open_parenthesis(tokens)
@@ -173,7 +121,7 @@ def _unexpected_end(tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
 
 
 def _missing_product(
-    left: Token, right: Token, following: Token | None, excerpt: Excerpt
+    left: Token, right: Token, following: Token | None, excerpt: Excerpt, start: str
 ) -> Diagnostic:
     span = excerpt.span(left.start_pos, right.end_pos)
     apart = left.end_pos < right.start_pos
@@ -186,10 +134,20 @@ def _missing_product(
         return Diagnostic("a rate is written with a prime", span, function_meant("dt", [right]))
     if str(right) == "and":
         return Diagnostic("two statements in one", span, "write each by itself, under its own name")
+    if str(left) == "lambda" and ":" in excerpt.value:
+        written = excerpt.value.partition(":")[2].strip()
+        return Diagnostic("a formula is no program", span, f"write {written}")
+    if left.type == "NUMBER" and str(right) == "percent":
+        return Diagnostic("'percent' has no meaning", span, f"write {left}/100")
     if "where" in {left, right} and "=" in excerpt.value:
         return Diagnostic("a formula has no conditions", span, "values stand under 'parameters'")
     if {str(left), str(right)} & CASES:
         return Diagnostic("a formula has no cases", span, CASE)
+    if apart and _PROSE.fullmatch(excerpt.value.strip()):
+        hint = (
+            "write left = right, as in x' = R*theta'" if start == "equation" else "write a formula"
+        )
+        return Diagnostic("a sentence is no formula", excerpt.everything, hint)
     rest = excerpt.value[left.start_pos :]
     if right.type == "NAME" and (number := _EXPONENT.match(rest)):
         value, e, d, sign, digits = number.groups()
@@ -199,7 +157,7 @@ def _missing_product(
     if right.type == "NAME" and (number := _TIMES_TEN.match(rest)):
         hint = f"write {number[1]}e{number[2]}{number[3]}"
         return Diagnostic("a power of ten is written with e", span, hint)
-    before = _written(left) if left.type != "RPAR" else "(…)"
+    before = _written(left).replace("′", "'") if left.type != "RPAR" else "(…)"
     if str(right) in {"rad", "radian", "radians"}:
         return Diagnostic("angles are in radians", span, f"leave out '{right}'")
     if str(right) in {"deg", "degree", "degrees", "º"}:
@@ -220,7 +178,9 @@ def _missing_product(
     if right.type == "NAME" and following is not None and following.type == "LPAR":
         after += "(…)"
     message = f"a '*' is missing between '{left}' and '{right}'"
-    return Diagnostic(message, span, f"did you mean {before}*{after}?")
+    unit = left.type == "NUMBER" and len(right) > 1 and unit_behind(f"1 {right}")
+    stands = f"; the unit {right} stands where a name is declared" if unit else ""
+    return Diagnostic(message, span, f"did you mean {before}*{after}?{stands}")
 
 
 def _written(token: Token) -> str:
@@ -252,7 +212,9 @@ def _unexpected(
         alone = len(before) == 1 and previous is not None and previous.type == "NAME"
         hint = f"leave out '{previous} ='" if alone else "leave out '=' and what follows it"
         return "'=' stands only in constraints and equations", hint
-    if token.type == "COMMA" and previous is not None and previous.type in _END_VALUE:
+    if token.type == "COMMA" and previous is not None and previous.type in END_VALUE:
+        if inside is not None and not _called(before):
+            return "a list is no value", "write one value, without parentheses"
         is_decimal = previous.type == "NUMBER" and not is_last
         hint = "a decimal point is written '.'" if is_decimal else "leave out ','"
         return "a comma stands only between the arguments of a function", hint

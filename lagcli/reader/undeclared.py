@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 
 from lagcli.diagnostics import Diagnostic
 
 #: What `lagcli.reader.names` says of a name that nothing resembles.
 UNDECLARED = "declare it under 'parameters'"
+#: What it says of one with a prime.
+COORDINATE = "declare it under 'coordinates'"
 _NAME = re.compile(r"unknown name '(\w+)' in (.*)")
 
 
@@ -24,6 +27,15 @@ def one_for_undeclared(
     together
         Whether one is enough for all names to be declared: the file declares no parameter.
     """
+    moving = {each.message.split("'")[1] for each in diagnostics if each.hint == COORDINATE}
+    diagnostics = [
+        replace(each, hint=COORDINATE)
+        if (named := _NAME.fullmatch(each.message))
+        and named[1] in moving
+        and UNDECLARED in each.hint
+        else each
+        for each in diagnostics
+    ]
     kept: list[Diagnostic] = []
     told: set[tuple[str, str]] = set()
     undeclared: dict[str, Diagnostic] = {}

@@ -13,9 +13,9 @@ from lagcli.reader.habits import (
     SIGNS,
     colon_advice,
     habits,
-    latex_meant,
     meanings,
 )
+from lagcli.reader.latex_habits import latex_meant
 
 if TYPE_CHECKING:
     from lagcli.reader.text import SourceText
@@ -62,7 +62,7 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
             hint = COMMENT if foreign[2] else "a key is written without brackets: key: value"
             return Diagnostic("this line is none of the file", foreign_line, hint)
     near = "\n".join(lines[max(0, number - 1) : number + 1])
-    if blank := re.search(r"^\s*\w+:([^\S \t\r])", near, re.MULTILINE):
+    if blank := re.search(r"^\s*\w+:([^\S \t\r\n])", near, re.MULTILINE):
         here = text.source.text.index(blank[1])
         message = f"the blank U+{ord(blank[1]):04X} is none that YAML knows"
         return Diagnostic(message, text.span(here, here + 1), "type a usual blank there")
@@ -81,6 +81,8 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         hint = latex_meant(line[latex.start() :])
         message = "'\\' has no meaning in an expression"
         return Diagnostic(message, text.span(begin, begin + 1), hint)
+    if re.match(r"\s*[–—•·]\s", line):
+        return Diagnostic("this is no item of a list", span, colon_advice(line))
     if line.startswith("```"):
         return Diagnostic("this line is none of the file", span, f"leave out '{line}'")
     if text.source.text.startswith("?", offset):
@@ -93,6 +95,10 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
     if valued := re.search(r":\s*([-\d.]+)\s*\[([^\W\d][^\]]*)\]", line):
         hint = f"write {{value: {valued[1]}, unit: {valued[2]}}}"
         return Diagnostic("a unit does not stand behind a number", span, hint)
+    if marks := re.search(r"\$\{\w*\}?|\{\{", line):
+        return Diagnostic("a placeholder is no value", span, f"write the value for {marks[0]}")
+    if index := re.search(r"Subscript\[(\w+),\s*(\w+)\]", line):
+        return Diagnostic("a name has no brackets", span, f"write {index[1]}_{index[2]}")
     if index := re.search(r"\[\s*([^\W\d]\w*)\[(\d+)\]", line):
         return Diagnostic("a name has no brackets", span, f"write {index[1]}_{index[2]}")
     if index := re.search(r"(\w+?)_\{(\w+)\}", line):

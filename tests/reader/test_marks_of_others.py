@@ -144,3 +144,90 @@ def test_a_comment_of_another_language_is_named(mark, above):
 def test_other_programs_and_other_marks(written, hint):
     [only] = messages(written)
     assert hint in only
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_range_for_until_is_told_its_end(seed):
+    draw = random.Random(seed)
+    end = draw.choice(["10", "2.5", "1e3", "200"])
+    between = draw.choice(["..", "...", ":", " to ", ", ", " - ", "–", ":0.1:"])
+    opened, closed = draw.choice([("", ""), ("(", ")"), ('"[', ']"')])
+    written = f"{opened}0{between}{end}{closed}"
+    [only] = messages(text(simulation=f"\n  until: {written}"))
+    assert only.endswith(f"a motion begins at t = 0: write {end}")
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_a_call_in_brackets_is_written_with_parentheses(seed):
+    draw = random.Random(seed)
+    name = draw.choice(["sin", "cos", "sqrt", "exp", "log"])
+    inside = draw.choice(["x", "x[t]", "2*x[t]"])
+    [only] = messages(text(V=f"k*{name.capitalize()}[{inside}]"))
+    assert only.endswith(f"write {name}({inside.replace('[t]', '')})")
+
+
+@pytest.mark.parametrize(
+    ("written", "hint"),
+    [
+        (text(Given="a mass on a spring"), "write description: Given: …"),
+        (text(find="equations of motion"), "leave it out: equations of motion"),
+        (text(V="k . x^2/2"), "write '*'"),
+        (text(V="k*x^2/2 ..."), "a line that continues the one above begins with blanks"),
+        (text(V="(k*x^2/2).subs(k, 2)"), "values stand under 'parameters'"),
+        (text(T="m*D[x[t], t]^2/2"), "write x'"),
+        (text(initial="{x -> 1}"), "write x: 1"),
+        (text(initial="{x' => 1}"), "write x': 1"),
+        (text(initial="[1; 0]"), "write x: 1, x': 0"),
+        (text(initial="\n  x: (1, 0)"), "write one value"),
+        (text(V="-m*g*\\cos x"), "write cos(x)"),
+        (text(coordinates='{x: {symbol: "\\vartheta"}}'), "use single quotes"),
+        ("model Spring\nparameter Real m = 1;\n", "no program"),
+        (text(coordinates="[Real x]"), "write x"),
+        (text(coordinates="{x: {fixed: true}}"), "a parameter, no coordinate"),
+        (text(coordinates="[‘x’]"), "leave out the quotes: write x"),
+        (text(T="m*x′²/2"), "write x'^2"),
+        (text(T=None, **{"1. T": "m*x'^2/2"}), "the key is T"),
+        (text(coordinates="\n– x"), "write - x"),
+        (text(parameters="{m: {<<: {unit: kg}}, k: 2}"), "write what it stands for"),
+        (text(coordinates="\n  - {name: x, unit: m}"), "write x: {unit: m}, without '-'"),
+        (text(version="2"), "leave it out"),
+        (text(energy="conserved"), "what is conserved is found"),
+        (text(**{"degree-of-freedom": "1"}), "write expect: {degrees_of_freedom: 1}"),
+        (text(fuerzas="{x: -k*x}"), "the key is forces"),
+        (text(constraints="{rod: the length is constant}"), "write left = right"),
+        (text(points="{A: {polar: [x, k], mass: m}}"), "[r*cos(phi), r*sin(phi)]"),
+        (text(points="{A: {position: {r: x}, mass: m}}"), "[r*cos(phi), r*sin(phi)]"),
+        (text(parameters="{m: {assume: True}, k: 2}"), "write one of real, positive"),
+        (text(forces="{x: -m*Derivative(x,t,2)}"), "write x''"),
+        (text(coordinates="[theta]", T="m*omega^2/2", V="0"), "the velocity of theta is theta'"),
+        (text(T="m*(x'^2 + y'^2)/2", V="m*y"), "declare it under 'coordinates'"),
+    ],
+)
+def test_paper_mathematica_modelica_and_word(written, hint):
+    [only] = messages(written)
+    assert hint in only
+
+
+@pytest.mark.parametrize(
+    ("written", "hint"),
+    [
+        (text(coordinates="[Function('x')(t)]"), "write x"),
+        (text(parameters="\n  m: Symbol('m', positive=True)\n  k: 2"), "write {assume: positive}"),
+        (text(method="LagrangesMethod"), "leave it out"),
+        (text(definitions="{f: 'lambda x: k*x'}"), "write k*x"),
+        (text(initial="Matrix([1, 0])"), "write x: 1, x': 0"),
+        (text(coordinates="[Subscript[x, 1]]"), "write x_1"),
+        (text(simulation='{until: "linspace(0, 10, 100)"}'), "write 10"),
+        (text(V="k*x^2/2 \\quad"), "leave out \\quad"),
+        (text(annotation="(experiment)"), "leave it out"),
+        (text(T=None, **{"• T": "m*x'^2/2"}), "the key is T"),
+        (text(parameters="{m: ${MASS}, k: 2}"), "write the value for ${MASS}"),
+        (text(parameters="{m: {{ mass }}, k: 2}"), "a map has one pair of braces"),
+        (text(simulation="{until: 10, output: out.csv}"), "lagcli simulate FILE -o motion.csv"),
+        (text(initial="{x: 10 percent}"), "write 10/100"),
+        (text(V="k*x^2/2 ∴"), "leave it out"),
+    ],
+)
+def test_sympy_and_placeholders(written, hint):
+    [only] = messages(written)
+    assert hint in only
