@@ -25,7 +25,7 @@ from lagcli.algebra.positivity import sign_of
 from lagcli.mechanics.oscillations.linearization import Linearization
 
 #: Of the potential; no textbook's equilibrium needs a higher one.
-_HIGHEST = 6
+HIGHEST = 6
 
 
 def potential_derivatives(linear: Linearization) -> list[Expr]:
@@ -36,14 +36,19 @@ def potential_derivatives(linear: Linearization) -> list[Expr]:
     if len(linear.system.q) != 1 or linear.dynamics.constraints.equations or linear.point.free:
         return []
     [q], [force] = linear.system.q, linear.forces_at_rest
-    bent = force.atoms(sympy.Abs, sympy.sign)
-    if any(is_zero(at(node.args[0], linear.point.values)) is not False for node in bent):
+    if bent_there(linear):
         return []
     found = []
-    for _ in range(2, _HIGHEST + 1):
+    for _ in range(2, HIGHEST + 1):
         force = force.diff(q)
         found.append(simplify(-at(force, linear.point.values)))
     return found
+
+
+def bent_there(linear: Linearization) -> bool:
+    """Whether a modulus or a sign in the forces may change there: V has not all derivatives."""
+    bent = {n for f in linear.forces_at_rest for n in f.atoms(sympy.Abs, sympy.sign)}
+    return any(is_zero(at(n.args[0], linear.point.values)) is not False for n in bent)
 
 
 def order_of_minimum(derivatives: Sequence[Expr], positive: Sequence[Expr]) -> int | None:

@@ -26,6 +26,7 @@ from lagcli.mechanics.stability.higher import (
     potential_derivatives,
 )
 from lagcli.mechanics.stability.inequalities import contradictory
+from lagcli.mechanics.stability.lowest_form import by_lowest_form
 from lagcli.mechanics.stability.lyapunov import FALLING
 from lagcli.mechanics.stability.near import Hypotheses, Near
 from lagcli.mechanics.stability.roots import ALL_ROOTS, NEUTRAL, by_roots
@@ -95,7 +96,9 @@ def by_separate_curvatures(near: Near) -> Stability | None:
 
 
 def by_higher_order(near: Near) -> Stability | None:
-    """Of one coordinate whose V has no second derivative there; None: not known."""
+    """Where V has no second derivative; None: not known."""
+    if len(near.linear.system.q) > 1:
+        return by_lowest_form(near)
     derivatives = potential_derivatives(near.linear)
     found = by_derivatives(derivatives, near.hypotheses, near.positive) if derivatives else None
     if found is not None and found.stable and near.complete:
@@ -129,7 +132,7 @@ def _minimum(near: Near, neutral: int) -> Stability:
     if neutral == len(near.restoring.M):
         return by_higher_order(near) or undecided(_FLAT if near.linear.gyroscopic else NO_FORCE)
     if neutral > near.dimension_released:
-        return undecided(NEUTRAL)
+        return by_lowest_form(near) or undecided(NEUTRAL)
     if near.linear.damped and (found := by_roots(near)).stable:
         return found
     if not near.is_even:

@@ -1,0 +1,146 @@
+"""Where V has no definite second derivatives: its terms of lowest degree decide.
+
+About the equilibrium V is a polynomial in the displacements u and terms of higher degree.  With
+weights 1/d_i, u_i^(d_i) the first pure power of u_i, the terms of weight 1 decide on a strict
+minimum where no term weighs less: those that weigh more are small beside them.
+
+Where V takes negative values as near as one likes, it is unstable
+
+- with complete dissipation: of an analytic V all equilibria near it have its value 0, and motions
+  with less energy cannot end at one, nor stay (LaSalle's invariance);
+- without dissipation and gyroscopic terms where the form of lowest degree takes negative values
+  (Kozlov: a motion leaves it).
+
+References
+----------
+Kozlov, J. Appl. Math. Mech. 50 (1986) 719; Bolotin, Kozlov, Izv. Math. 81 (2017) 669.
+Merkin, *Introduction to the Theory of Stability*, section 3.3.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import sympy
+from sympy import Expr, Poly, S, Symbol
+
+from lagcli.algebra import dot, simplify
+from lagcli.algebra.build import free_of
+from lagcli.algebra.place import at
+from lagcli.algebra.positivity import sign_of
+from lagcli.mechanics.stability.higher import HIGHEST, bent_there
+from lagcli.mechanics.stability.near import Near
+from lagcli.mechanics.stability.verdict import Stability, unstable
+from lagcli.mechanics.theorems import KELVIN_TAIT_CHETAEV, KOZLOV, LAGRANGE_DIRICHLET
+
+_Terms = dict[tuple[int, ...], Expr]
+_LOWER = "{V} takes lower values as near to it as one likes"
+_MINIMUM = "{V} has a strict minimum there by its terms of lowest degree"
+
+
+def by_lowest_form(near: Near) -> Stability | None:
+    """Of several coordinates without constraints; None: not known."""
+    terms = {} if near.hypotheses.lacking else _terms(near)
+    if not terms or (near.linear.damped and not near.complete):
+        return None
+    first = _first_powers(terms, len(near.linear.system.q))
+    if first is None or min(_weight(e, first) for e in terms) < 1:
+        degree = min(map(sum, terms))
+        form = {e: c for e, c in terms.items() if sum(e) == degree}
+        return _without_minimum(near, _negative_somewhere(near, form), kozlov=degree > 2)
+    form = {e: c for e, c in terms.items() if _weight(e, first) == 1}
+    of_one_degree = len({*first} - {2}) == 1
+    if _negative_somewhere(near, form):
+        return _without_minimum(near, True, kozlov=of_one_degree)
+    if (found := _definite(form, first)) is None:
+        return None
+    signs = near.signs(found)
+    if not {-1, 0}.isdisjoint(signs):
+        return _without_minimum(near, 0 not in signs, kozlov=of_one_degree)
+    by = KELVIN_TAIT_CHETAEV if near.complete else LAGRANGE_DIRICHLET
+    left = tuple(c for c, known in zip(found, signs, strict=True) if known is None)
+    damped = ", and all motions are damped" * near.complete
+    return Stability(
+        stable=None if left else True,
+        reason="" if left else f"{_MINIMUM} ({by.name}){damped}",
+        by=by,
+        asymptotic=near.complete,
+        minimum=left,
+        reverses=near.complete or (of_one_degree and not near.linear.gyroscopic),
+    )
+
+
+def _without_minimum(near: Near, negative: bool, *, kozlov: bool) -> Stability | None:
+    """Unstable where V takes negative values, by LaSalle or (`kozlov`: of that form) by Kozlov."""
+    if not negative or not (near.complete or (kozlov and not near.linear.gyroscopic)):
+        return None
+    return unstable(_LOWER + ("" if near.complete else f" ({KOZLOV.name})"))
+
+
+def _negative_somewhere(near: Near, form: _Terms) -> bool:
+    """Whether a coefficient says so: of an odd form any, of any other one of a pure power."""
+    odd = all(sum(e) % 2 for e in form)
+    decisive = {1, -1} if odd else {-1}
+    chosen = [c for e, c in form.items() if odd or sum(1 for k in e if k) == 1]
+    odd_powers = [c for e, c in form.items() if sum(1 for k in e if k) == 1 and sum(e) % 2]
+    return not decisive.isdisjoint(near.signs(chosen)) or not {1, -1}.isdisjoint(
+        near.signs(odd_powers)
+    )
+
+
+def _terms(near: Near) -> _Terms:
+    """V about the equilibrium to the degree `HIGHEST`, by exponents of the displacements."""
+    linear = near.linear
+    q, forces, values = linear.system.q, linear.forces_at_rest, linear.point.values
+    if len(q) < 2 or linear.point.free or linear.dynamics.constraints.equations:
+        return {}
+    if bent_there(linear):
+        return {}
+    s, u = Symbol("#s", real=True), [Symbol(f"#u{k}", real=True) for k in range(len(q))]
+    along = {x: x + s * du for x, du in zip(q, u, strict=True)}
+    power = dot(u, [force.xreplace(along) for force in forces])
+    found: _Terms = {}
+    for degree in range(2, HIGHEST + 1):
+        power = power.diff(s)
+        there = at(power.xreplace({s: S.Zero}), values)
+        if not free_of(there, q) or there.has(sympy.nan, sympy.zoo, sympy.oo):
+            return {}
+        for exponents, c in Poly(-there / sympy.factorial(degree), *u).terms():
+            if (known := simplify(c)) != 0:
+                found[exponents] = known
+    return found
+
+
+def _first_powers(terms: _Terms, n: int) -> list[int] | None:
+    pure = [[sum(e) for e in terms if e[i] == sum(e)] for i in range(n)]
+    return [min(powers) for powers in pure] if all(pure) else None
+
+
+def _weight(exponents: Sequence[int], first: Sequence[int]) -> Expr:
+    return sympy.Add(*(sympy.Rational(e, d) for e, d in zip(exponents, first, strict=True)))
+
+
+def _definite(lowest: _Terms, first: Sequence[int]) -> list[Expr] | None:
+    """What is positive just where these terms are, beside u = 0; None: not known.
+
+    Of squares of the u_i^(d_i/2) it is enough that no coefficient is negative; a form
+    a x² + b x y + c y² of two of them, x and y of one sign where both are even powers.
+    """
+    pure = [c for e, c in lowest.items() if sum(1 for k in e if k) == 1]
+    mixed = {e: c for e, c in lowest.items() if sum(1 for k in e if k) > 1}
+    if all(k % 2 == 0 for e in mixed for k in e) and all(
+        sign_of(c, ()) == 1 for c in mixed.values()
+    ):
+        return pure
+    half = tuple(d // 2 for d in first)
+    if set(mixed) != {half} or any(d % 2 for d in first):
+        return None
+    a, b = (lowest[tuple(d if i == j else 0 for j, d in enumerate(first))] for i in range(2))
+    product = sympy.sqrt(a * b)
+    bound = simplify(2 * product)
+    one = [simplify(bound + mixed[half])]
+    return [
+        *pure,
+        *one,
+        *([] if all(k % 2 == 0 for k in half) else [simplify(bound - mixed[half])]),
+    ]
