@@ -100,7 +100,12 @@ class LatexDisplay:
         columns = [max(box.width for box in column) for column in zip(*boxes, strict=True)]
         total = width_of(head) + RELATION + sum(columns) + QUAD * len(columns) + 2 * QUAD
         if boxes and len(columns) <= _COLUMNS and total <= TEXT_WIDTH:
-            rows = r" \\ ".join(" & ".join(box.text for box in row) for row in boxes)
+            texts = [[box.text for box in row] for row in boxes]
+            between = r" \\ "
+            if any(r"\frac" in text for row in texts for text in row):
+                texts = [[rf"\displaystyle {text}" for text in row] for row in texts]
+                between = r" \\[1.5ex] "
+            rows = between.join(map(" & ".join, texts))
             line = rf"{joined(head)} &= \begin{{pmatrix}} {rows} \end{{pmatrix}}"
             yield [Set(matrix.label, [line])]
             return

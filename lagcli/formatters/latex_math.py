@@ -8,9 +8,11 @@ that can be broken: \frac{3 r}{D} ( ... ), ( ... )^{1/2}.
 
 from __future__ import annotations
 
+from fractions import Fraction
 from itertools import accumulate
 
 from lagcli.expression import (
+    ONE,
     Call,
     Diff,
     Expression,
@@ -24,6 +26,9 @@ from lagcli.expression import (
     Quotient,
     Rate,
     Sum,
+    factors_of,
+    quotient_of,
+    walk,
 )
 from lagcli.formatters.functions import FIXED, ON_PAPER, TRIGONOMETRIC
 from lagcli.formatters.latex_names import LatexNames
@@ -242,7 +247,9 @@ class LatexPrinter(FractionPrinter[Box]):
 
     def call(self, node: Call) -> Box:
         if node.function == "sqrt":
-            return self._root(self.show(node.arguments[0]))
+            content = self.show(node.arguments[0])
+            parted = _parted_root(node.arguments[0]) if content.width > WIDEST else None
+            return self._root(content) if parted is None else self.show(parted)
         if node.function == "abs":
             content = self.show(node.arguments[0])
             return Box(_enclosed(content, r"\lvert ", r" \rvert "), height=content.height)
@@ -326,6 +333,22 @@ class LatexPrinter(FractionPrinter[Box]):
         return self.bracketed(Box(tuple(pieces), height=height))
 
 
+def _parted_root(node: Expression) -> Product | None:
+    """sqrt(m/2) (E - V)^(-1/2) for sqrt(m/(2 (E - V))), which is too wide; None of others."""
+    if not isinstance(node, Quotient) or any(
+        isinstance(p, (Sum, Negative)) for p in walk(node.numerator)
+    ):
+        return None
+    factors = factors_of(node.denominator)
+    wide = [factor for factor in factors if isinstance(factor, Sum)]
+    if len(wide) != 1:
+        return None
+    rest = [factor for factor in factors if factor is not wide[0]]
+    half = Negative(Quotient(ONE, Number(Fraction(2))))
+    before = Call("sqrt", (quotient_of([node.numerator], rest),))
+    return Product((before, Power(wide[0], half)))
+
+
 def _enclosed(content: Box, left: str, right: str, after: str = "") -> Layout:
     size = min(content.height, len(_SIZES) - 1)
     width = _BRACKET_WIDTHS[size]
@@ -355,7 +378,8 @@ def _between(before: Box, after: Expression, shown: Box) -> TextPiece:
         return _breakable(r" \cdot ", BINARY, PRODUCT, r"\cdot ", BINARY)
     first = shown.pieces[0]
     neighbours = before.pieces[-1].text + first.text
-    if first.nesting or "text" in neighbours or "mathit" in neighbours:
+    rooted = before.pieces[-1].text.startswith(r"\sqrt") and not first.text.startswith(r"\sqrt")
+    if first.nesting or rooted or "text" in neighbours or "mathit" in neighbours:
         return _breakable(r" \, ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
     return _breakable(" ", 0.3, PRODUCT, r"\cdot ", BINARY)
 

@@ -9,6 +9,7 @@ around a part that binds less tightly than its place demands.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterator
 from copy import copy
 from enum import IntEnum
 from functools import cached_property
@@ -28,6 +29,8 @@ from lagcli.expression import (
     Quotient,
     Rate,
     Sum,
+    factors_of,
+    product_of,
     walk,
 )
 
@@ -194,6 +197,8 @@ class FractionPrinter(Printer[Shown]):
     def sloped(self, above: Shown, below: Shown) -> Shown: ...
 
     def quotient(self, node: Quotient) -> Shown:
+        if not self.small and (apart := _apart(node)):
+            return self.show(apart)
         if not self.is_sloped(node):
             return self.upright(node)
         return self.sloped(
@@ -216,6 +221,33 @@ class FractionPrinter(Printer[Shown]):
         if factor and isinstance(node, Quotient) and self.is_sloped(node):
             return self.upright(node)
         return self.show(node)
+
+
+def _apart(node: Quotient) -> Product | None:
+    """A sum or a root with a tall fraction behind the fraction: 1/(2 m) (p² + (q - a)²/r² + s)."""
+    factors = factors_of(node.numerator)
+    tall = [factor for factor in factors if any(map(_is_tall, _parts(factor)))]
+    if len(tall) != 1:
+        return None
+    rest = [factor for factor in factors if factor is not tall[0]]
+    return Product((Quotient(product_of(rest), node.denominator), *tall))
+
+
+def _parts(node: Expression) -> Iterator[Expression]:
+    """The terms of a sum, what stands under a root or under one in a term."""
+    match node:
+        case Sum(terms=terms):
+            for term in terms:
+                whole = term.operand if isinstance(term, Negative) else term
+                yield whole
+                for factor in factors_of(whole):
+                    yield from () if isinstance(factor, Sum) else _parts(factor)
+        case Call(function="sqrt", arguments=arguments):
+            yield from arguments
+
+
+def _is_tall(node: Expression) -> bool:
+    return isinstance(node, Quotient) and not _is_short(node)
 
 
 def _is_short(node: Expression) -> bool:

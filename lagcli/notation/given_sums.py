@@ -101,8 +101,8 @@ class GivenSums:
                 if not all(letter in letters for letter, _ in scale):
                     continue
                 whole = self._times(ratio, {letters[x]: e for x, e in scale}, given)
-                before = sum(operation_count(terms[k]) for k in used) + len(used) - 1
-                if operation_count(whole) < before + _worth(given):
+                before = sum(_cost(terms[k]) for k in used) + len(used) - 1
+                if _cost(whole) < before + _worth(given):
                     rest = [k for k in range(len(terms)) if k not in used[1:]]
                     terms[used[0]] = whole
                     polys[used[0]] = {}
@@ -157,6 +157,11 @@ class GivenSums:
                 if value == {joined(t, scale): ratio * c for t, c in other.items()}:
                     return ratio, scale, given
         return None
+
+
+def _cost(term: Expression) -> int:
+    """The operations of a term, without signs: these belong to the sums."""
+    return operation_count(term) - sum(isinstance(part, Negative) for part in walk(term))
 
 
 def _is_rate(node: Expression) -> bool:

@@ -104,6 +104,16 @@ def test_formulas_look_as_in_a_book(node, text):
         ("M/(1 + (x/g)^2)", r"\frac{M}{1 + (x/g)^{2}}"),
         ("log(x/(M*g))", r"\ln\bigl(x/(M g)\bigr)"),
         ("sin(x)/2 + 1", r"\frac{\sin x}{2} + 1"),
+        # a tall fraction within a numerator stands beside the fraction
+        (
+            "(x^2 + (y - M*g*x^2/(2*R))^2/x^2)/(2*M)",
+            r"\frac{1}{2 M} \, \biggl(x^{2} + \frac{\bigl(y - M g x^{2}/(2 R)\bigr)^{2}}{x^{2}}\biggr)",
+        ),
+        (
+            "M*sqrt((g^2*M^2*x + 4*R*y^2)/(x*y*R))/R",
+            r"\frac{M}{R} \sqrt{\frac{g^{2} M^{2} x + 4 R y^{2}}{x y R}}",
+        ),
+        ("sqrt(x)*g", r"\sqrt{x} \, g"),
         ("cos(sin(x)/2)", r"\cos(\sin(x)/2)"),
         ("M*exp(-x/2)", r"M \mathrm{e}^{-x/2}"),
         ("exp(x)^2", r"(\mathrm{e}^{x})^{2}"),
