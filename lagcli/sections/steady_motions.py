@@ -51,7 +51,7 @@ if TYPE_CHECKING:
 
 def derive(statements: Statements) -> SteadySection:
     """The motions of constant cyclic velocities, with their stability."""
-    from lagcli.mechanics.reduction.steady_statement import steady_motions
+    from lagcli.mechanics.steady.statement import steady_motions
 
     return statements.noted(steady_motions(statements.derivation))
 

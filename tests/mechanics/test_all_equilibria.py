@@ -13,7 +13,7 @@ from sympy import Rational, pi, symbols
 
 from lagcli.algebra.systems import solve_system
 from lagcli.formatters.grammar import to_grammar
-from lagcli.mechanics.oscillations.equilibria import RestPoints
+from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.statements.answers import EquilibriaSection
 
 from .derived import derive

@@ -8,7 +8,7 @@ import pytest
 
 from lagcli.evaluation import evaluated
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
-from lagcli.mechanics.reduction.steady_statement import steady_motions
+from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.pipeline import explain
 
 from .derived import derive

@@ -15,7 +15,7 @@ from lagcli.evaluation import FUNCTIONS, evaluated
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
-from lagcli.mechanics.reduction.steady_statement import steady_motions
+from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.reader import read_problem
 
 _PLANE = """

@@ -9,7 +9,7 @@ from sympy import Symbol
 
 from lagcli.algebra.build import Builder, symbol
 from lagcli.formatters.grammar import to_grammar
-from lagcli.mechanics.reduction.steady_statement import steady_motions
+from lagcli.mechanics.steady.statement import steady_motions
 
 from .derived import derive
 

@@ -11,9 +11,9 @@ import sympy
 from lagcli.algebra.signs import sign
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.conditions import conditions
-from lagcli.mechanics.oscillations.equilibria import _finite_where
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.mechanics.reduction.statement import reduction
+from lagcli.mechanics.rest.equilibria import _finite_where
 from lagcli.pipeline import Request, explain, state
 
 from .derived import derive

@@ -8,7 +8,7 @@ from sympy import Matrix, Symbol, symbols
 
 from lagcli.algebra.signs import sign
 from lagcli.formatters.grammar import to_grammar
-from lagcli.mechanics.reduction.steady_statement import steady_motions
+from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.statements.motions import SteadyMotion
 
 from .derived import derive

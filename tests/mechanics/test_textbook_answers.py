@@ -11,7 +11,7 @@ import sympy
 
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.conditions import conditions
-from lagcli.mechanics.oscillations.equilibria import RestPoints
+from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.pipeline import Request, state
 
 from .derived import derive

@@ -11,12 +11,12 @@ from lagcli.algebra import is_zero
 from lagcli.algebra.signs import sign
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.conditions import conditions
-from lagcli.mechanics.oscillations.equilibria import RestPoints
-from lagcli.mechanics.oscillations.exceptions import without_unknowns
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.reduction.routh import Routh
-from lagcli.mechanics.reduction.steady_statement import steady_motions
+from lagcli.mechanics.rest.equilibria import RestPoints
+from lagcli.mechanics.rest.exceptions import without_unknowns
 from lagcli.mechanics.stability.inequalities import one_is_negative
+from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.pipeline import explain
 from lagcli.statements.wording import enumerated
 

@@ -8,7 +8,7 @@ import pytest
 
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
-from lagcli.mechanics.reduction.steady_statement import steady_motions
+from lagcli.mechanics.steady.statement import steady_motions
 
 from .derived import derive
 from .formulas import normal

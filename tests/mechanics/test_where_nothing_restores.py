@@ -9,7 +9,7 @@ import sympy
 
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
-from lagcli.mechanics.reduction.steady_statement import steady_motions
+from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.pipeline import explain
 
 from .derived import derive

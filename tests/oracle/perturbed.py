@@ -20,7 +20,7 @@ from lagcli.expression import Expression, Name, Negative, Number, Power, Sum
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.parameter_values import parameter_values, random_value
-from lagcli.mechanics.reduction.steady_statement import steady_motions
+from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked

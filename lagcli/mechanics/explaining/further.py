@@ -24,7 +24,7 @@ from lagcli.statements.wording import conditions as inequalities
 from lagcli.statements.wording import place_rows, unless
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.oscillations.equilibria import RestPoints
+    from lagcli.mechanics.rest.equilibria import RestPoints
 
 _ABSENT = "This was not found: see the warnings."
 
@@ -49,7 +49,7 @@ def further(teller: Teller, also: Sequence[str]) -> tuple[list[ExplanationStep],
 
 def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
     """The conditions of rest, then each equilibrium with its stability."""
-    from lagcli.mechanics.oscillations.equilibria import RestPoints
+    from lagcli.mechanics.rest.equilibria import RestPoints
 
     states = cast(EquilibriaSection, section)
     found = states.equilibria

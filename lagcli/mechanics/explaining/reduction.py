@@ -11,7 +11,7 @@ from lagcli.expression import Expression, Name, Number, Power, Product, walk
 from lagcli.mechanics.averaged import averaged
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
-from lagcli.mechanics.reduction.minimal import minimal
+from lagcli.mechanics.minimal import minimal
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import ReductionSection, Section
 from lagcli.statements.motions import OneFreedom, PeriodSeries

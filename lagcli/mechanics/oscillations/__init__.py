@@ -1,1 +1,1 @@
-"""States of rest, their stability, and the small oscillations about them."""
+"""Small oscillations about states of rest: frequencies, modes and verdicts."""

@@ -10,7 +10,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import written
 from lagcli.expression import Expression
-from lagcli.mechanics.oscillations.rest_conditions import RestPoint
+from lagcli.mechanics.rest.rest_conditions import RestPoint
 
 
 def shown(point: RestPoint) -> Mapping[Symbol, Expr]:

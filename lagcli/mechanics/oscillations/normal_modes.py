@@ -14,9 +14,9 @@ from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.positivity import weak_sign, without_moduli
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.linearization import Linearization
 from lagcli.mechanics.parameter_values import admissible_values
+from lagcli.mechanics.rest.characteristic import Characteristic
+from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.record import record
 
 _DIGITS = 60

@@ -14,12 +14,12 @@ from sympy import S
 from lagcli.algebra.place import at
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.equilibria import RestPoints
-from lagcli.mechanics.oscillations.linearization import Linearization
-from lagcli.mechanics.oscillations.rest_conditions import RestPoint
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady import SteadyMotions
 from lagcli.mechanics.reduction.steady_motion import Steady
+from lagcli.mechanics.rest.equilibria import RestPoints
+from lagcli.mechanics.rest.linearization import Linearization
+from lagcli.mechanics.rest.rest_conditions import RestPoint
 from lagcli.mechanics.stability.judge import judge
 from lagcli.mechanics.stability.lagrange_dirichlet import by_routh
 from lagcli.mechanics.stability.verdict import Stability

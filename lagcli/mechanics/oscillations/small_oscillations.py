@@ -24,16 +24,16 @@ from lagcli.algebra.simplification import fraction
 from lagcli.expression import Expression, Power, Quotient, length, walk
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import REACHED, TIMED, RestPoints
-from lagcli.mechanics.oscillations.exceptions import unless_written
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
-from lagcli.mechanics.oscillations.held import HeldCombination, held
-from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
 from lagcli.mechanics.oscillations.reduced_verdict import ReducedVerdict
-from lagcli.mechanics.oscillations.rest_conditions import RestPoint
-from lagcli.mechanics.oscillations.singular import OnMeridians, is_singular, singular
+from lagcli.mechanics.rest.characteristic import Characteristic
+from lagcli.mechanics.rest.equilibria import REACHED, TIMED, RestPoints
+from lagcli.mechanics.rest.exceptions import unless_written
+from lagcli.mechanics.rest.held import HeldCombination, held
+from lagcli.mechanics.rest.linearization import Linearization, Matrix
+from lagcli.mechanics.rest.rest_conditions import RestPoint
+from lagcli.mechanics.rest.singular import OnMeridians, is_singular, singular
 from lagcli.mechanics.stability.judge import (
     DRIFTS,
     EXCLUDED,

@@ -28,10 +28,10 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.oscillations.equilibria import RestPoints
-from lagcli.mechanics.oscillations.rest_conditions import RestPoint
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom
+from lagcli.mechanics.rest.equilibria import RestPoints
+from lagcli.mechanics.rest.rest_conditions import RestPoint
 from lagcli.record import record, replace
 
 #: T/T0 is given to this order in the amplitude.

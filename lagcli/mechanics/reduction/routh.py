@@ -30,7 +30,7 @@ from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.legendre import Inverse, LegendreTransform
-from lagcli.mechanics.reduction.minimal import minimal, with_lagrangian
+from lagcli.mechanics.minimal import minimal, with_lagrangian
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Constraint, Parameter
 

@@ -30,9 +30,9 @@ from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.factors import factors_of
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.minimal import minimal
 from lagcli.mechanics.reduction.driven import Driven, driven
 from lagcli.mechanics.reduction.known_signs import KnownSigns
-from lagcli.mechanics.reduction.minimal import minimal
 from lagcli.notation.given_formulas import names_of
 from lagcli.notation.naming import free
 from lagcli.record import record

@@ -19,21 +19,21 @@ from sympy import Expr, S
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.place import at
-from lagcli.mechanics.oscillations.equilibria import (
-    NO_VALUE_AT_REST,
-    REACHED,
-    TIMED,
-    RestPoints,
-)
-from lagcli.mechanics.oscillations.exceptions import without_unknowns
-from lagcli.mechanics.oscillations.held import held
-from lagcli.mechanics.oscillations.rest_conditions import RestPoint
-from lagcli.mechanics.oscillations.singular import singular
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_contacts import SteadyContacts
 from lagcli.mechanics.reduction.steady_families import SteadyFamilies
 from lagcli.mechanics.reduction.steady_motion import Steady
+from lagcli.mechanics.rest.equilibria import (
+    NO_VALUE_AT_REST,
+    REACHED,
+    TIMED,
+    RestPoints,
+)
+from lagcli.mechanics.rest.exceptions import without_unknowns
+from lagcli.mechanics.rest.held import held
+from lagcli.mechanics.rest.rest_conditions import RestPoint
+from lagcli.mechanics.rest.singular import singular
 
 _UNSOLVED = "no closed solution of the conditions of a steady motion was found"
 _ONLY_AT_REST = "under velocity constraints only states of rest were sought, and there is none"

@@ -17,9 +17,9 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.oscillations.held import one_sided
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_motion import Steady
+from lagcli.mechanics.rest.held import one_sided
 from lagcli.record import replace
 
 

@@ -8,7 +8,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.place import at
-from lagcli.mechanics.oscillations.family import Family
+from lagcli.mechanics.rest.family import Family
 from lagcli.record import record
 
 

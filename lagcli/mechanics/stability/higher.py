@@ -22,7 +22,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of
-from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.rest.linearization import Linearization
 
 #: Of the potential; no textbook's equilibrium needs a higher one.
 HIGHEST = 6

@@ -16,9 +16,9 @@ from __future__ import annotations
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of
 from lagcli.mechanics.averaged import averaged
-from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.linearization import Linearization
-from lagcli.mechanics.oscillations.singular import OnMeridians, singular
+from lagcli.mechanics.rest.characteristic import Characteristic
+from lagcli.mechanics.rest.linearization import Linearization
+from lagcli.mechanics.rest.singular import OnMeridians, singular
 from lagcli.mechanics.stability.corners import by_both_sides
 from lagcli.mechanics.stability.lagrange_dirichlet import (
     NO_FORCE,

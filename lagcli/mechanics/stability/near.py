@@ -13,8 +13,8 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant, determinant_in
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import is_positive, sign_of, weak_sign
-from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.rest.characteristic import Characteristic
+from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.mechanics.stability.evenness import even
 from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
 from lagcli.mechanics.stability.spectrum import real_and_distinct

@@ -20,7 +20,7 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import simplify
 from lagcli.algebra.determinants import determinant, determinant_in
-from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
+from lagcli.mechanics.rest.linearization import Linearization, Matrix
 
 _MOST = 4  # coordinates that are coupled
 _MOST_OPERATIONS = 400

@@ -10,8 +10,8 @@ from lagcli.algebra import is_zero
 from lagcli.algebra.determinants import determinant
 from lagcli.algebra.equations import written
 from lagcli.mechanics.conditions import above, conditions, opposites
-from lagcli.mechanics.oscillations.equilibria import RestPoints
-from lagcli.mechanics.oscillations.linearization import Linearization
+from lagcli.mechanics.rest.equilibria import RestPoints
+from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.mechanics.stability.lagrange_dirichlet import always
 from lagcli.mechanics.stability.verdict import Stability
 from lagcli.mechanics.system import System

@@ -11,11 +11,11 @@ from lagcli.algebra.equations import written
 from lagcli.expression import Expression
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.oscillations.equilibria import RestPoints
-from lagcli.mechanics.oscillations.exceptions import unless_written
-from lagcli.mechanics.oscillations.held import held
-from lagcli.mechanics.reduction.rolling import RollingMotion, RollingMotions
+from lagcli.mechanics.rest.equilibria import RestPoints
+from lagcli.mechanics.rest.exceptions import unless_written
+from lagcli.mechanics.rest.held import held
 from lagcli.mechanics.stability.statement import stated
+from lagcli.mechanics.steady.rolling import RollingMotion, RollingMotions
 from lagcli.statements.motions import SteadyMotion, SteadySection
 
 

@@ -17,26 +17,26 @@ from lagcli.algebra.positivity import is_positive, without_moduli
 from lagcli.expression import Expression
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.oscillations.characteristic import Characteristic
-from lagcli.mechanics.oscillations.equilibria import RestPoints
-from lagcli.mechanics.oscillations.exceptions import unless_written
-from lagcli.mechanics.oscillations.family import Family
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
-from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
 from lagcli.mechanics.oscillations.normal_modes import beats, choices, shorter
 from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
-from lagcli.mechanics.reduction.rolling import RollingMotions
-from lagcli.mechanics.reduction.rolling_statement import applies, rolling_section
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.statement import Missing
 from lagcli.mechanics.reduction.steady import SteadyMotions
 from lagcli.mechanics.reduction.steady_motion import Steady
+from lagcli.mechanics.rest.characteristic import Characteristic
+from lagcli.mechanics.rest.equilibria import RestPoints
+from lagcli.mechanics.rest.exceptions import unless_written
+from lagcli.mechanics.rest.family import Family
+from lagcli.mechanics.rest.linearization import Linearization, Matrix
 from lagcli.mechanics.stability.judge import GRAZES, judge
 from lagcli.mechanics.stability.lagrange_dirichlet import by_derivatives, by_routh
 from lagcli.mechanics.stability.near import Hypotheses
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.mechanics.stability.verdict import Stability, undecided
+from lagcli.mechanics.steady.rolling import RollingMotions
+from lagcli.mechanics.steady.rolling_statement import applies, rolling_section
 from lagcli.record import replace
 from lagcli.statements.motions import Above, SteadyMotion, SteadySection, Verdict
 

@@ -19,10 +19,10 @@ from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, SystemSolution, divisors, solve_system
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.family import Family, exists_where, family
-from lagcli.mechanics.oscillations.kinks import at_cusps, at_kinks
-from lagcli.mechanics.oscillations.rest_conditions import RestConditions, RestPoint
-from lagcli.mechanics.oscillations.singular import is_pressed_to_an_edge, survives
+from lagcli.mechanics.rest.family import Family, exists_where, family
+from lagcli.mechanics.rest.kinks import at_cusps, at_kinks
+from lagcli.mechanics.rest.rest_conditions import RestConditions, RestPoint
+from lagcli.mechanics.rest.singular import is_pressed_to_an_edge, survives
 from lagcli.statements.wording import FINITE_MASS, INDEPENDENT, NOT_ZERO
 
 _MAX_EVIDENT = 64

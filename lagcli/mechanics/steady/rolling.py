@@ -30,12 +30,12 @@ from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.oscillations.equilibria import RestPoints
-from lagcli.mechanics.oscillations.exceptions import without_unknowns
-from lagcli.mechanics.oscillations.linearization import Linearization
-from lagcli.mechanics.oscillations.rest_conditions import RestPoint
+from lagcli.mechanics.minimal import integrated, minimal
 from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
-from lagcli.mechanics.reduction.minimal import integrated, minimal
+from lagcli.mechanics.rest.equilibria import RestPoints
+from lagcli.mechanics.rest.exceptions import without_unknowns
+from lagcli.mechanics.rest.linearization import Linearization
+from lagcli.mechanics.rest.rest_conditions import RestPoint
 from lagcli.mechanics.stability.judge import ACCELERATES, judge
 from lagcli.mechanics.stability.roots import by_polynomial
 from lagcli.mechanics.stability.uniform import displaced_it_accelerates

@@ -25,9 +25,9 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.linearization import Linearization, Matrix
-from lagcli.mechanics.oscillations.rest_conditions import RestConditions, RestPoint
 from lagcli.mechanics.parameter_values import admissible_values
+from lagcli.mechanics.rest.linearization import Linearization, Matrix
+from lagcli.mechanics.rest.rest_conditions import RestConditions, RestPoint
 
 _DIGITS = 60
 _NEAR, _NEARER = mpf(10) ** -3, mpf(10) ** -9

@@ -34,10 +34,10 @@ from lagcli.diagnostics import ProblemError
 from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.equilibria import RestPoints
-from lagcli.mechanics.oscillations.linearization import Linearization
-from lagcli.mechanics.oscillations.rest_conditions import RestPoint
-from lagcli.mechanics.reduction.minimal import with_lagrangian
+from lagcli.mechanics.minimal import with_lagrangian
+from lagcli.mechanics.rest.equilibria import RestPoints
+from lagcli.mechanics.rest.linearization import Linearization
+from lagcli.mechanics.rest.rest_conditions import RestPoint
 from lagcli.problem_data import Constraint, pushing_sign
 from lagcli.record import record, replace
 

@@ -25,7 +25,7 @@ from lagcli.algebra import dot, is_zero, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
 from lagcli.algebra.place import at, where_positive
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.rest_conditions import RestConditions, RestPoint
+from lagcli.mechanics.rest.rest_conditions import RestConditions, RestPoint
 from lagcli.mechanics.verify import conjunction
 
 Matrix = list[list[Expr]]

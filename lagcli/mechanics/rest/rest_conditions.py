@@ -29,12 +29,12 @@ from lagcli.algebra.place import at, nearly_vanishes, vanishes, where_positive
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.exceptions import without_unknowns
+from lagcli.mechanics.rest.exceptions import without_unknowns
 from lagcli.mechanics.translations import constant_nullspace
 from lagcli.record import record
 
 if TYPE_CHECKING:
-    from lagcli.mechanics.oscillations.family import Family
+    from lagcli.mechanics.rest.family import Family
 
 _LONGEST = 60  # operations of conditions that are quoted
 
@@ -105,7 +105,7 @@ class RestConditions:
     @cached_property
     def energy_never_grows(self) -> bool:
         """Whether no force, dissipation or constraint feeds the energy function."""
-        from lagcli.mechanics.stability.energy import never_grows
+        from lagcli.mechanics.rest.energy import never_grows
 
         return self.growth == 1 and never_grows(self.dynamics)
 

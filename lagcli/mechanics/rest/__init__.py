@@ -1,0 +1,1 @@
+"""Where a system can rest, and its linear motion beside a state of rest."""
