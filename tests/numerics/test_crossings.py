@@ -266,3 +266,18 @@ def test_a_pole_is_not_passed_however_weak(force, strength):
     result = simulated(given_to(f'forces: {{x: "{force.format(a=strength)}"}}', "1"), 8.0, 1e-6)
     assert not result.certificate.reached
     assert result.certificate.holds_until < 3
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_cusp_is_passed_in_any_precision(seed):
+    """V = |x|^p from x = 1: four times the quarter B(1/p, 1/2)/(p sqrt(2)) is a period."""
+    rng = random.Random(seed)
+    below = rng.choice((3, 4, 5, 7))
+    above = rng.randint(below + 1, 2 * below - 1)
+    a, p = mpmath.mpf(below) / above, f"{above}/{below}"
+    period = float(4 * a * mpmath.beta(a, 0.5) / mpmath.sqrt(2))
+    result = simulated(
+        f"{{coordinates: [x], L: x'^2/2 - abs(x)^({p}), initial: {{x: 1}}}}", period, 1e-14
+    )
+    assert result.certificate.reached
+    assert result.rows[-1][1:] == pytest.approx((1, 0), abs=1e-14)

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from ctypes import addressof, c_double, c_int64, memmove, sizeof
+from ctypes import addressof, c_double, c_int64, memmove, memset, sizeof
 from typing import Any
 
 from lagcli.numerics.compiled import layout as k
@@ -152,8 +152,8 @@ class CompiledTaylor:
             for i, sign in enumerate(motion.signs):
                 self._signs[i] = numbers.cell(sign)
             move = self._move
-            if self._expand(state) == k.MORE:
-                h = float(self._facts[k.H])
+            more, h = self._expand(state) == k.MORE, float(self._facts[k.H])
+            if more and t + h > t:  # a time is a double, whatever the state has
                 inside = self._inside(t)
             else:
                 h, move = self._across(t), self._leap
@@ -222,8 +222,7 @@ class CompiledTaylor:
 
     def _across(self, t: float) -> float:
         """How long a step over it is, where a root or an inverse function blocks the way; or 0."""
-        blocked, machine = self._counts[k.BLOCKED], self.machine
-        if not blocked or machine.numbers.type != "double":
+        if not self._counts[k.BLOCKED]:
             return 0.0
         unit = self._unit(t)
         self._leaps = [*(before for before in self._leaps if t - before < _NEARBY * unit), t]
@@ -232,8 +231,8 @@ class CompiledTaylor:
         return unit * float(_WIDER ** (len(self._leaps) - 1))
 
     def _unit(self, t: float) -> float:
-        """The shortest time over which such a place is passed."""
-        unit = 2 * self.machine.numbers.rounding * max(t, 1e-3 * float(self._facts[k.UNTIL]))
+        """The shortest time over which such a place is passed: times are doubles."""
+        unit = 2.0**-52 * max(t, 1e-3 * float(self._facts[k.UNTIL]))
         return unit * (_WIDE if self._facts[k.KICK] else _NARROW)
 
     def _straight(self, start: float, q: Any, v: Any) -> Any:
@@ -260,23 +259,24 @@ class CompiledTaylor:
         pairs = zip(rates, self._scales[self.n : both], strict=True)
         if any(abs(a) * self._unit(t) > _IMPULSE * scale for a, scale in pairs):
             raise CannotGoOn(t, q, v, "")
-        for i, x in enumerate((*places, *speeds)):
-            ahead[i], ahead[both + 1 + i] = x, 0.0
+        zeros = [0] * (both + 1)  # the time, and what rounding has taken
+        found = self._array([*map(exact, (*places, *speeds)), *zeros])
+        memmove(ahead, found, sizeof(found))
         return places, speeds
 
     def _goes_across(self, state: Any) -> bool:
         """Whether the state of a whole run could be carried over what blocks the way."""
-        n, both = self.n, 2 * self.n
-        t = float(state[both])
+        t = float(state[2 * self.n])
         h = self._across(t)
         if not h or t + h >= float(self._facts[k.UNTIL]):
             return False
         try:
-            places, speeds = self._leap(state, t + h, list(state[:n]), list(state[n:both]))
+            places, speeds = self._leap(state, t + h, *self._halves(state))
         except (ArithmeticError, ValueError):
             return False
-        for i, x in enumerate((*places, *speeds, t + h)):
-            state[i], self._lost[min(i, both - 1)] = x, 0.0
+        found = self._array([*map(exact, (*places, *speeds)), t + h])
+        memmove(state, found, sizeof(found))
+        memset(self._lost, 0, sizeof(self._lost))
         return True
 
     def _vanishes(self, state: Any) -> PivotVanishes:

@@ -138,7 +138,9 @@ class Kinks:
         motion, k, self.reached = self.motion, self.reached, None
         try:
             before = motion.accelerations(t, *q, *v)
-        except (ArithmeticError, ValueError):  # a root of what is |u| on this side
+        except (ArithmeticError, ValueError):
+            before = (math.nan,)
+        if any(math.isnan(float(a)) for a in before):  # a root of what is |u| on this side
             motion.signs[k] *= -1
             return list(v)
         u = motion.exact_kink_arguments(t, *q, *v)[k]
