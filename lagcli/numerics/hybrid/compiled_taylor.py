@@ -40,6 +40,8 @@ _NARROW, _WIDE, _WIDER, _AT_ONE_PLACE, _NEARBY = 16, 32, 8, 8, 1e9
 #: In the first of these times the velocity changes by less than this part of its scale: more is
 #: what a pole does.
 _IMPULSE = 1e-12
+#: What a change of the accelerations over it may add to a velocity in 80 and 128 bits.
+_UNFELT = 1e-17
 #: Constraints are held to _HELD roundings, and one that the others imply to _IMPLIED.
 _HELD, _IMPLIED = 3.6, 1e-12
 
@@ -255,10 +257,21 @@ class CompiledTaylor:
             Where it grows without bound.
         """
         both, ahead, t = 2 * self.n, self._ahead, float(state[2 * self.n])
-        places, speeds, rates = self._straight(t, q, v)(end)
+        inside, numbers = self._straight(t, q, v), self.machine.numbers
+        places, speeds, rates = inside(end)
         pairs = zip(rates, self._scales[self.n : both], strict=True)
         if any(abs(a) * self._unit(t) > _IMPULSE * scale for a, scale in pairs):
             raise CannotGoOn(t, q, v, "")
+        if numbers.rounding < 2.0**-53:  # more digits than a time has: a jump is not passed
+            later = map(float, self.machine.motion.accelerations(end, *places, *speeds))
+            jumps = (  # beyond |u| = 0 a root of u has no value
+                abs((0.0 if math.isnan(b) else b) - float(a))
+                for a, b in zip(rates, later, strict=True)
+            )
+            scales = map(float, self._scales[self.n : both])
+            least = _UNFELT / (end - t)
+            if not all(x <= least * scale for x, scale in zip(jumps, scales, strict=True)):
+                raise CannotGoOn(t, q, v, "")
         zeros = [0] * (both + 1)  # the time, and what rounding has taken
         found = self._array([*map(exact, (*places, *speeds)), *zeros])
         memmove(ahead, found, sizeof(found))
