@@ -16,10 +16,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 
-from sympy import Expr, I, Symbol
+from sympy import Expr, I, Symbol, im
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.equations import written
+from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import fraction
 from lagcli.expression import Expression, Power, Quotient, length, walk
 from lagcli.mechanics.conditions import conditions
@@ -44,7 +45,7 @@ from lagcli.mechanics.stability.judge import (
 )
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.mechanics.stability.verdict import Stability, undecided
-from lagcli.mechanics.theorems import LAGRANGE_DIRICHLET
+from lagcli.mechanics.theorems import KELVIN_TAIT_CHETAEV, LAGRANGE_DIRICHLET
 from lagcli.record import replace
 from lagcli.statements.answers import EquilibriaSection, Equilibrium, ModesOfFrequency, ModesSection
 
@@ -59,22 +60,22 @@ _NO_REAL_SQUARE = "no root ω² of the characteristic polynomial is real"
 
 def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     """The states of rest with their stability."""
-    oscillations = SmallOscillations(dynamics)
-    places = oscillations.places
+    oscillations, order = SmallOscillations(dynamics), dynamics.system.order
+    places, rest = oscillations.places, oscillations.rest
     if places is None:
-        return EquilibriaSection(equilibria=None, reason=oscillations.rest.reason)
-    timed = oscillations.rest.depends_on_time
+        return EquilibriaSection(equilibria=None, reason=rest.reason)
+    # with contacts closed there may be some at special values
+    unless = rest.unless if len(oscillations.held) == 1 else None
+    open_ = () if oscillations.complete else rest.conditions
     return EquilibriaSection(
         equilibria=tuple(map(oscillations.equilibrium, places)),
         complete=oscillations.complete,
-        reason=TIMED if timed else "",
-        at_all_times=timed,
-        edge=() if places else oscillations.rest.edge,
-        where=oscillations.rest.restricted_to,
-        open=()
-        if oscillations.complete
-        else tuple(written(e, dynamics.system.order) for e in oscillations.rest.conditions),
-        unless=() if places else unless_written(oscillations.rest.unless, dynamics.system.order),
+        reason=TIMED if rest.depends_on_time else "",
+        at_all_times=rest.depends_on_time,
+        edge=() if places else rest.edge,
+        where=rest.restricted_to,
+        open=tuple(written(e, order) for e in open_),
+        unless=() if places else unless_written(unless, order),
     )
 
 
@@ -112,15 +113,16 @@ def _why_none(places: Sequence[Place]) -> str:
         return _NO_LINEAR_PART
     squares = [each for place in places for each in place.characteristic.squares or ()]
     if squares and all(r is not None and all(W.has(I) for W in r) for r, *_ in squares):
-        return _NO_REAL_SQUARE
+        known = all(sign(im(W)) in (1, -1) for r, *_ in squares for W in r or ())
+        return "in general " * (not known) + _NO_REAL_SQUARE
     return _NO_MODES
 
 
 class Place:
     """One equilibrium with the motion near it."""
 
-    def __init__(self, held: HeldCombination, point: RestPoint) -> None:
-        self.held, self.point = held, point
+    def __init__(self, held: HeldCombination, point: RestPoint, apart: HeldCombination) -> None:
+        self.held, self.point, self._apart = held, point, apart  # `apart`: no contact is closed
         self.linear = Linearization(held.rest, point)
         self.characteristic = Characteristic(self.linear)
 
@@ -144,15 +146,23 @@ class Place:
         if self.point.depends_on_time(self.linear.system.t):
             return undecided(REACHED)
         if self.held.grazes(self.point):
-            return undecided("a force is at its limit there" if self.held.kinked else GRAZES)
-        if self.held.firmly and not self.linear.M:
-            held = self.held
+            at_limit = undecided("a force is at its limit there" if self.held.kinked else GRAZES)
+            return self._without_contacts or at_limit
+        if (held := self.held).firmly and not self.linear.M:
             reason = _STICKS if held.sticking else _KINK if held.kinked else _PRESSED
             return Stability(stable=True, reason=reason)
         if is_singular(self.linear):
             return judge_on_meridians(OnMeridians(self.linear))
         found = judge(self.linear, self.characteristic)
         return replace(found, asymptotic=False) if self.held.firmly else found
+
+    @property
+    def _without_contacts(self) -> Stability | None:
+        """At a strict minimum of V it is stable with walls, too, which feed no energy."""
+        found = Place(self._apart, self.point, self._apart).verdict
+        minimum = found.stable and found.by in (LAGRANGE_DIRICHLET, KELVIN_TAIT_CHETAEV)
+        held = self.held.sticking or self.held.kinked or not minimum
+        return None if held else replace(found, asymptotic=False)
 
     @property
     def at_singular_coordinates(self) -> bool:
@@ -203,7 +213,9 @@ class SmallOscillations:
         found = [(each, each.points()) for each in self.held]
         if all(points is None for _, points in found):
             return None
-        return [Place(each, point) for each, points in found for point in points or ()]
+        return [
+            Place(each, point, self.held[0]) for each, points in found for point in points or ()
+        ]
 
     @property
     def complete(self) -> bool:

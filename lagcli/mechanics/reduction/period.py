@@ -24,6 +24,7 @@ from mpmath import mpf
 from sympy import Expr, Rational, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import weak_sign
@@ -103,6 +104,9 @@ class Periods:
             if pressed is None:
                 self.reason = "the one-sided constraints do not hold at every minimum of U_eff"
             if point.free or pressed is None:
+                continue
+            if not free_of(sympy.Add(*pressed), [self.motion.system.t]):
+                self.reason = "a one-sided constraint moves"
                 continue
             point = replace(point, positive=(*point.positive, *pressed))
             try:

@@ -63,7 +63,9 @@ def _factors_without(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
     open_ = [e for e in open_ if e != 0]
     if open_:
         deciding = [_perhaps_zero(e, unknowns) for e in open_]
-        return tuple({sympy.Mul(*each): None for each in deciding}) if all(deciding) else ()
+        found = tuple({sympy.Mul(*each): None for each in deciding}) if all(deciding) else ()
+        # sin(a) and cos(a) do not vanish together
+        return () if sign(simplify(sympy.Add(*(e**2 for e in found)))) == 1 else found
     factors = [_perhaps_zero(e, unknowns) for e in conditions]
     common = [f for f in factors[0] if all(f in other for other in factors)] if factors else []
     return (sympy.Mul(*common),) if common else ()

@@ -11,6 +11,7 @@ from lagcli.algebra.equations import written
 from lagcli.expression import Expression
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.minimal import minimal
 from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.rest.exceptions import unless_written
 from lagcli.mechanics.rest.held import held
@@ -22,11 +23,15 @@ from lagcli.statements.motions import SteadyMotion, SteadySection
 def applies(derivation: Derivation) -> bool:
     """Whether a coordinate may turn at a constant rate that no constant momentum gives.
 
-    Under a velocity constraint, or where a force acts along what L contains at most linearly.
+    Under a velocity constraint, or where a force acts along what L contains at most linearly, once
+    the constraints on the positions are put in.
     """
     kinds = derivation.dynamics.constraints.kinds.values()
     if any(kind != "holonomic" for kind in kinds):
         return True
+    if kinds and not derivation.problem.contacts:
+        fewer = minimal(derivation)
+        return fewer is not derivation and applies(fewer)
     dynamics, system = derivation.dynamics, derivation.system
     state, forces = (*system.q, *system.qdot, system.t), system.applied_forces
     pairs = zip(dynamics.lagrange.lagrangian_forces, forces, strict=True)
