@@ -1,8 +1,8 @@
 """Poincaré sections: the states in which a motion passes a surface, or at every period of a drive.
 
-Where the surface is passed is found in three runs of the same motion: sign changes between rows,
-the roots of polynomials through nine places around each, and the states at those roots, which are
-as certain as any other row.
+Where the surface is passed is found in two runs of the same motion: sign changes between rows, and
+nine places between the two rows of each. The polynomials through these have the root and the
+state in it: a twelfth of a turn or less, divided by eight, leaves nothing to be seen.
 
 References
 ----------
@@ -32,7 +32,7 @@ from lagcli.pictures.run import PicturedRun, run_with, short
 from lagcli.pictures.starts import other_starts
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import Column, phase_columns, read_along
-from lagcli.record import record
+from lagcli.record import record, replace
 
 Progress = Callable[[float], None]
 
@@ -83,6 +83,9 @@ def section(
     labels = Labels(problem)
     passages = [_passages(problem, asked, surface, columns, progress)]
     points = [_points(passages[0][0], labels, columns)]
+    if surface.expression is not None:  # the others come through about as often
+        samples = min(_MOST, round(2.5 * _BETWEEN * len(points[0])))
+        asked = replace(asked, samples=max(asked.samples, samples))
     if orbits > 1:
         for other in other_starts(problem, _plain(surface), points[0], columns, orbits - 1):
             try:
@@ -151,50 +154,48 @@ def _passages(
     """The rows in the section, and the run they are of."""
     if surface.expression is None:
         count = int(asked.until / surface.period * (1 + 1e-12))
-        times = [surface.period * k for k in range(count + 1)]
-    else:
-        times = _crossings(problem, asked, surface.expression, progress)
-    if not times:
+        times = {surface.period * k for k in range(count + 1)}
+        every = tuple(sorted({0.0, *times, asked.until}))
+        run = run_with(problem, asked, columns, progress, times=every, samples=len(every))
+        return [row for row in run.result.rows if row[0] in times], run
+    found = _crossings(problem, asked, surface.expression, columns, progress)
+    if found is None:
         raise CannotDraw(
             f"the motion does not pass {surface.text} upwards until t = {asked.until:g}: "
             "give another --section, or a longer --until"
         )
-    run = _run_at(problem, asked, times, columns, progress)
-    wanted = set(times)
-    return [row for row in run.result.rows if row[0] in wanted], run
-
-
-def _run_at(
-    problem: Problem,
-    asked: Asked,
-    times: Sequence[float],
-    columns: Sequence[Column],
-    progress: Progress | None,
-) -> PicturedRun:
-    """A run with rows at these times, the beginning and the end."""
-    every = tuple(sorted({0.0, *times, asked.until}))
-    return run_with(problem, asked, columns, progress, times=every, samples=len(every))
+    return found
 
 
 def _crossings(
-    problem: Problem, asked: Asked, expression: Expression, progress: Progress | None
-) -> list[float]:
-    """The times at which the expression passes 0 upwards."""
-    column = [Column(_SECTION, expression)]
-    intervals = _intervals(problem, asked, column, progress)
+    problem: Problem,
+    asked: Asked,
+    expression: Expression,
+    columns: Sequence[Column],
+    progress: Progress | None,
+) -> tuple[list[tuple[float | None, ...]], PicturedRun] | None:
+    """The columns where the expression passes 0 upwards; None where it never does."""
+    column = Column(_SECTION, expression)
+    intervals = _intervals(problem, asked, [column], progress)
     if not intervals:
-        return []
-    inside = [a + (b - a) * k / (_PLACES - 1) for a, b in intervals for k in range(_PLACES)]
-    fine = _run_at(problem, asked, inside, column, progress)
-    values = {row[0]: row[1] for row in fine.result.rows}
-    found = []
-    for place in range(0, len(inside), _PLACES):
-        times = inside[place : place + _PLACES]
-        heights = [values.get(t) for t in times]
-        known = [h for h in heights if h is not None]
-        if len(known) == _PLACES and known[0] < 0 <= known[-1]:
-            found.append(_root(times, known))
-    return found
+        return None
+    inside = [[a + (b - a) * k / (_PLACES - 1) for k in range(_PLACES)] for a, b in intervals]
+    every = tuple(sorted({0.0, *(t for times in inside for t in times), asked.until}))
+    run = run_with(problem, asked, [column, *columns], progress, times=every, samples=len(every))
+    values = {row[0]: row[1:] for row in run.result.rows}
+    nothing = (None,) * (1 + len(columns))
+    found: list[tuple[float | None, ...]] = []
+    for times in inside:
+        heights, *others = zip(*(values.get(t, nothing) for t in times), strict=True)
+        if None not in heights and heights[0] < 0 <= heights[-1]:
+            t = _root(times, heights)
+            found.append((t, *(_at(times, line, t) for line in others)))
+    return found, run
+
+
+def _at(times: Sequence[float], values: Sequence[float | None], t: float) -> float | None:
+    known = [value for value in values if value is not None]
+    return _interpolated(times, known, t) if len(known) == len(times) else None
 
 
 def _intervals(
