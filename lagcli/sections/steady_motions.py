@@ -76,7 +76,7 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
         yield Paragraph((f"Not found: {section.reason}.",))
         return
     if not section.motions:
-        complete, where = section.complete, section.where
+        complete, where = section.complete, section.sought
         yield none_found("steady motion", section.unless, complete=complete, where=where)
     for number, motion in enumerate(once(section.motions), 1):
         yield Heading(f"Steady motion {number}", 2)

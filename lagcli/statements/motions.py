@@ -150,6 +150,11 @@ class SteadySection:
     singular_where: tuple[Expression, ...] = ()
     where: str = ""
 
+    @property
+    def sought(self) -> str:
+        """What was sought: without momenta, motions along coordinates of the file only."""
+        return ("" if self.momenta or self.eliminated else " in these coordinates") + self.where
+
 
 @record
 class ActionPart:

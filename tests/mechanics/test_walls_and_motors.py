@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 
 import pytest
+import sympy
 
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
@@ -82,3 +83,40 @@ def test_the_period_beside_a_wall_that_moves_is_left_out():
     told = explain(derive(text), ["reduction"])
     assert words(told, "The reduction")
     assert told.warnings == ()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_charges_in_crossed_fields_drift_whatever_the_gauge(seed):
+    """The drift balances the forces: q E + q v × B - c v = 0."""
+    source = random.Random(seed)
+    E, F, B, g = (source.randint(1, 5) for _ in range(4))
+    c = source.randint(0, 3)
+    text = (
+        f"{{coordinates: [x, y], L: (x'^2 + y'^2)/2 + {B}*(x*y' - y*x')/2 + {E}*x + {F}*y "
+        f"+ {g}*(x'*y + y'*x), dissipation: {c}*(x'^2 + y'^2)/2}}"
+    )
+    section, _ = steady_motions(derive(text))
+    [motion] = section.motions or ()
+    u, v = (float(sympy.sympify(to_grammar(x))) for x in (motion.rates or {}).values())
+    assert [E + B * v - c * u, F - B * u - c * v] == pytest.approx([0, 0], abs=1e-12)
+    assert motion.verdict.asymptotic if c else motion.verdict.spectrum == ()
+
+
+def test_two_discs_that_turn_together_are_not_denied():
+    text = "{coordinates: [u, v], T: (u'^2 + v'^2)/2, V: (u - v)^2/2, forces: {u: 1, v: -v'}}"
+    section, _ = steady_motions(derive(text))
+    assert section.motions == ()
+    assert section.sought == " in these coordinates"
+
+
+@pytest.mark.parametrize("damping", [0, 1, 3])
+def test_what_rests_everywhere_stays_with_damping_too(damping):
+    """A wheel upright on a plane: one direction of rolling is damped, or none."""
+    text = (
+        "{coordinates: [x, y, th, ph], T: (x'^2 + y'^2 + th'^2 + ph'^2)/2, "
+        "constraints: {a: x' = ph'*cos(th), b: y' = ph'*sin(th)}, "
+        f"forces: {{ph: -{damping}*ph'}}}}"
+    )
+    [rest] = equilibria(derive(text).dynamics).equilibria or ()
+    assert rest.verdict.stable
+    assert rest.verdict.across

@@ -122,8 +122,7 @@ def _none(found: SteadySection) -> list[Part]:
     """That no motion is steady, in what it was sought in."""
     if not found.complete:
         return ["No solution was found."]
-    where = "" if found.momenta or found.eliminated else " in these coordinates"
-    none = unless(f"steady motion{where}{found.where}", found.unless)
+    none = unless(f"steady motion{found.sought}", found.unless)
     return ["These have no solution: ", *none, "."]
 
 

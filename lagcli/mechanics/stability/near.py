@@ -259,15 +259,13 @@ class Near:
 
     @property
     def rests_everywhere(self) -> bool:
-        """Whether every displacement leads to an equilibrium, and nothing is damped.
+        """Whether every displacement leads to an equilibrium.
 
         At given momenta of cyclic coordinates that is not so at all others.
         """
         linear = self.linear
-        return (
-            not linear.damped
-            and set(linear.point.values) <= set(linear.system.q)
-            and self.dimension_released == len(self.restoring.M)
+        return set(linear.point.values) <= set(linear.system.q) and self.dimension_released == len(
+            self.restoring.M
         )
 
     @cached_property

@@ -55,7 +55,12 @@ def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:
     routh = Routh(derivation)
     if routh.reduced is None:
         return _not_found(routh.reason)
-    return _SteadyStatement(SteadyMotions(routh)).section()
+    section, missing = _SteadyStatement(SteadyMotions(routh)).section()
+    if section.motions == () and not derivation.problem.contacts:
+        drifting = RollingMotions(derivation)  # along what the equations of motion do not contain
+        if drifting.motions:
+            return rolling_section(drifting), []
+    return section, missing
 
 
 def _not_found(reason: str) -> tuple[SteadySection, Missing]:
