@@ -58,7 +58,12 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
         yield Paragraph(tuple(irreducible(name, each, own("L"))))
     if section.momenta:
         yield Paragraph(("Constant, since the coordinates are cyclic:",))
-        yield equations_of((Name(f"p_{name}"), value) for name, value in section.momenta.items())
+        yield Equations(
+            tuple(
+                Row(Name(f"p_{name}"), value, section.when.get(name, ""))
+                for name, value in section.momenta.items()
+            )
+        )
     elif section.irreducible:
         yield Paragraph(("The Routhian is the Lagrangian.",))
     else:
@@ -100,7 +105,7 @@ def _gyroscopic(section: ReductionSection) -> Iterator[Block]:
 
 def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
     constant, q = Name(motion.constant), Name(motion.coordinate)
-    yield Equations((Row(constant, motion.energy, "conserved"),))
+    yield Equations((Row(constant, motion.energy, f"conserved {motion.when}".rstrip()),))
     if motion.turning_points is None:
         yield Paragraph(("The turning points are the roots of ", POTENTIAL, " = ", constant, "."))
     elif motion.turning_points:

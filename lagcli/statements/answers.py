@@ -303,9 +303,9 @@ class ModesSection:
 class ReductionSection:
     """R = L - sum p q' without the cyclic coordinates; R is None with a `reason`.
 
-    `momenta` are those of the cyclic coordinates, `reconstruction` their velocities.
-    `eliminated` were solved for by the constraints, `irreducible` do not occur in L and are
-    kept all the same.
+    `momenta` are those of the cyclic coordinates, `reconstruction` their velocities, `when` says
+    when those are constant that an impact changes.  `eliminated` were solved for by the
+    constraints, `irreducible` do not occur in L and are kept.
     R = T_2 + sum `gyroscopic` q' - `effective_potential` where it is quadratic in q'.
     """
 
@@ -321,6 +321,7 @@ class ReductionSection:
     one_freedom: OneFreedom | None = None
     eliminated: tuple[str, ...] = ()
     irreducible: Mapping[str, Irreducible] = field(default_factory=dict)
+    when: Mapping[str, str] = field(default_factory=dict)
     reason: str = ""
 
 

@@ -84,7 +84,7 @@ class OneFreedom:
     that are real count, where the coordinate is `positive` those that are positive.  All of
     them are real for E between the bounds of each of `turning_energies`; one-sided contacts hold
     at each of them under the conditions of `turning_where`.  Where nothing `oscillates`, the motion
-    comes back from one of them only.
+    comes back from one of them only.  `when` says when E is constant, where an impact changes it.
     """
 
     coordinate: str
@@ -97,6 +97,7 @@ class OneFreedom:
     turning_energies: tuple[tuple[Expression, Expression], ...] = ()
     turning_where: tuple[tuple[Above, ...], ...] = ()
     oscillates: bool = True
+    when: str = ""
     reason: str = ""
 
 

@@ -9,6 +9,7 @@ import sympy
 
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
+from lagcli.mechanics.reduction.statement import reduction
 from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.pipeline import explain
 
@@ -120,3 +121,17 @@ def test_what_rests_everywhere_stays_with_damping_too(damping):
     [rest] = equilibria(derive(text).dynamics).equilibria or ()
     assert rest.verdict.stable
     assert rest.verdict.across
+
+
+@pytest.mark.parametrize("slope", [0, 1, 2])
+@pytest.mark.parametrize("restitution", ["1/2", "1"])
+def test_momenta_and_energy_between_impacts(slope, restitution):
+    """An impulse along the gradient (-slope, 1): p_x stays where that has no part along x."""
+    text = (
+        "{coordinates: [x, y], T: (x'^2 + y'^2)/2, V: y, "
+        f"contacts: {{floor: {{gap: y >= {slope}*x, restitution: {restitution}}}}}}}"
+    )
+    section, _ = reduction(derive(text))
+    assert ("x" in section.when) is (slope != 0)
+    assert section.one_freedom is not None
+    assert bool(section.one_freedom.when) is (restitution != "1")

@@ -53,6 +53,7 @@ _STICKS = "static friction holds it with force to spare"
 _KINK = f"{{V}} has a strict minimum there ({LAGRANGE_DIRICHLET.name})"
 _PRESSED = "it is pressed against what it touches"
 _HELD = "contacts, static friction or kinks of the potential hold what is at rest"
+_LIMIT = "a force is at its limit there"
 _NO_LINEAR_PART = "a force has a kink or a jump at the equilibrium, and no linear part"
 _NO_MODES = "the equilibria do not exist for the values of the file"
 _NO_REAL_SQUARE = "no root ω² of the characteristic polynomial is real"
@@ -61,11 +62,10 @@ _NO_REAL_SQUARE = "no root ω² of the characteristic polynomial is real"
 def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     """The states of rest with their stability."""
     oscillations, order = SmallOscillations(dynamics), dynamics.system.order
-    places, rest = oscillations.places, oscillations.rest
-    if places is None:
+    rest = oscillations.rest
+    if (places := oscillations.places) is None:
         return EquilibriaSection(equilibria=None, reason=rest.reason)
-    # with contacts closed there may be some at special values
-    unless = rest.unless if len(oscillations.held) == 1 else None
+    unless = rest.unless if len(oscillations.held) == 1 else None  # closed contacts hold some
     open_ = () if oscillations.complete else rest.conditions
     return EquilibriaSection(
         equilibria=tuple(map(oscillations.equilibrium, places)),
@@ -146,8 +146,7 @@ class Place:
         if self.point.depends_on_time(self.linear.system.t):
             return undecided(REACHED)
         if self.held.grazes(self.point):
-            at_limit = undecided("a force is at its limit there" if self.held.kinked else GRAZES)
-            return self._without_contacts or at_limit
+            return self._without_contacts or undecided(_LIMIT if self.held.kinked else GRAZES)
         if (held := self.held).firmly and not self.linear.M:
             reason = _STICKS if held.sticking else _KINK if held.kinked else _PRESSED
             return Stability(stable=True, reason=reason)
@@ -159,10 +158,11 @@ class Place:
     @property
     def _without_contacts(self) -> Stability | None:
         """At a strict minimum of V it is stable with walls, too, which feed no energy."""
+        if self.held.sticking or self.held.kinked or self._apart.demands:
+            return None
         found = Place(self._apart, self.point, self._apart).verdict
         minimum = found.stable and found.by in (LAGRANGE_DIRICHLET, KELVIN_TAIT_CHETAEV)
-        held = self.held.sticking or self.held.kinked or not minimum
-        return None if held else replace(found, asymptotic=False)
+        return replace(found, asymptotic=False) if minimum else None
 
     @property
     def at_singular_coordinates(self) -> bool:

@@ -58,11 +58,9 @@ def reduction(derivation: Derivation) -> tuple[ReductionSection, Missing]:
 
 class _Statement:
     def __init__(self, routh: Routh, given: Sequence[str]) -> None:
-        self.routh = routh
-        self.given = given
+        self.routh, self.given = routh, given
         self.missing: Missing = []
-        system = routh.system
-        self.names = system.names
+        self.names = (system := routh.system).names
         momenta = tuple(p.name for p in routh.momenta)
         cyclic = {system.q[j].name for j in routh.cyclic}
         self.order = (
@@ -118,6 +116,7 @@ class _Statement:
                 one_freedom=self._one_freedom(potential),
                 eliminated=self.eliminated,
                 irreducible=self.irreducible,
+                when=routh.between_impacts,
             ),
             self.missing,
         )
@@ -221,6 +220,7 @@ class _Statement:
             ),
             turning_where=tuple(conditions(each, order) for each in motion.turning_where),
             oscillates=not periods.excluded,
+            when=self.routh.between_impacts.get("", ""),
             reason=periods.reason,
         )
 
