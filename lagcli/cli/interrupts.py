@@ -1,13 +1,14 @@
 """Ctrl-C: it ends the process at once while modules are loaded, and is an exception afterwards.
 
 `KeyboardInterrupt` in the middle of an import is often turned into another exception (a
-`RuntimeError` where a class is being made), or is raised before anything can catch it.
+`RuntimeError` where a class is being made), or is raised before anything can catch it.  So the
+handler is set before anything else is loaded, even `signal`, which makes enumerations first.
 """
 
 from __future__ import annotations
 
+import _signal  # type: ignore[import-not-found]  # `signal` takes 2 ms to load
 import os
-import signal
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -39,5 +40,5 @@ def _raise(*_: object) -> NoReturn:
 
 
 def _handle(handler: Callable[..., object]) -> None:
-    if signal.getsignal(signal.SIGINT) is not signal.SIG_IGN:  # as behind nohup
-        signal.signal(signal.SIGINT, handler)
+    if _signal.getsignal(_signal.SIGINT) != _signal.SIG_IGN:  # as behind nohup
+        _signal.signal(_signal.SIGINT, handler)

@@ -94,6 +94,19 @@ def test_an_interrupt_ends_with_130_and_without_a_traceback(tmp_path):
     assert (running.returncode, told) == (130, b"")
 
 
+def test_the_handler_of_interrupts_is_set_before_anything_else_is_loaded():
+    code = (
+        "import sys; before = {*sys.modules}; from lagcli.cli.interrupts import end_at_once; "
+        "end_at_once(); print(*sorted({*sys.modules} - before))"
+    )
+    bare = [sys.executable, "-S", "-c", code]
+    environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
+    done = subprocess.run(bare, env=environment, capture_output=True, text=True, check=True)
+    assert {*done.stdout.split()} <= {
+        "__future__", "_signal", "lagcli", "lagcli.cli", "lagcli.cli.interrupts"
+    }  # fmt: skip
+
+
 @pytest.mark.parametrize("module", ["lagcli.cli.run", "lagcli.cli.app", "yaml", "mpmath"])
 def test_an_interrupt_while_modules_are_loaded_ends_with_130_and_without_a_word(tmp_path, module):
     """It comes in the middle of the import of a module, where a class is being made."""
