@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import _signal  # type: ignore[import-not-found]  # `signal` takes 2 ms to load
 import os
+import sys
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ def end_at_once() -> None:
 
 def raise_exceptions() -> None:
     """Let an interrupt raise `KeyboardInterrupt`, and be remembered."""
+    sys.unraisablehook = _end_where_nothing_is_raised
     _handle(_raise)
 
 
@@ -37,6 +39,13 @@ def interrupted() -> bool:
 def _raise(*_: object) -> NoReturn:
     _came.append(True)
     raise KeyboardInterrupt
+
+
+def _end_where_nothing_is_raised(unraisable: sys.UnraisableHookArgs) -> None:
+    """In a finalizer or the callback of a weak reference an exception is only printed."""
+    if issubclass(unraisable.exc_type, KeyboardInterrupt):
+        os._exit(_STATUS)
+    sys.__unraisablehook__(unraisable)
 
 
 def _handle(handler: Callable[..., object]) -> None:

@@ -99,12 +99,28 @@ def test_the_handler_of_interrupts_is_set_before_anything_else_is_loaded():
         "import sys; before = {*sys.modules}; from lagcli.cli.interrupts import end_at_once; "
         "end_at_once(); print(*sorted({*sys.modules} - before))"
     )
-    bare = [sys.executable, "-S", "-c", code]
+    bare = [sys.executable, "-c", code]
     environment = {**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])}
     done = subprocess.run(bare, env=environment, capture_output=True, text=True, check=True)
     assert {*done.stdout.split()} <= {
         "__future__", "_signal", "lagcli", "lagcli.cli", "lagcli.cli.interrupts"
     }  # fmt: skip
+
+
+def test_an_interrupt_in_the_callback_of_a_weak_reference_ends_with_130_and_without_a_word():
+    code = (
+        "import os, signal, weakref; from lagcli.cli.interrupts import raise_exceptions\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler); raise_exceptions()\n"
+        "class Module: pass\n"
+        "def callback(_):\n"
+        "    os.kill(os.getpid(), signal.SIGINT)\n"
+        "    for _ in range(1000): pass\n"
+        "module = Module(); kept = weakref.ref(module, callback)\n"
+        "del module\n"
+        "print('it went on')"
+    )
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, check=False)
+    assert (done.returncode, done.stdout, done.stderr) == (130, b"", b"")
 
 
 @pytest.mark.parametrize("module", ["lagcli.cli.run", "lagcli.cli.app", "yaml", "mpmath"])
