@@ -13,6 +13,7 @@ from lagcli.expression import Call, Name, Negative, Power, Quotient
 from lagcli.formatters.built_in import html, markdown
 from lagcli.formatters.mathml import MathmlPrinter, mathml_name
 from lagcli.formatters.options import Options
+from lagcli.reader.expressions import parse_text
 from lagcli.record import replace
 from lagcli.statements.answers import (
     EquilibriaSection,
@@ -174,3 +175,14 @@ def test_a_sign_at_the_start_of_a_row_keeps_its_distance():
 def test_keys_are_code():
     page = html.pages([Document("Page", (Paragraph(("no `points` & <b>",)),))], Options())
     assert "<p>no <code>points</code> &amp; &lt;b&gt;</p>" in page
+
+
+def test_a_wide_fraction_goes_over_several_rows():
+    text = "x = (" + " + ".join(f"m*g*sin(x + {k}*y)*cos(y)" for k in range(2, 9)) + ")/(M + m)"
+    left, right = map(parse_text, text.split(" = "))
+    rows = list(html._row(Row(left, right), MathmlPrinter()))
+    assert len(rows) > 1
+    whole = "".join(rows)
+    assert whole.count("(</mo>") == whole.count(")</mo>")
+    assert whole.count("<mfrac>") == 1
+    ET.fromstring(f"<mtable>{whole}</mtable>")

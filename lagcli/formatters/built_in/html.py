@@ -22,7 +22,15 @@ from lagcli.document import (
     Paragraph,
     Row,
 )
-from lagcli.expression import Sum, operation_count
+from lagcli.expression import (
+    Expression,
+    Negative,
+    Quotient,
+    Sum,
+    factors_of,
+    operation_count,
+    product_of,
+)
 from lagcli.formatters.mathml import MathmlPrinter, enclosed
 from lagcli.formatters.options import Options
 from lagcli.formatters.page import to_document
@@ -40,6 +48,7 @@ _DISPLAY = (
 _END_DISPLAY = "</mtable></math></div>"
 #: Chromium wants its own name of a side, Firefox the table's `columnalign`.
 _CELL = '<mtd style="text-align: -webkit-{side}; padding: {above} 0.2em 0.1em">{content}</mtd>'
+_ENTRY = '<mtd style="padding: 0.3em 0.4em">{}</mtd>'
 _WHOLE_ROW = (
     '<mtr><mtd columnspan="3" columnalign="left" '
     'style="text-align: -webkit-left; padding: {above} 0.2em 0.1em">{content}</mtd></mtr>'
@@ -53,6 +62,7 @@ _FORMULA = "<math>(?:(?!</math>).)*</math>"
 _TORN = re.compile(rf"{_FORMULA}(?: [-+−=·] {_FORMULA})*[.,;:)]|{_FORMULA}(?: [-+−=·] {_FORMULA})+")
 #: A side of an equation is broken where its terms reach this number of operations.
 _LONG = 24
+_WIDE = 30  # operations of a numerator that a line has room for
 
 
 def render(answers: Sequence[Answers], options: Options) -> str:
@@ -150,7 +160,8 @@ def _row(row: Row, printer: MathmlPrinter) -> Iterator[str]:
 
 def _lines(formula: Formula, printer: MathmlPrinter) -> list[str]:
     if not isinstance(formula, Sum):
-        return [_show(formula, printer)]
+        parted = _parted(formula)
+        return [_show(formula, printer)] if parted is None else _beside(*parted, printer)
     lines: list[str] = []
     room = 0
     for term, shown in zip(formula.terms, printer.signed_terms(formula), strict=True):
@@ -165,6 +176,28 @@ def _lines(formula: Formula, printer: MathmlPrinter) -> list[str]:
     return [first, *(line.replace("<mo>", "<mo form='infix'>", 1) for line in others)]
 
 
+def _parted(formula: Formula) -> tuple[Expression, Sum] | None:
+    """a/D and the sum of a fraction a (b + c + …)/D that no line has room for."""
+    minus = isinstance(formula, Negative)
+    node = formula.operand if isinstance(formula, Negative) else formula
+    if not isinstance(node, Quotient) or operation_count(node.numerator) <= _WIDE:
+        return None
+    factors = factors_of(node.numerator)
+    wide = max(factors, key=operation_count)
+    if not isinstance(wide, Sum):
+        return None
+    rest = Quotient(product_of(f for f in factors if f is not wide), node.denominator)
+    return (Negative(rest) if minus else rest), wide
+
+
+def _beside(front: Expression, wide: Sum, printer: MathmlPrinter) -> list[str]:
+    """The rows of a/D (b + c + …), the bracket open from the first to the last."""
+    lines = _lines(wide, printer)
+    lines[0] = f"<mrow>{printer.show(front)}<mo stretchy='false'>(</mo>{lines[0]}</mrow>"
+    lines[-1] = f"<mrow>{lines[-1]}<mo stretchy='false'>)</mo></mrow>"
+    return lines
+
+
 def _cells(left: str, middle: str, right: str, above: str = _NEXT) -> str:
     sides = zip(("right", "center", "left"), (left, middle, right), strict=True)
     cells = (_CELL.format(side=side, content=each, above=above) for side, each in sides)
@@ -173,10 +206,10 @@ def _cells(left: str, middle: str, right: str, above: str = _NEXT) -> str:
 
 def _matrix(matrix: Matrix, printer: MathmlPrinter) -> str:
     rows = "".join(
-        "<mtr>" + "".join(f"<mtd>{printer.show(entry)}</mtd>" for entry in row) + "</mtr>"
+        "<mtr>" + "".join(_ENTRY.format(printer.show(entry)) for entry in row) + "</mtr>"
         for row in matrix.entries
     )
-    return enclosed("(", f"<mtable>{rows}</mtable>", ")")
+    return enclosed("(", f'<mtable displaystyle="true">{rows}</mtable>', ")")
 
 
 def _show(formula: Formula, printer: MathmlPrinter) -> str:
