@@ -10,7 +10,7 @@ from sympy import Expr, S
 from lagcli.algebra import shape, simplify
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.one_ratio import in_one_ratio
-from lagcli.algebra.positivity import deciding, weak_sign, with_sines
+from lagcli.algebra.positivity import deciding, sign_of, weak_sign, with_sines
 from lagcli.algebra.signs import sign
 from lagcli.expression import ZERO, operation_count
 from lagcli.statements.motions import Above
@@ -20,6 +20,7 @@ def conditions(
     expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
 ) -> tuple[Above, ...]:
     """What must be positive, without what the others imply."""
+    positive = _with_numerators(positive)
     solved = _in_ratios(expressions, positive)
     split = [part for expression in solved for part in _without_squares(expression)]
     kept = _without_implied(sorted(split, key=_is_square), order, positive)
@@ -30,11 +31,17 @@ def opposites(
     expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
 ) -> tuple[Above, ...]:
     """The opposite inequalities of `conditions`, those that can hold."""
+    positive = _with_numerators(positive)
     solved = _in_ratios(expressions, positive)
     plain = [_without_zeros(each, solved) for each in solved]
     kept = _without_implied(plain, order, positive, squares=True)
-    possible = [each for each, rest in kept if weak_sign(rest, positive) != 1]
+    possible = [each for each, rest in kept if not _never_negative(rest, positive)]
     return tuple(dict.fromkeys(Above(each.right, each.left) for each in possible))
+
+
+def _with_numerators(positive: Sequence[Expr]) -> list[Expr]:
+    """Where a/b > 0, a b > 0 is known too."""
+    return list(dict.fromkeys(part for e in positive for part in (e, deciding(e))))
 
 
 def _in_ratios(expressions: Sequence[Expr], positive: Sequence[Expr]) -> list[Expr]:
@@ -90,6 +97,13 @@ def _without_squares(expression: Expr) -> list[Expr]:
     squares = [f**p for f, p in with_sines(rest) if p % 2 == 0 and p > 0]
     other = simplify(rest / sympy.Mul(*squares))
     return [*([] if other == 1 else [other]), *squares] if squares else [expression]
+
+
+def _never_negative(expression: Expr, positive: Sequence[Expr]) -> bool:
+    """Whether it is a square, or its factors beside squares are positive."""
+    return weak_sign(expression, positive) == 1 or all(
+        _is_square(part) or sign_of(part, positive) == 1 for part in _without_squares(expression)
+    )
 
 
 def _is_square(expression: Expr) -> bool:

@@ -5,8 +5,11 @@ from __future__ import annotations
 import random
 
 import pytest
+import sympy
 
 from lagcli.evaluation import evaluated
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.conditions import conditions, opposites
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.pipeline import explain
@@ -79,3 +82,19 @@ def test_a_condition_says_along_which_coordinates_nothing_restores(seed):
     )
     told = words(explain(derive(text), ["equilibria"]), "Equilibria")
     assert f"Stable up to displacements of {p} where" in told
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_what_existence_implies_is_no_condition(seed):
+    """Of k/d > 0, d is known to be positive: neither d > 0 nor d s² < 0 is said."""
+    source = random.Random(seed)
+    k, a, b = (sympy.Symbol(name, positive=True) for name in "kab")
+    u = sympy.Symbol("u", real=True)
+    d = (source.randint(1, 4) * a - source.randint(1, 4) * b) * sympy.cos(u)
+    s = source.randint(1, 4) * a - b * source.choice([u, u**2])
+    order = ["u", "a", "b", "k"]
+    [left] = conditions([d * s**2], order, [k / d])
+    assert to_grammar(left.right) == "0"
+    assert conditions([d], order, [k / d]) == ()
+    assert opposites([d * s**2, d], order, [k / d]) == ()
+    assert opposites([-d], order, [k]) != ()

@@ -135,3 +135,17 @@ def test_momenta_and_energy_between_impacts(slope, restitution):
     assert ("x" in section.when) is (slope != 0)
     assert section.one_freedom is not None
     assert bool(section.one_freedom.when) is (restitution != "1")
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(3))
+def test_a_linkage_rests_where_an_angle_carries_no_mass(seed):
+    """A slider-crank with a light rod: M is singular, but not along the constraints."""
+    a, m = (random.Random(seed).randint(1, 4) for _ in range(2))
+    text = (
+        f"{{coordinates: [th, ph, x], T: {m}*th'^2 + x'^2, "
+        f"constraints: {{h: {a}*sin(th) = 5*sin(ph), s: x = {a}*cos(th) + 5*cos(ph)}}}}"
+    )
+    section, missing = steady_motions(derive(text))
+    assert not missing
+    assert section.motions

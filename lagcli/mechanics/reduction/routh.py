@@ -245,10 +245,15 @@ class Routh:
         return {j: at(self._at_rest(v), values) for j, v in pairs}
 
     def regular_at(self, values: Mapping[Symbol, Expr]) -> bool:
-        """Whether the mass matrix of all coordinates can be inverted there, at rest."""
-        mass = self.full.dynamics.lagrange.mass_matrix_at_rest
-        whole = determinant([[at(x, values) for x in row] for row in mass])
-        return whole is not None and is_zero(whole) is not True
+        """Whether the mass matrix can be inverted there, at rest, or along the constraints."""
+        dynamics = self.full.dynamics
+        mass = [[at(x, values) for x in row] for row in dynamics.lagrange.mass_matrix_at_rest]
+        kept = [dynamics.constraints.equations[k].row for k in dynamics.independent_constraints]
+        rows = [[at(x, values) for x in row] for row in kept]
+        bordered = [[*m, *(row[j] for row in rows)] for j, m in enumerate(mass)]
+        bordered += [[*row, *([S.Zero] * len(rows))] for row in rows]
+        wholes = (determinant(each) for each in ([mass, bordered] if rows else [mass]))
+        return any(whole is not None and is_zero(whole) is not True for whole in wholes)
 
     @cached_property
     def gyroscopic(self) -> tuple[Expr, ...]:

@@ -59,7 +59,7 @@ def judge(linear: Linearization, characteristic: Characteristic | None = None) -
         if apart is not None:
             return apart
         if reason := _without_polynomial(near):
-            return undecided(reason)
+            return _among_equilibria(near) or undecided(reason)
         found = by_a_growing_root(near) or _judged(near)
         open_ = found.is_open or (found.exact and found.across and not linear.damped)
         return _among_equilibria(near) or found if open_ else found
