@@ -18,7 +18,7 @@ _DIGITS = 40
 _ZERO = mpf(10) ** -25
 
 
-class _Open(Exception):
+class _Undecided(Exception):
     """What these means do not decide."""
 
 
@@ -58,7 +58,7 @@ def in_one_ratio(expressions: Sequence[Expr], positive: Sequence[Expr] = ()) -> 
     """
     try:
         return _bounds(tuple(expressions), tuple(positive))
-    except (_Open, NotAPower):
+    except (_Undecided, NotAPower):
         return None
 
 
@@ -76,22 +76,22 @@ def _bounds(expressions: tuple[Expr, ...], positive: tuple[Expr, ...]) -> list[E
 
 def _ratio_of(expressions: Sequence[Expr]) -> Ratio:
     if any(e.has(sympy.Function) for e in expressions):
-        raise _Open
+        raise _Undecided
     if any(not s.is_positive for e in expressions for s in e.free_symbols):
-        raise _Open
+        raise _Undecided
     rows: list[Weights] = []
     for expression in expressions:
         weights(expression, rows)
     rows = [{s: w for s, w in row.items() if w != 0} for row in rows]
     first = next((row for row in rows if row), None)
     if first is None or len(first) < 2:
-        raise _Open
+        raise _Undecided
     symbol = max(first, key=lambda s: (-abs(first[s]), s.name))
     whole = sympy.ilcm(*(w.q for w in first.values())) * sympy.sign(first[symbol])
     whole /= sympy.igcd(*(w * whole for w in first.values()))
     unit = {s: w * whole for s, w in first.items()}
     if any(not _is_multiple(row, unit, symbol) for row in rows):
-        raise _Open
+        raise _Undecided
     return Ratio(tuple(sorted(unit.items(), key=lambda item: item[0].name)), symbol)
 
 
@@ -129,15 +129,15 @@ def _range(ratio: Ratio, expressions: Sequence[Expr], given: Sequence[Expr]) -> 
         try:
             values = evaluate({s: place})
         except ZeroDivisionError:
-            raise _Open from None
+            raise _Undecided from None
         if any(isinstance(x, mpf) and x <= _ZERO for x in values[: len(given)]):
             return False
         if not all(isinstance(x, mpf) for x in values):
-            raise _Open
+            raise _Undecided
         if any(x < -_ZERO for x in values):
             return False
         if any(x < _ZERO for x in values):
-            raise _Open
+            raise _Undecided
         return True
 
     numbers = [mpf(0), *(number for number, _ in places)]
@@ -151,7 +151,7 @@ def _range(ratio: Ratio, expressions: Sequence[Expr], given: Sequence[Expr]) -> 
             inside(number)
     ends += [S.Infinity] if verdicts[-1] else []
     if len(ends) != 2:
-        raise _Open
+        raise _Undecided
     return ends[0], ends[1]
 
 
@@ -182,6 +182,6 @@ def _positive_roots(polynomial: Expr, s: Symbol) -> Iterator[Expr]:
         return
     for factor, _ in sympy.Poly(polynomial, s, domain="QQ").factor_list()[1]:
         if factor.degree() > 2 and factor.count_roots(0) > 0:
-            raise _Open
+            raise _Undecided
         if factor.degree() <= 2:
             yield from (root for root in sympy.roots(factor) if root.is_positive)

@@ -57,12 +57,12 @@ def admissible_values(system: System, count: int) -> list[dict[Symbol, mpf]]:
         return [given]
     source = random.Random("lagcli parameters")
     return [
-        {p: given.get(p, random_value(source, p, wide=k % 2 == 1)) for p in system.parameters}
+        {p: given.get(p, random_parameter(source, p, wide=k % 2 == 1)) for p in system.parameters}
         for k in range(count)
     ]
 
 
-def random_value(source: random.Random, parameter: Symbol, *, wide: bool) -> mpf:
+def random_parameter(source: random.Random, parameter: Symbol, *, wide: bool) -> mpf:
     """A number that the assumptions of the file allow, the same in every run."""
     if parameter.is_integer:
         return mpf(source.randint(1, 5))

@@ -34,7 +34,7 @@ from lagcli.rewriting import rebuilt
 _Powers = dict[Expression, int]
 
 
-class Momenta:
+class NamedMomenta:
     """Formulas with momenta as a book writes them.
 
     Parameters

@@ -33,7 +33,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.notation.angles import difference_of_angles, with_versines
-from lagcli.notation.brackets import Momenta, squares_as_brackets
+from lagcli.notation.brackets import NamedMomenta, squares_as_brackets
 from lagcli.notation.factors import (
     odd_base,
     parts_of,
@@ -78,7 +78,7 @@ class Manner:
         self._ordering = Ordering(order_of_names(problem))
         self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
         names = (q.name for q in problem.coordinates)
-        self._momenta = Momenta(names, self._positive, self._ordering)
+        self._momenta = NamedMomenta(names, self._positive, self._ordering)
 
     def anew(self) -> None:
         """Begin another section, which is written as if it were the only one."""

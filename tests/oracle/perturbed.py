@@ -19,7 +19,7 @@ from lagcli.diagnostics import ProblemError
 from lagcli.expression import Expression, Name, Negative, Number, Power, Sum
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
-from lagcli.mechanics.parameter_values import parameter_values, random_value
+from lagcli.mechanics.parameter_values import parameter_values, random_parameter
 from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.refusal import Refusal
@@ -67,7 +67,7 @@ class Numbers:
         given = parameter_values(self.system)
         self.values: dict[Symbol, Expr] = {}
         for p in self.system.parameters:
-            value = given.get(p) or random_value(source, p, wide=False)
+            value = given.get(p) or random_parameter(source, p, wide=False)
             self.values[p] = self.system.build(_number(float(value)))
 
     def of(self, name: str) -> None:

@@ -26,7 +26,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.finding.special_values import DIGITS, SpecialValues
-from lagcli.mechanics.parameter_values import random_value
+from lagcli.mechanics.parameter_values import random_parameter
 from lagcli.platform.effort import EFFORT, Work
 from lagcli.record import record
 
@@ -116,7 +116,7 @@ def _draw(
         Where none were found.
     """
     for _ in range(_TRIES):
-        draw = {other: random_value(source, other, wide=number % 2 == 1) for other in others}
+        draw = {other: random_parameter(source, other, wide=number % 2 == 1) for other in others}
         if all(_is_positive(each, draw) for each in special.positive):
             return draw
     raise Undecided("no values of the parameters were found at which the motion can begin")

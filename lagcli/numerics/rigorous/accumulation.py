@@ -29,7 +29,7 @@ _ROOM, _WIDENED = 2, 6
 
 
 @record
-class Rest:
+class AtRest:
     """When the last impacts are over, where the motion is until then, and where at the end."""
 
     times: Any
@@ -40,7 +40,7 @@ class Rest:
 
 def rest_after(
     watched: Watched, mode: ProofMode, restart: Restart, times: Any, x: Sequence[Any], most: float
-) -> Rest | None:
+) -> AtRest | None:
     """What follows the impacts that an impact is followed by.
 
     Parameters
@@ -56,7 +56,7 @@ def rest_after(
 
     Returns
     -------
-    Rest or None
+    AtRest or None
         None where it is not proved, or lasts longer.
     """
     n, index = mode.motion.n, watched.index
@@ -99,7 +99,7 @@ def rest_after(
                 return None
             passed = over - times
             end = [x0 + passed * f + d for x0, f, d in zip(x, rates, struck, strict=True)]
-            return Rest(span, box, _touching(watched, over, end, n), closed)
+            return AtRest(span, box, _touching(watched, over, end, n), closed)
         box = [a.union(x0 + _ROOM * (b - x0)) for a, b, x0 in zip(box, found, x, strict=True)]
     return None
 

@@ -83,7 +83,7 @@ class ShortSteps(NotEnclosed):
     """The width of the set shortens the steps, which more bits may lengthen."""
 
 
-class Trial:
+class TriedStep:
     """A step that is tried.
 
     Attributes
@@ -171,7 +171,7 @@ class Enclosures:
             if h < (_SHORTEST if wide else _SINGULAR) * float(until):
                 break
             end = until if t + 1.05 * h >= until else self._ball(float(t + h))
-            trial, flow = Trial(t, (end - t).abs_upper() * _BEYOND, polynomials), None
+            trial, flow = TriedStep(t, (end - t).abs_upper() * _BEYOND, polynomials), None
             with suppress(ZeroDivisionError, ValueError):
                 if self._leaves_little(trial, ahead):
                     flow = self._flow(trial, start)
@@ -208,7 +208,7 @@ class Enclosures:
                 exponent = min(exponent, (allowed - log2_size(each[k])) / k)
         return math.exp2(min(exponent, _LONGEST))
 
-    def _leaves_little(self, trial: Trial, ahead: Sequence[Any]) -> bool:
+    def _leaves_little(self, trial: TriedStep, ahead: Sequence[Any]) -> bool:
         """Find its defect; whether that is about the target."""
         trial.times, trial.along = self.field.shifted(trial.begin, trial.h, trial.polynomials)
         defect = self.field.defect(trial.times, trial.along, ahead, trial.h)
@@ -216,7 +216,7 @@ class Enclosures:
             trial.defect = defect
         return bool(trial.defect)
 
-    def _flow(self, trial: Trial, start: LohnerSet) -> StepFlow | None:
+    def _flow(self, trial: TriedStep, start: LohnerSet) -> StepFlow | None:
         """The flow, where a tube E is found in which the errors stay."""
         h, defect = trial.h, trial.defect
         whole = [x + d for x, d in zip(start.spread, defect, strict=True)]
@@ -243,7 +243,7 @@ class Enclosures:
                 return None
         return None
 
-    def _slopes(self, trial: Trial, tube: Sequence[Any]) -> tuple[list[Any], Any]:
+    def _slopes(self, trial: TriedStep, tube: Sequence[Any]) -> tuple[list[Any], Any]:
         """da/dx as J_0 .. J_Q, and N."""
         room = [self._ball(0, e) for e in tube]
         order = self.flow_order
