@@ -69,7 +69,8 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
     if section.conditions:
         wanted = [value for value in dict.fromkeys(section.conditions.values()) if value != ZERO]
         held = "The conditions of a steady motion hold everywhere."
-        yield Paragraph(("A steady motion has" if wanted else held,))
+        lead = "A state of rest has" if section.resting else "A steady motion has"
+        yield Paragraph((lead if wanted else held,))
         if wanted:
             yield vanishing(wanted)
     if section.motions is None:

@@ -133,7 +133,7 @@ class SteadySection:
     `momenta` are the cyclic coordinates whose momenta are constant.  Where there are no motions,
     there may be some for parameters for which each of `unless` vanishes; None: for special values.
     What is not `complete` was not sought where each of `singular_where` vanishes.
-    `where` restricts what was sought, in words.
+    `where` restricts what was sought, in words; of what is `resting` the conditions are of rest.
 
     Under velocity constraints, and where a force acts along what L does not contain, the
     conditions are what is left of the equations of motion (`acting`: "inertia"), along the
@@ -150,6 +150,7 @@ class SteadySection:
     unless: tuple[Expression, ...] | None = ()
     singular_where: tuple[Expression, ...] = ()
     where: str = ""
+    resting: bool = False
 
     @property
     def sought(self) -> str:

@@ -149,3 +149,25 @@ def test_a_linkage_rests_where_an_angle_carries_no_mass(seed):
     section, missing = steady_motions(derive(text))
     assert not missing
     assert section.motions
+
+
+@pytest.mark.parametrize("power", [3, 5])
+def test_no_period_as_a_series_where_a_derivative_jumps(power):
+    text = f"{{coordinates: [x], T: x'^2/2, V: x^2 + abs(x - 1 + 1)^{power}}}"
+    section, missing = reduction(derive(text))
+    assert not missing
+    assert section.one_freedom is not None
+    assert section.one_freedom.periods == ()
+    assert "jumps" in section.one_freedom.reason
+
+
+def test_under_velocity_constraints_conditions_of_rest_are_called_so():
+    """A sled that is driven against drag goes at F/c: rest is what its forces must vanish for."""
+    text = (
+        f"{{coordinates: [x, y, th], parameters: {{F: {_UP}}}, T: (x'^2 + y'^2 + th'^2)/2, "
+        "constraints: {s: x'*sin(th) = y'*cos(th)}, "
+        "forces: {x: F*cos(th) - x', y: F*sin(th) - y', th: -th'}}"
+    )
+    section, _ = steady_motions(derive(text))
+    assert section.motions is None
+    assert section.resting

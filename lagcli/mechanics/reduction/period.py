@@ -21,7 +21,7 @@ from functools import cached_property
 import mpmath
 import sympy
 from mpmath import mpf
-from sympy import Expr, Rational, S, Symbol
+from sympy import Abs, Expr, Rational, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
@@ -135,6 +135,9 @@ class Periods:
     def _about(self, point: RestPoint) -> AmplitudeSeries | None:
         motion = self.motion
         q, [place] = motion.q, [*point.values.values()]
+        if any(is_zero(at(n.args[0], {q: place})) is True for n in motion.potential.atoms(Abs)):
+            self.reason = "a derivative of U_eff jumps at its minimum, where it has no power series"
+            return None
         slopes = [at(motion.potential.diff(q, k), {q: place}) for k in range(2, ORDER + 3)]
         curvature = slopes[0]
         known = sign(curvature, point.positive)

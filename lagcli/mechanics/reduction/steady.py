@@ -83,7 +83,7 @@ class SteadyMotions:
             self.reason = REACHED
             return None
         if not found and (self._singular or not self.complete):
-            unsolved = _ONLY_AT_REST if self._solved and self._velocity_constraints else _UNSOLVED
+            unsolved = _ONLY_AT_REST if self._solved and self.only_rest_is_sought else _UNSOLVED
             where = f"the conditions hold only where {singular(self.dynamics)} singular"
             self.reason = where if self._singular else unsolved
             return None
@@ -96,8 +96,8 @@ class SteadyMotions:
         return self.rest.points is not None and self.rest.complete
 
     @property
-    def _velocity_constraints(self) -> bool:
-        """Whether some states turn at rates that are no momenta's."""
+    def only_rest_is_sought(self) -> bool:
+        """Under velocity constraints: some states turn at rates that are no momenta's."""
         return any(kind != "holonomic" for kind in self.dynamics.constraints.kinds.values())
 
     @property
@@ -170,7 +170,7 @@ class SteadyMotions:
         real = [p for p in points or () if not any(x.has(sympy.I) for x in p.values.values())]
         regular = [point for point in real if self.routh.regular_at(point.values)]
         self._singular = bool(points) and not regular
-        self.complete = self._solved and not self._velocity_constraints
+        self.complete = self._solved and not self.only_rest_is_sought
         return [
             Steady(
                 point.values, self.routh.rates_at(point.values), point.positive, family=point.family

@@ -85,6 +85,7 @@ class _SteadyStatement:
             if self.routh.quadratic
             else {}
         )
+        resting = steady.only_rest_is_sought
         if found is None:
             return (
                 SteadySection(
@@ -94,6 +95,7 @@ class _SteadyStatement:
                     reason=steady.reason,
                     acting=steady.acting,
                     momenta=cyclic,
+                    resting=resting,
                 ),
                 [("the steady motions", steady.reason)],
             )
@@ -108,6 +110,7 @@ class _SteadyStatement:
                 else tuple(map(self._shape, CoincidingAxes(self.routh).singular_where)),
                 acting=steady.acting,
                 momenta=cyclic,
+                resting=resting,
                 unless=() if found else unless_written(steady.unless, self.order),
                 where=steady.rest.restricted_to + _OPEN * bool(steady.full.problem.contacts),
             ),
