@@ -8,11 +8,9 @@ that can be broken: \frac{3 r}{D} ( ... ), ( ... )^{1/2}.
 
 from __future__ import annotations
 
-from fractions import Fraction
 from itertools import accumulate
 
 from lagcli.expression import (
-    ONE,
     Call,
     Diff,
     Expression,
@@ -26,17 +24,13 @@ from lagcli.expression import (
     Quotient,
     Rate,
     Sum,
-    factors_of,
-    quotient_of,
-    walk,
 )
 from lagcli.formatters.functions import FIXED, ON_PAPER, TRIGONOMETRIC
 from lagcli.formatters.latex_names import LatexNames
-from lagcli.formatters.latex_width import BINARY, SCRIPT, THIN_SPACE, text_width
+from lagcli.formatters.latex_width import BINARY, SCRIPT, THIN_SPACE, digits, text_width
 from lagcli.formatters.layout import (
     AFTER_BRACKET,
     COMMA,
-    DIGITS,
     PRODUCT,
     SUM,
     Layout,
@@ -45,8 +39,13 @@ from lagcli.formatters.layout import (
     kept_whole,
     width_of,
 )
-from lagcli.formatters.numbers import DecimalParts, decimal_parts, digit_groups
-from lagcli.formatters.precedence import FractionPrinter, Level, begins_with_number
+from lagcli.formatters.numbers import decimal_parts
+from lagcli.formatters.precedence import (
+    FractionPrinter,
+    Level,
+    begins_with_number,
+    parted_root,
+)
 from lagcli.record import record
 
 #: Nothing that cannot be broken is wider, in points.
@@ -123,11 +122,16 @@ class LatexPrinter(FractionPrinter[Box]):
 
     def number(self, node: Number) -> Box:
         if node.decimal:
-            return _decimal(decimal_parts(node.value))
-        numerator = _digits(node.value.numerator)
+            parts = decimal_parts(node.value)
+            pieces = (TextPiece(parts.digits, text_width(parts.digits)),)
+            if not parts.exponent:
+                return Box(pieces)
+            power = TextPiece(rf" \cdot 10^{{{parts.exponent}}}", BINARY + 10 + SCRIPT * 20)
+            return Box((*pieces, power), Level.POWER)
+        numerator = digits(node.value.numerator)
         if node.value.denominator == 1:
             return Box(numerator)
-        return self._fraction(Box(numerator), Box(_digits(node.value.denominator)))
+        return self._fraction(Box(numerator), Box(digits(node.value.denominator)))
 
     def name(self, node: Name) -> Box:
         shown = self.names.name(node.name, node.primes)
@@ -236,19 +240,19 @@ class LatexPrinter(FractionPrinter[Box]):
                 inner = self._raised(operand)
                 return Box((TextPiece("-", 8), *inner.pieces))
             case Number(value=value, decimal=False) if value.denominator != 1:
-                return Box((*_digits(value.numerator), _SLASH, *_digits(value.denominator)))
+                return Box((*digits(value.numerator), _SLASH, *digits(value.denominator)))
             case Quotient(
                 numerator=Number(value=a, decimal=False),
                 denominator=Number(value=b, decimal=False),
             ):
                 if a.denominator == b.denominator == 1:
-                    return Box((*_digits(a.numerator), _SLASH, *_digits(b.numerator)))
+                    return Box((*digits(a.numerator), _SLASH, *digits(b.numerator)))
         return self.show(node)
 
     def call(self, node: Call) -> Box:
         if node.function == "sqrt":
             content = self.show(node.arguments[0])
-            parted = _parted_root(node.arguments[0]) if content.width > WIDEST else None
+            parted = parted_root(node.arguments[0]) if content.width > WIDEST else None
             return self._root(content) if parted is None else self.show(parted)
         if node.function == "abs":
             content = self.show(node.arguments[0])
@@ -333,22 +337,6 @@ class LatexPrinter(FractionPrinter[Box]):
         return self.bracketed(Box(tuple(pieces), height=height))
 
 
-def _parted_root(node: Expression) -> Product | None:
-    """sqrt(m/2) (E - V)^(-1/2) for sqrt(m/(2 (E - V))), which is too wide; None of others."""
-    if not isinstance(node, Quotient) or any(
-        isinstance(p, (Sum, Negative)) for p in walk(node.numerator)
-    ):
-        return None
-    factors = factors_of(node.denominator)
-    wide = [factor for factor in factors if isinstance(factor, Sum)]
-    if len(wide) != 1:
-        return None
-    rest = [factor for factor in factors if factor is not wide[0]]
-    half = Negative(Quotient(ONE, Number(Fraction(2))))
-    before = Call("sqrt", (quotient_of([node.numerator], rest),))
-    return Product((before, Power(wide[0], half)))
-
-
 def _enclosed(content: Box, left: str, right: str, after: str = "") -> Layout:
     size = min(content.height, len(_SIZES) - 1)
     width = _BRACKET_WIDTHS[size]
@@ -386,20 +374,3 @@ def _between(before: Box, after: Expression, shown: Box) -> TextPiece:
 
 def _is_function(box: Box) -> bool:
     return box.pieces[0].text in _FUNCTIONS.values()
-
-
-def _decimal(parts: DecimalParts) -> Box:
-    digits = TextPiece(parts.digits, text_width(parts.digits))
-    if not parts.exponent:
-        return Box((digits,))
-    power = TextPiece(rf" \cdot 10^{{{parts.exponent}}}", BINARY + 10 + SCRIPT * 20)
-    return Box((digits, power), Level.POWER)
-
-
-def _digits(value: int) -> Layout:
-    first, *others = digit_groups(value)
-    pieces = [TextPiece(first, text_width(first))]
-    for group in others:
-        size = text_width(group)
-        pieces.append(TextPiece(group, size, 0, DIGITS, group, size, tail=r" \backslash"))
-    return tuple(pieces)

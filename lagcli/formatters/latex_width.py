@@ -5,6 +5,9 @@ It errs on the wide side: a line that is broken too early is only a little short
 
 from __future__ import annotations
 
+from lagcli.formatters.layout import DIGITS, Layout, TextPiece
+from lagcli.formatters.numbers import digit_groups
+
 #: The text width of the article class, in points.
 TEXT_WIDTH = 345.0
 #: A formula in a subscript or an exponent is so much smaller (cmmi7 is broad for its size).
@@ -30,3 +33,13 @@ _OTHER = 8.5
 def text_width(text: str) -> float:
     """Estimate the width of letters and digits; one beyond ASCII may need a longer stand-in."""
     return sum(_WIDTHS.get(c, _OTHER if c.isascii() else 20.0) for c in text)
+
+
+def digits(value: int) -> Layout:
+    """The digits of a whole number in groups, between which a line may end."""
+    first, *others = digit_groups(value)
+    pieces = [TextPiece(first, text_width(first))]
+    for group in others:
+        size = text_width(group)
+        pieces.append(TextPiece(group, size, 0, DIGITS, group, size, tail=r" \backslash"))
+    return tuple(pieces)

@@ -12,10 +12,12 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 from copy import copy
 from enum import IntEnum
+from fractions import Fraction
 from functools import cached_property
 from typing import Generic, Self, TypeVar
 
 from lagcli.expression import (
+    ONE,
     Call,
     Diff,
     Expression,
@@ -31,6 +33,7 @@ from lagcli.expression import (
     Sum,
     factors_of,
     product_of,
+    quotient_of,
     walk,
 )
 
@@ -259,3 +262,19 @@ def begins_with_number(node: Expression) -> bool:
     while isinstance(node, (Power, Quotient)):
         node = node.base if isinstance(node, Power) else node.numerator
     return isinstance(node, Number)
+
+
+def parted_root(node: Expression) -> Product | None:
+    """sqrt(m/2) (E - V)^(-1/2) for sqrt(m/(2 (E - V))), which is too wide; None of others."""
+    if not isinstance(node, Quotient) or any(
+        isinstance(p, (Sum, Negative)) for p in walk(node.numerator)
+    ):
+        return None
+    factors = factors_of(node.denominator)
+    wide = [factor for factor in factors if isinstance(factor, Sum)]
+    if len(wide) != 1:
+        return None
+    rest = [factor for factor in factors if factor is not wide[0]]
+    half = Negative(Quotient(ONE, Number(Fraction(2))))
+    before = Call("sqrt", (quotient_of([node.numerator], rest),))
+    return Product((before, Power(wide[0], half)))

@@ -145,15 +145,14 @@ class Ordering:
         """Accelerations, a number, falling degree in the velocities, then by coordinate.
 
         So 1 + x², and x² + R² θ² + l²: coordinates in the order of the file, parameters alone
-        at the end, and before functions: M + m cos θ.
+        at the end, and before functions: M + m cos θ; x'' before x' (y' x'' − x' y'').
         """
         accelerations, velocities = _degrees(node)
         variables = tuple(sorted(self._variables(node))) or (len(self._index),)
-        number = _is_number(node)
-        letters = _flat(self._letters(node))
+        number, letters = _is_number(node), _flat(self._letters(node))
         timed = any(part == Name("t") for part in _factor_names(node))
         later = variables == (len(self._index),) and (timed or _has_function(node))
-        fast = velocities if accelerations else -velocities  # x'' + y' (x' y'' - y' x'')/c²
+        fast = velocities if accelerations else -velocities
         return (-accelerations, not number, fast, variables, later, letters)
 
     def _variables(self, node: Expression) -> Iterator[int]:

@@ -9,13 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from fractions import Fraction
 from itertools import chain, combinations
-from math import gcd, isqrt, lcm
-from typing import TypeAlias
+from math import isqrt, lcm
 
 from flint import Ordering, fmpz_mpoly_ctx
 
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.shaping.atoms import Atoms, Coefficient, Exponent, Term, Terms, exact, multiply
+from lagcli.algebra.shaping.kernels import Integers, common_brackets, content
 from lagcli.algebra.shaping.plan import PlannedProduct, PlannedSum, product, total
 
 _MAX_FACTORED = 400  # terms
@@ -27,9 +27,6 @@ _MAX_KERNEL = 60
 _FORM = 1.25  # times as long a quadratic form in the momenta may be, its terms in order
 _RATES = 1  # operations that a sum may have more, its terms collected by velocities
 _EFFORT = 400  # splits that are tried in all; then the most promising one only
-
-
-Integers: TypeAlias = dict[Term, int]
 
 
 class Grouper:
@@ -100,7 +97,7 @@ class Grouper:
         if len(terms) == 1:
             ((term, coefficient),) = terms.items()
             return product(self.atoms, coefficient, list(term))
-        common, number, inner = _content(terms, spread)
+        common, number, inner = content(terms, spread)
         if common or number != 1:
             return self._times(number, common, inner, spread)
         if len(terms) >= 3:
@@ -185,7 +182,7 @@ class Grouper:
             if without:
                 halves.append((with_atom, without))
         if kernels:
-            splits.extend(_kernels(halves))
+            splits.extend(common_brackets(halves))
         self._effort -= len(halves[:width])
         return splits + [half for half in halves[:width] if half not in splits]
 
@@ -264,35 +261,6 @@ class Grouper:
         return product(self.atoms, number, parts)
 
 
-def _kernels(halves: list[tuple[Integers, Integers]]) -> list[tuple[Integers, Integers]]:
-    """a*K and every b*K among the other terms, apart from the rest: (a + b)*K + rest.
-
-    The one that saves most; none where no K occurs twice.
-    """
-    best: list[tuple[Integers, Integers]] = []
-    most = 0
-    for some, others in halves:
-        size = len(some)
-        if size < 2 or (size + len(others)) // size * (size - 1) <= most + size - 1:
-            continue
-        _, _, kernel = _content(some, spread=False)
-        first, *_ = kernel
-        inverse = tuple((atom, -exponent) for atom, exponent in first)
-        left, taken = dict(others), dict(some)
-        for term, value in others.items():
-            if value % kernel[first] or term not in left:
-                continue
-            factor, number = multiply(term, inverse), value // kernel[first]
-            if all(left.get(multiply(factor, t)) == number * c for t, c in kernel.items()):
-                for each in kernel:
-                    whole = multiply(factor, each)
-                    taken[whole] = left.pop(whole)
-        saved = (len(taken) // size - 1) * (size - 1)
-        if left and saved > most:
-            best, most = [(taken, left)], saved
-    return best
-
-
 def with_squares(factors: list[tuple[Poly, int]]) -> list[tuple[Poly, int]]:
     """(c - v)(c + v) as c² - v²."""
     left = [(factor, int(exponent)) for factor, exponent in factors]
@@ -303,32 +271,3 @@ def with_squares(factors: list[tuple[Poly, int]]) -> list[tuple[Poly, int]]:
                 left[i], left[j] = (one * other, exponent), (one, 0)
                 break
     return [(factor, exponent) for factor, exponent in left if exponent]
-
-
-def _content(terms: Integers, spread: bool) -> tuple[Term, int, Integers]:
-    """A common product of atoms, a common number, and what is left of the terms."""
-    shared: dict[int, list[Exponent]] = {}
-    for term in terms:
-        for atom, exponent in term:
-            if atom in shared:
-                shared[atom].append(exponent)
-            else:
-                shared[atom] = [exponent]
-    common: list[tuple[int, Exponent]] = []
-    for atom, exponents in shared.items():
-        everywhere = len(exponents) == len(terms)
-        low = min(exponents)
-        if low > 0:
-            if everywhere:
-                common.append((atom, low))
-        elif not spread:
-            common.append((atom, low))
-        elif everywhere and max(exponents) < 0:
-            common.append((atom, max(exponents)))
-    number = gcd(*terms.values())
-    if not common and number == 1:
-        return (), 1, terms
-    common.sort()
-    inverse = tuple((atom, -exponent) for atom, exponent in common)
-    inner = {multiply(term, inverse): value // number for term, value in terms.items()}
-    return tuple(common), number, inner
