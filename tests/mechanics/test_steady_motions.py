@@ -97,6 +97,29 @@ L: (x'^2 + y'^2)/2 + w*(x*y' - y*x') - k*(x^2 + y^2)/2
     assert found == {"(w + sqrt(k + w^2))^2", "(sqrt(k + w^2) - w)^2"}
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(2))
+def test_a_field_on_a_turntable_that_turns_freely(seed):
+    """At the axis m^2 s^2 - (m K1 + m K2 + 4 w^2) s + K1 K2 = 0 for s = omega^2, at any rate."""
+    a, b, c = [(2, 3, 5), (3, 5, 1)][seed]
+    found = motions(f"""
+coordinates: [x, y, phi]
+parameters: {{m: POSITIVE, k: POSITIVE, w: POSITIVE}}
+L: "m*(x'^2 + y'^2)/2 + m*(1 + x^2 + {a}*y^2)*phi'^2/2 + w*(x*y' - y*x') - k*({b}*x^2 + {c}*y^2)/2"
+""")
+    [axis] = [each for each in found if {str(q): to_grammar(x) for q, x in each.at.items()}
+              == {"x": "0", "y": "0"}]  # fmt: skip
+    m, k, w, rate = mpmath.mpf(13) / 11, mpmath.mpf(17) / 7, mpmath.mpf(5) / 9, mpmath.mpf(2) / 5
+    one, other = m * (b * k / m - rate**2), m * (c * k / m - a * rate**2)
+    values = {"m": m, "k": k, "w": w, "phi": rate}
+    for square in axis.frequencies_squared:
+        expression = normal(square)
+        s = mpmath.mpf(expression.subs({x: values[x.name] for x in expression.free_symbols}))
+        residue = m**2 * s**2 - (m * one + m * other + 4 * w**2) * s + one * other
+        assert abs(residue) < 1e-10
+    assert len(axis.frequencies_squared) == 2
+
+
 def test_a_saddle_with_one_falling_direction_is_never_held():
     """det K < 0: gyroscopic terms cannot help (Chetaev, chapter V)."""
     [found] = motions("""

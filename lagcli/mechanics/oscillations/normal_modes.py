@@ -174,14 +174,17 @@ def _displacement(linear: Linearization, vector: Sequence[Expr]) -> tuple[Expr, 
 
 
 def choices(linear: Linearization) -> list[dict[Symbol, mpf]]:
-    """Values of parameters (and free coordinates) at which the equilibrium is there.
+    """Values of parameters (and free coordinates and rates) at which the equilibrium is there.
 
     Raises
     ------
     ZeroDivisionError
         When none were found.
     """
-    free = {q: mpf(3 + k) / 7 for k, q in enumerate(linear.system.q)}
+    entries = (entry for matrix in (linear.M, linear.K) for row in matrix for entry in row)
+    rates = {s for entry in entries for s in entry.free_symbols} - {*linear.system.q}
+    unknown = (*linear.system.q, *sorted(rates, key=str))  # and parameters, chosen below
+    free = {q: mpf(3 + k) / 7 for k, q in enumerate(unknown)}
     known = linear.point.family
     real = [] if known is None else known.radicands
     positive = Evaluator([*linear.point.positive, *real], _DIGITS)
