@@ -93,7 +93,8 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
             return str(advice.format(word=word))
     start = re.fullmatch(r"(q|r|x|y|z|theta|phi)_?0", word)
     if start and "initial" in known:
-        return f"write initial: {{{start[1]}: {value.strip()}}}"
+        value = re.sub(r"([\d.]+)\s*°", r"\1*pi/180", value.strip())
+        return f"write initial: {{{start[1]}: {value}}}"
     if word in {"initial", "start", "init"} and "symbol" in known and "value" not in known:
         return "a state stands under initial, as in initial: {x: 1}"
     if "accelerations" in known and word.endswith("''"):
@@ -130,8 +131,12 @@ def colon_advice(line: str) -> str:
         return "write key: value, without a table"
     if "''" in line:
         return DERIVED
+    if found and found[1] not in habits()["keys"] and (unit := unit_behind(found[2])):
+        number = found[2].partition(unit)[0].strip(" [(")
+        return f"write parameters: {{{found[1]}: {{value: {number}, unit: {unit}}}}}"
     if found:
-        return f"write {found[1]}: {found[2].strip()}"
+        value = re.sub(r"^\{([^:{}]*)\}$", r"[\1]", found[2].strip())
+        return f"write {found[1]}: {value}"
     if re.search(r"[\w)][*/^+-]", line):
         return f"write L: {line.strip()}"
     return f"write {line.strip() or 'key'}: value"
@@ -178,7 +183,7 @@ def unit_behind(text: str) -> str:
 
 def unit_at_end(text: str) -> str:
     """The unit in `k*x^2/2 J`, with a blank before it; nothing where there is none."""
-    found = re.search(r"[\w)']\s+([^\W\d][^()]*)$", text.strip())
+    found = re.search(r"[\w)']\s+([^\W\d][^()']*)$", text.strip())
     return found[1] if found and unit_behind(f"1 {found[1]}") == found[1] else ""
 
 

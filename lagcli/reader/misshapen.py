@@ -9,6 +9,11 @@ from lagcli.problem_data import Assumption
 from lagcli.reader.habits import is_constant, unit_behind
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 
+#: What is found without a question.
+_FOUND = frozenset(
+    "frequency frequencies period equilibrium equilibria modes energy momentum charges".split()
+)
+
 
 def as_list(written: str) -> str:
     """`[x, y]` for `x, y` and for `(x, y)`."""
@@ -70,6 +75,8 @@ def as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
         return "write {unit: rad}"
     if isinstance(node, Scalar) and names[0] == "unit" and "value" not in names:
         return f"write {{description: {written}}}"
+    if isinstance(node, Scalar) and names[0] == "where" and written in _FOUND:
+        return "leave it out: equilibria, frequencies and charges are found"
     if isinstance(node, Scalar) and names[0] == "where":
         return f"write {{value: {written or '…'}, in_terms_of: [x]}}"
     if isinstance(node, Sequence) and names[0] == "until" and node.items:
@@ -78,6 +85,10 @@ def as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
         return f"write {{position: [{written[1:-1]}]}}"
     if (words := written.split(None, 1)) and words[0] in names and words[1:]:
         return f"write {{{words[0]}: {words[1]}}}"
+    if "accelerations" in names and (known := re.fullmatch(r"(\w+)''\s*=\s*(.+)", written)):
+        return f"write {{accelerations: {{{known[1]}: {known[2]}}}}}"
+    if names[0] == "until" and (known := re.match(r"(\d[\d.]*)\s*(?:s|sec|seconds?)\b", written)):
+        return f"write {{until: {known[1]}}}"
     fits = {"until": Scalar, "position": Sequence}.get(names[0])
     if fits and isinstance(node, fits) and written:
         return f"write {{{names[0]}: {written}}}"

@@ -79,6 +79,8 @@ def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name
             hint = f"write {plain}"
         if re.search(r"[=→>]", key.label):
             hint = f"write {name_meant(key.label)}"
+        if "rest" in key.label:
+            hint = "leave it out: a velocity that is not given is 0"
         if letters == "t":
             hint = "a motion begins at t = 0: leave it out"
         sections.error(f"'{key.label}' in initial is not a coordinate", key.span, hint)

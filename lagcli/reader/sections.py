@@ -97,7 +97,7 @@ class Sections:
         if isinstance(node, Mapping):
             yield from node.entries
         else:
-            if isinstance(node, Scalar) and node.value.casefold() in {"none", "null", "no"}:
+            if isinstance(node, Scalar) and node.value.casefold() in {"none", "null", *YES_OR_NO}:
                 hint = "leave out the key"
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
 

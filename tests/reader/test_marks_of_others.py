@@ -231,3 +231,25 @@ def test_paper_mathematica_modelica_and_word(written, hint):
 def test_sympy_and_placeholders(written, hint):
     [only] = messages(written)
     assert hint in only
+
+
+@pytest.mark.parametrize(
+    ("written", "hint"),
+    [
+        (text(F="{x: -k*x}"), "the key is forces"),
+        (text(**{"generalised-forces": "{x: -k*x}"}), "the key is forces"),
+        (text(V=None, potentials="k*x^2"), "the key is V"),
+        (text(theta0="30°"), "write initial: {theta: 30*pi/180}"),
+        (text(initial="{x: 1, at rest}"), "a velocity that is not given is 0"),
+        (text() + "l = 9.81 m\n", "write parameters: {l: {value: 9.81, unit: m}}"),
+        ("coordinates = {x, y}\n", "write coordinates: [x, y]"),
+        (text(T="½ m x'²"), "(1/2)*m"),
+        (text(symmetries="true"), "leave out the key"),
+        (text(find="{omega: frequency}"), "frequencies and charges are found"),
+        (text(expect="x'' = -k*x/m"), "write {accelerations: {x: -k*x/m}}"),
+        (text(simulation="10 seconds with accuracy 1e-9"), "write {until: 10}"),
+    ],
+)
+def test_words_for_keys_and_values(written, hint):
+    [only] = messages(written)
+    assert hint in only
