@@ -171,3 +171,15 @@ def test_under_velocity_constraints_conditions_of_rest_are_called_so():
     section, _ = steady_motions(derive(text))
     assert section.motions is None
     assert section.resting
+
+
+@pytest.mark.parametrize("V", ["1/(x - y)^2", "exp(x - y)"])
+def test_what_repels_does_not_drift(V):
+    """Nothing balances: the equations contain every coordinate, and none may grow evenly."""
+    section, _ = steady_motions(derive(f"{{coordinates: [x, y], T: (x'^2 + y'^2)/2, V: {V}}}"))
+    assert section.motions == ()
+
+
+def test_two_parameters_may_vanish_together():
+    text = "{coordinates: [x, y], parameters: {A: {}, B: {}}, T: (x'^2 + y'^2)/2, V: A*x + B*y}"
+    assert len(equilibria(derive(text).dynamics).unless or ()) == 2

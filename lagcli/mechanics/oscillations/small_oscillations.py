@@ -61,11 +61,12 @@ _NO_REAL_SQUARE = "no root ω² of the characteristic polynomial is real"
 
 def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     """The states of rest with their stability."""
-    oscillations, order = SmallOscillations(dynamics), dynamics.system.order
-    rest = oscillations.rest
+    oscillations = SmallOscillations(dynamics)
+    rest, order = oscillations.rest, dynamics.system.order
     if (places := oscillations.places) is None:
         return EquilibriaSection(equilibria=None, reason=rest.reason)
-    unless = rest.unless if len(oscillations.held) == 1 else None  # closed contacts hold some
+    several = [each.rest.unless for each in oscillations.held]  # contacts may be closed
+    unless = several[0] if len(several) == 1 else None if any(x != () for x in several) else ()
     open_ = () if oscillations.complete else rest.conditions
     return EquilibriaSection(
         equilibria=tuple(map(oscillations.equilibrium, places)),

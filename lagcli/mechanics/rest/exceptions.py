@@ -65,7 +65,8 @@ def _factors_without(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
         deciding = [_perhaps_zero(e, unknowns) for e in open_]
         found = tuple({sympy.Mul(*each): None for each in deciding}) if all(deciding) else ()
         # sin(a) and cos(a) do not vanish together
-        return () if sign(simplify(sympy.Add(*(e**2 for e in found)))) == 1 else found
+        squares = simplify(sympy.Add(*(e**2 for e in found)))
+        return () if squares.is_number and squares != 0 else found
     factors = [_perhaps_zero(e, unknowns) for e in conditions]
     common = [f for f in factors[0] if all(f in other for other in factors)] if factors else []
     return (sympy.Mul(*common),) if common else ()

@@ -58,7 +58,7 @@ def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:
     section, missing = _SteadyStatement(SteadyMotions(routh)).section()
     if section.motions == () and not derivation.problem.contacts:
         drifting = RollingMotions(derivation)  # along what the equations of motion do not contain
-        if drifting.motions:
+        if drifting.motions and drifting.turning:
             return rolling_section(drifting), []
     return section, missing
 
