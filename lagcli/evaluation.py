@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import reduce
 from operator import add, mul
 from random import Random
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, TypeVar
 
 from lagcli.expression import FUNCTIONS as GRAMMAR
 from lagcli.expression import (
@@ -25,6 +25,8 @@ from lagcli.expression import (
 )
 
 Constant: TypeAlias = Fraction | float
+
+Real = TypeVar("Real", bound=Any)
 
 #: The functions of the grammar, of doubles, with "power" and "pi" (of no arguments).
 FUNCTIONS: dict[str, Callable[..., float]] = {
@@ -150,3 +152,18 @@ def sign_at_random(node: Expression, positive: Iterable[str]) -> int:
         if len(signs) > 1:
             return 0
     return int(signs.pop())
+
+
+def bisected(
+    holds: Callable[[Real], bool], inside: Real, outside: Real, halvings: int
+) -> tuple[Real, Real]:
+    """The two numbers brought together about the place between them where `holds` ends.
+
+    Either of them may be the larger one; what holds at the first does not at the second.
+    """
+    for _ in range(halvings):
+        middle = (inside + outside) / 2
+        if middle in {inside, outside}:
+            break
+        inside, outside = (middle, outside) if holds(middle) else (inside, middle)
+    return inside, outside

@@ -10,10 +10,10 @@ Halton, "On the efficiency of certain quasi-random sequences of points", Numer. 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 
+from lagcli.evaluation import bisected
 from lagcli.expression import Name, signed
 from lagcli.graph.nodes import Node
 from lagcli.numerics.equations.arithmetic import Doubles
@@ -170,11 +170,6 @@ def _speed(
         low, high = 0.0, 1e-6
         while excess(high) < 0 and high < 1e12:
             low, high = high, 2 * high
-        for _ in range(_ROUNDS):
-            middle = (low + high) / 2
-            if middle in {low, high} or not math.isfinite(middle):
-                break
-            low, high = (middle, high) if excess(middle) < 0 else (low, middle)
-        return high
+        return bisected(lambda v: excess(v) < 0, low, high, _ROUNDS)[1]
 
     return through

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from functools import cached_property
 
+from lagcli.evaluation import bisected
 from lagcli.pictures.contours import grid, roots
 from lagcli.pictures.drawing import CannotDraw, MarkRole
 from lagcli.pictures.labels import Labels
@@ -155,7 +156,4 @@ class Window:
         while energy(x, high) < goal and high < 1e12:
             high *= 2
         low = high / 2 if high > 1e-6 else 0.0
-        for _ in range(40):
-            middle = (low + high) / 2
-            low, high = (middle, high) if energy(x, middle) < goal else (low, middle)
-        return high
+        return bisected(lambda v: energy(x, v) < goal, low, high, 40)[1]

@@ -18,6 +18,7 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.numeric import Evaluator
+from lagcli.evaluation import bisected
 from lagcli.record import record
 
 DIGITS = 30
@@ -135,13 +136,11 @@ class Reach:
 
     def _refined(self, direction: int, inside: mpf, outside: mpf) -> str:
         """What fails first between two distances, by bisection."""
-        for _ in range(40):
-            middle = (inside + outside) / 2
-            if self._state(self.start + direction * middle) == FREE:
-                inside = middle
-            else:
-                outside = middle
-        return self._state(self.start + direction * outside)
+
+        def free(distance: mpf) -> bool:
+            return self._state(self.start + direction * distance) == FREE
+
+        return self._state(self.start + direction * bisected(free, inside, outside, 40)[1])
 
 
 def real_value(expression: Expr, values: Mapping[Symbol, mpf], digits: int = DIGITS) -> mpf | None:

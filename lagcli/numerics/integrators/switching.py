@@ -14,6 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from lagcli.evaluation import bisected
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.integrators.steps import Inside, Tolerance
 
@@ -87,15 +88,7 @@ class Kinks:
             before = x
         else:
             return None
-        good, bad = before, x
-        for _ in range(_HALVINGS):
-            middle = (good + bad) / 2
-            if not good < middle < bad:
-                break
-            if wrong(middle):
-                bad = middle
-            else:
-                good = middle
+        _, bad = bisected(lambda place: not wrong(place), before, x, _HALVINGS)
         self.reached = wrong(bad)[0]
         return later(self._tolerance, t + bad * h, t + h) - t
 

@@ -15,6 +15,7 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.numeric import Evaluator
+from lagcli.evaluation import bisected
 
 _DIGITS = 30
 _LINES = 24
@@ -69,9 +70,7 @@ def _along(expressions: Sequence[Expr], ends: Sequence[dict[Symbol, mpf]]) -> Ho
 
 def _bound(holds: Holds, a: mpf, b: mpf) -> mpf:
     left = holds(a)
-    for _ in range(_HALVINGS):
-        middle = (a + b) / 2
-        a, b = (middle, b) if holds(middle) == left else (a, middle)
+    a, b = bisected(lambda x: holds(x) == left, a, b, _HALVINGS)
     return (a + b) / 2
 
 

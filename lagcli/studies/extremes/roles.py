@@ -9,6 +9,7 @@ from itertools import product
 
 from lagcli.dimensions.forms import minus
 from lagcli.dimensions.inference import Inference
+from lagcli.evaluation import bisected
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Call, Constant, Node, Product, Sum, Symbol, ancestry, mask_of
 from lagcli.numerics.equations.jacobian import jacobian
@@ -297,10 +298,6 @@ def _ends(scene: ExtremeScene, radicand: Node) -> tuple[Vector, float] | None:
             high *= 2
             if high > 1e30:
                 return None
-        low = 0.0
-        for _ in range(200):
-            middle = (low + high) / 2
-            low, high = (middle, high) if value(middle) > 0 else (low, middle)
+        return v, bisected(lambda factor: value(factor) > 0, 0.0, high, 200)[1]
     except (ArithmeticError, ValueError):
         return None
-    return v, high
