@@ -109,6 +109,16 @@ def test_the_double_pendulum_is_shorter_than_in_the_books() -> None:
     assert operation_count(to_expression(book, ORDER)) > 30
 
 
+@pytest.mark.parametrize("number", [1, 2, 3])
+def test_a_common_sine_stays_in_front_of_a_sum(number: int) -> None:
+    """The other angle of the double pendulum: not 2 (…) sin δ + m2 l2 θ2'² sin(2 δ) over 2."""
+    inside = (number * m1 + m2) * (l1 * du**2 + g * cos(u)) + m2 * l2 * dv**2 * cos(u - v)
+    other = sp.expand_trig(inside * sin(u - v)).expand() / (l2 * (m1 + m2 * sin(u - v) ** 2))
+    text = to_grammar(shape(other, ORDER))
+    assert "sin(2*" not in text
+    assert ")*sin(theta1 - theta2)/(l2*(m1 + " in text
+
+
 def test_no_shape_is_longer_than_what_was_given() -> None:
     for expression, _ in TEXTBOOK:
         given = operation_count(to_expression(expression, ORDER))
