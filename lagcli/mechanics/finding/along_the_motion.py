@@ -118,7 +118,7 @@ class AlongTheMotion:
         if self.work.over:
             self.why_not = "it would take too much work"
         elif not self.why_not:
-            self.why_not = self._not_determined(keep)
+            self.why_not = self._not_found(keep)
         return None
 
     def _define(self, keep: Sequence[Symbol]) -> bool:
@@ -161,10 +161,10 @@ class AlongTheMotion:
             plans += [(relations, remove) for relations, _ in plans]
         return plans
 
-    def _not_determined(self, keep: Sequence[Symbol]) -> str:
+    def _not_found(self, keep: Sequence[Symbol]) -> str:
         names = ", ".join(s.name for s in keep) or "the parameters"
         known = "constraints and conserved quantities" if self.initial else "constraints"
-        reason = f"the {known} do not determine it by {names} alone"
+        reason = f"no formula of it in {names} alone was found from the {known}"
         if self.initial is None:
             reason += "; with an `initial` state the conserved quantities could be used"
         return reason

@@ -208,7 +208,8 @@ class WhereSearch:
                 return None if found is None else self._sorted(list(found.values))
             if self.along.work.over:
                 break
-        self.along.why_not = f"constraints and conserved quantities do not determine {self.unknown}"
+        known = "the constraints and conserved quantities"
+        self.along.why_not = f"no formula of {self.unknown} was found from {known}"
         return None
 
     # -- roots --------------------------------------------------------------------------------
