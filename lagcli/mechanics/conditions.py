@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import permutations
 
 import sympy
 from sympy import Expr, S
@@ -37,6 +38,14 @@ def opposites(
     kept = _without_implied(plain, order, positive, squares=True)
     possible = [each for each, rest in kept if not _never_negative(rest, positive)]
     return tuple(dict.fromkeys(Above(each.right, each.left) for each in possible))
+
+
+def contradictory(positive: Sequence[Expr]) -> bool:
+    """Whether one of these is never positive, or two never are together: k l > F > 2 k l."""
+    if -1 in map(weak_sign, positive):
+        return True
+    plain = list(map(deciding, positive))
+    return any(_implies(u, -w) for u, w in permutations(plain, 2))
 
 
 def _with_numerators(positive: Sequence[Expr]) -> list[Expr]:

@@ -193,3 +193,16 @@ V: ({stiffness})*q^2/2 - F*q
     known = stiffness.startswith("-")
     assert place.verdict.stable is (False if known else None)
     assert bool(place.verdict.minimum) is not known
+
+
+@pytest.mark.parametrize(("pull", "number"), [("F", 1), ("2*F", 1), ("F", 3)])
+def test_a_place_whose_conditions_contradict_each_other_is_none(pull, number):
+    """A spring under tension on a line (Landau, section 21): k l > F and F > 2 k l never hold."""
+    text = f"""
+coordinates: [x]
+parameters: {{m: POSITIVE, k: POSITIVE, l: POSITIVE, F: POSITIVE}}
+T: m*x'^2/2
+V: {number}*k*(sqrt(l^2 + x^2) - l + {pull}/k)^2/2
+"""
+    assert places(text, "x") == ["0"]
+    assert found(text)[0].verdict.stable

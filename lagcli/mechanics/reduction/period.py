@@ -27,8 +27,8 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
-from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
+from lagcli.mechanics.conditions import contradictory
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom
 from lagcli.mechanics.rest.equilibria import RestPoints
@@ -141,7 +141,7 @@ class Periods:
         slopes = [at(motion.potential.diff(q, k), {q: place}) for k in range(2, ORDER + 3)]
         curvature = slopes[0]
         known = sign(curvature, point.positive)
-        never = -1 in map(weak_sign, (*point.positive, curvature))
+        never = contradictory((*point.positive, curvature))
         if known in (0, -1) or never:
             return None
         masses = [at(motion.mass.diff(q, k), {q: place}) for k in range(ORDER + 1)]

@@ -22,10 +22,11 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.place import at
-from lagcli.algebra.positivity import deciding, weak_sign
+from lagcli.algebra.positivity import deciding
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
+from lagcli.mechanics.conditions import contradictory
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_motion import Steady
 
@@ -176,7 +177,7 @@ class SteadyFamilies:
             for p, by_rate in chart.items():
                 momenta[p] = at(by_rate.xreplace({**momenta, **rates_given}), state)
             whole = {**state, **momenta}
-            if not self.routh.regular_at(state) or -1 in map(weak_sign, positive):
+            if not self.routh.regular_at(state) or contradictory(positive):
                 return []
             if not all(is_zero(at(c, whole)) is True for c in self.conditions):
                 self.complete = False
