@@ -12,7 +12,6 @@ from fractions import Fraction
 from math import gcd
 
 from lagcli.expression import (
-    ONE,
     Call,
     Expression,
     Name,
@@ -26,7 +25,7 @@ from lagcli.expression import (
     quotient_of,
     walk,
 )
-from lagcli.notation.factors import parts_of, whole_power
+from lagcli.notation.factors import parts_of, product_of_powers, whole_power
 from lagcli.notation.likeness import Key, parity, signed_key
 from lagcli.notation.ordering import Ordering
 from lagcli.rewriting import rebuilt
@@ -105,21 +104,8 @@ class NamedMomenta:
                 changed = True
         if not changed:
             return node
-        whole = self._quotient(number, powers)
+        whole = product_of_powers(number, powers, self._ordering)
         return Negative(whole) if minus else whole
-
-    def _quotient(self, number: Fraction, powers: _Powers) -> Expression:
-        """number · prod base^exponent."""
-        found: list[list[Expression]] = []
-        for sign, value in (1, abs(number.numerator)), (-1, number.denominator):
-            chosen = [(b, Fraction(sign * e)) for b, e in powers.items() if sign * e > 0]
-            shown = [
-                base if exponent == 1 else Power(base, Number(exponent))
-                for base, exponent in self._ordering.arranged(chosen)
-            ]
-            found.append([Number(Fraction(value)), *shown] if value != 1 else shown)
-        whole = quotient_of(found[0] or [ONE], found[1])
-        return Negative(whole) if number < 0 else whole
 
     def _opened(self, term: Expression) -> list[Expression]:
         """The terms of r² (a + b), of anything else the term itself."""
@@ -223,7 +209,7 @@ class NamedMomenta:
         value = Fraction(1, number**2)
         for base in [b for b in powers if isinstance(b, Number)]:
             value *= base.value ** powers.pop(base)
-        whole = self._quotient(value, powers)
+        whole = product_of_powers(value, powers, self._ordering)
         return Negative(whole) if minus else whole
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 
 from lagcli.expression import (
@@ -19,6 +20,7 @@ from lagcli.expression import (
     quotient_of,
 )
 from lagcli.notation.likeness import parity
+from lagcli.notation.ordering import Ordering
 
 _INVERSE = {"tan": "cot", "cot": "tan"}
 
@@ -132,3 +134,19 @@ def _half(node: Expression) -> Fraction | None:
             return Fraction(a, 2) if a.denominator == 1 else None
         case _:
             return None
+
+
+def product_of_powers(
+    number: Fraction, powers: Mapping[Expression, int], ordering: Ordering
+) -> Expression:
+    """number · prod base^exponent, its factors in order, as one quotient."""
+    found: list[list[Expression]] = []
+    for sign, value in (1, abs(number.numerator)), (-1, number.denominator):
+        chosen = [(b, Fraction(sign * e)) for b, e in powers.items() if sign * e > 0]
+        shown = [
+            base if exponent == 1 else Power(base, Number(exponent))
+            for base, exponent in ordering.arranged(chosen)
+        ]
+        found.append([Number(Fraction(value)), *shown] if value != 1 else shown)
+    whole = quotient_of(found[0] or [ONE], found[1])
+    return Negative(whole) if number < 0 else whole

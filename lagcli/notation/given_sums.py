@@ -24,10 +24,10 @@ from lagcli.expression import (
     Sum,
     children,
     operation_count,
-    quotient_of,
     terms_of,
     walk,
 )
+from lagcli.notation.factors import product_of_powers
 from lagcli.notation.likeness import (
     Monomial,
     Polynomial,
@@ -100,7 +100,9 @@ class GivenSums:
                 letters = letters or _letters(node)
                 if not all(letter in letters for letter, _ in scale):
                     continue
-                whole = self._times(ratio, {letters[x]: e for x, e in scale}, given)
+                powers = {letters[x]: e for x, e in scale}
+                powers[_base(given)] = 2 if isinstance(given, Power) else 1
+                whole = product_of_powers(ratio, powers, self._ordering)
                 before = sum(_cost(terms[k]) for k in used) + len(used) - 1
                 if _cost(whole) < before + _worth(given):
                     rest = [k for k in range(len(terms)) if k not in used[1:]]
@@ -109,23 +111,6 @@ class GivenSums:
                     terms, polys = [terms[k] for k in rest], [polys[k] for k in rest]
                     break
         return node if len(terms) == len(node.terms) else Sum(tuple(terms))
-
-    def _times(
-        self, ratio: Fraction, powers: dict[Expression, int], given: Expression
-    ) -> Expression:
-        """The product of a number, powers and a sum of the file or its square."""
-        found: list[list[Expression]] = []
-        for sign, number in (1, abs(ratio.numerator)), (-1, ratio.denominator):
-            chosen = [(x, Fraction(sign * e)) for x, e in powers.items() if sign * e > 0]
-            if sign > 0:
-                chosen.append((_base(given), Fraction(2 if isinstance(given, Power) else 1)))
-            shown = [
-                base if exponent == 1 else Power(base, Number(exponent))
-                for base, exponent in self._ordering.arranged(chosen)
-            ]
-            found.append([Number(Fraction(number)), *shown] if number != 1 else shown)
-        whole = quotient_of(*found)
-        return Negative(whole) if ratio < 0 else whole
 
     def _keep(self, node: Sum, value: Polynomial | None) -> None:
         if value and len(value) >= len(node.terms) and is_tidy(node):  # M + M is 2 M
