@@ -31,13 +31,20 @@ def restricting(factors: Sequence[Expr], velocities: Collection[Symbol]) -> Expr
 
 
 def sentence(
-    name: str, factors: Sequence[Expr], velocities: Collection[Symbol], *, holonomic: bool
+    name: str, factors: Sequence[Expr], velocities: Collection[Symbol], position: Expr | None
 ) -> str:
-    """What the factors of a constraint mean for the answers."""
-    if holonomic:
+    """What the factors of a constraint f = 0 on the `position`, or of another, mean."""
+    if position is not None:
         either = " or where ".join(f"{_written(f)} = 0" for f in factors)
+        flat = [f for f, power in factors_of(position) if power > 1 and f in factors]
+        there = " or ".join(f"{_written(f)} = 0" for f in flat)
+        hold = (
+            f"the answers do not hold where {there}, since its gradient vanishes there"
+            if flat
+            else "the answers hold on each"
+        )
         return (
-            f"constraint '{name}' holds where {either}: the answers hold on each; "
+            f"constraint '{name}' holds where {either}: {hold}; "
             "what is conserved on some of these only is called not conserved"
         )
     where = " or ".join(f"{_written(f)} = 0" for f in factors if free_of(f, velocities))

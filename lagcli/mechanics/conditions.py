@@ -145,8 +145,8 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
     for term in rest.expand().as_ordered_terms():
         number, monomial = term.as_independent(*term.free_symbols, as_Add=False)
         by_monomial[monomial] = by_monomial.get(monomial, S.Zero) + number
-    right = -sympy.Add(*(n * m for m, n in by_monomial.items() if n < 0))
-    left = sympy.Add(*(n * m for m, n in by_monomial.items() if n > 0))
+    right = -sympy.Add(*(n * m for m, n in by_monomial.items() if n.is_negative))
+    left = sympy.Add(*(n * m for m, n in by_monomial.items() if not n.is_negative))
     found = Above(shape(left, order), shape(right, order))
     constant, others = left.as_coeff_Add()
     if constant > 0 and others != 0:  # 1 > 27 mu (1 - mu)

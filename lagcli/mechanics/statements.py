@@ -154,8 +154,8 @@ class Statements(Stating):
         for equation in constraints.equations:
             factors = constraints.branches.get(equation.name)
             if factors is not None:
-                qdot = self.system.qdot
-                yield sentence(equation.name, factors, qdot, holonomic=equation.holonomic)
+                position = equation.f if equation.holonomic else None
+                yield sentence(equation.name, factors, self.system.qdot, position)
         states = self.dynamics.states
         for forms, elimination in states.other_surfaces:
             rank, usual = len(elimination.independent), len(self.dynamics.independent_constraints)

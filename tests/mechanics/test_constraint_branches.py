@@ -53,6 +53,14 @@ def test_what_holds_on_one_branch_only_is_not_claimed(seed):
     assert any("the answers hold on each" in each for each in warnings)
 
 
+@pytest.mark.parametrize("a", ["2", "-3", "1/2"])
+def test_where_the_gradient_of_a_constraint_vanishes_no_answer_holds(a):
+    """x² (y - a x) = 0 has the gradient 0 at x = 0: λ is 0/0 there."""
+    d = derive(FREE + f"T: m*(x'^2 + y'^2)/2\nV: k*x\nconstraints: {{c: \"x^2*y = {a}*x^3\"}}")
+    [warning, *_] = Statements(d).answers(["charges"]).warnings
+    assert "do not hold where x = 0, since its gradient vanishes" in warning
+
+
 @pytest.mark.parametrize("constraint", ["x = k", "x' = 0", "2*x - k = k^2", "x = k + t - t"])
 def test_a_momentum_that_a_constraint_alone_makes_constant_is_no_result(constraint):
     d = derive(FREE + f"T: m*(x'^2 + y'^2)/2\nconstraints: {{c: \"{constraint}\"}}")

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+from math import pi, sin
 from random import Random
 
 import pytest
 
+from lagcli.evaluation import FUNCTIONS, evaluated
 from lagcli.expression import Expression, Name, Product, opposite
 from lagcli.formatters.built_in.json import to_object
 from lagcli.formatters.options import Options
@@ -463,5 +465,26 @@ def test_conditions_that_no_parameters_satisfy(seed: int) -> None:
     assert void != section.equilibria
     wrong = replace(answers, sections={"equilibria": replace(section, equilibria=void)})
     found = verified(problem, wrong)
-    assert found.sections["equilibria"].equilibria is None
+    left = found.sections["equilibria"]
+    assert left.equilibria == tuple(e for e in section.equilibria if not e.where)
+    assert not left.complete
     assert any("no parameters were found" in each for each in found.warnings)
+
+
+@pytest.mark.parametrize("a", [2, 5])
+def test_a_sine_that_is_never_below_minus_one_hides_no_other(a: int) -> None:
+    """a k sin x = 2 k cos 2x: sin x = (-a ± sqrt(a² + 32))/8, of which - gives no angle."""
+    text = (
+        "coordinates: [x]\nparameters: {m: {assume: positive}, k: {assume: positive}, "
+        "g: {assume: positive}}\n"
+        f"T: m*x'^2/2\nV: k*({a}*cos(x) + sin(2*x)) + g*cos(x)\n"
+    )
+    problem = read_problem("sines", text.encode()).problem
+    answers = state(derive(problem), Request(sections=("equilibria",)))
+    section = verified(problem, answers).sections["equilibria"]
+    assert section.equilibria is not None
+    sine = (((a + 1) ** 2 + 32) ** 0.5 - (a + 1)) / 8
+    at = dict.fromkeys(("m", "k", "g"), 1.0) | {"pi": pi}
+    found = {round(sin(evaluated(e.at["x"], at, FUNCTIONS)), 9) for e in section.equilibria}
+    assert found == {round(sine, 9)}
+    assert [e.verdict.stable for e in section.equilibria] == [False, True]

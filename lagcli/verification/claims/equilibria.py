@@ -31,6 +31,8 @@ from lagcli.verification.examination import Examination
 _AGREE = 1e-9
 
 _WHY = "the verdict was not confirmed at random states"
+#: Of a place whose conditions no parameters satisfy: it is left out, the others stay.
+_NOWHERE = Verdict(stable=None, reason="no parameters were found that satisfy its conditions")
 
 
 def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
@@ -53,6 +55,9 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
             verdict = _stays(x, what, place, judged, zeros=zeros)
             if verdict is None:
                 return replace(section, equilibria=None, reason=not_confirmed("an equilibrium"))
+            if verdict is _NOWHERE:
+                section = replace(section, complete=False)
+                continue
             found.append(each if verdict is judged else replace(each, verdict=verdict))
         searched = section.complete and not section.at_all_times
         other = _another(x, found) if searched else ""
@@ -98,6 +103,9 @@ def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
             place = RestPlace(x, what, each.at, each.rates, each.on, each.where, section.eliminated)
             zeros = len(each.rates) * (1 if each.rolling else 2)
             verdict = _stays(x, what, place, each.verdict, zeros=zeros)
+            if verdict is _NOWHERE:
+                section = replace(section, complete=False)
+                continue
             if verdict is None or not _with_momenta(x, what, place, each):
                 return replace(section, motions=None, reason=not_confirmed("a steady motion"))
             found.append(each if verdict is each.verdict else replace(each, verdict=verdict))
@@ -148,8 +156,8 @@ def _stays(
         return None
     unknown = x.problem.functions or x.reference.rows or x.problem.contacts
     if not tried and place.where and not unknown:
-        x.refute(what, "no parameters were found that satisfy its conditions")
-        return None
+        x.refute(what, _NOWHERE.reason)
+        return _NOWHERE
     if not tried:
         x.unchecked.append(what)
     why = "" if place.eliminated else _refuted_beside_bounds(x, what, place, verdict, zeros)
