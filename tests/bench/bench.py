@@ -30,6 +30,7 @@ from tests.bench import (
     cut_rows,
     discovering,
     form,
+    guard_rows,
     library,
     long_rows,
     motion_rows,
@@ -43,7 +44,7 @@ from tests.bench.measure import ROOT, Row, show
 #: What `--only` takes; without it the first three are measured.
 PARTS = (
     "commands", "scaling", "library", "discovery", "motions", "integration", "auto", "cut", "certificate",
-    "form", "verification", "sweep",
+    "form", "verification", "sweep", "guard",
 )  # fmt: skip
 _USUAL = PARTS[:3]
 
@@ -140,6 +141,8 @@ def _measure(part: str, run: Run, arguments: argparse.Namespace) -> None:
             run.take(cut_rows.rows())
         case "form":
             run.take(form.rows(form.of_library(), listed=True))
+        case "guard":
+            run.take(guard_rows.rows(library.paths(quick), 2))
         case "sweep":
             run.take(sweep_rows.rows())
         case "certificate":
