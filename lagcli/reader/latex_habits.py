@@ -10,6 +10,11 @@ from lagcli.reader.habits import IN_FULL, group, meanings
 #: LaTeX with arguments: \frac{a}{b}, \dot{x}, \dot x, \dot\theta.
 _MACRO = re.compile(r"\\([A-Za-z]+)")
 _ARGUMENT = re.compile(r"\s*(?:\{([^{}]*)\}|(\\[A-Za-z]+|\w))")
+#: What only sets the type.
+_LAYOUT = frozenset(
+    "left right quad qquad displaystyle limits label tag nonumber bigl bigr big Big hfill mathrm "
+    "text".split()
+)
 
 
 def latex_meant(text: str) -> str:
@@ -38,25 +43,7 @@ def latex_meant(text: str) -> str:
         return "a vector is written by its components"
     if name in {"mathrm", "operatorname", "text"} and first != "x":
         return f"write {first}"
-    if name in {
-        "left",
-        "right",
-        "quad",
-        "qquad",
-        "displaystyle",
-        "limits",
-        "label",
-        "tag",
-        "nonumber",
-        "bigl",
-        "bigr",
-        "mathrm",
-        "text",
-        "big",
-        "Big",
-        "hfill",
-        "",
-    }:
+    if name in _LAYOUT:
         return f"leave out \\{name}"
     usual = meanings("functions").get(name, name)
     if usual in FUNCTIONS and arguments and not re.match(r"\s*(\\left)?\(", rest):
