@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import permutations
 
 import sympy
 from sympy import Expr, S
@@ -14,6 +13,7 @@ from lagcli.algebra.one_ratio import in_one_ratio
 from lagcli.algebra.positivity import deciding, sign_of, weak_sign, with_sines
 from lagcli.algebra.signs import sign
 from lagcli.expression import ZERO, operation_count
+from lagcli.mechanics.inequalities import shorter_sums
 from lagcli.statements.motions import Above
 
 
@@ -38,14 +38,6 @@ def opposites(
     kept = _without_implied(plain, order, positive, squares=True)
     possible = [each for each, rest in kept if not _never_negative(rest, positive)]
     return tuple(dict.fromkeys(Above(each.right, each.left) for each in possible))
-
-
-def contradictory(positive: Sequence[Expr]) -> bool:
-    """Whether one of these is never positive, or two never are together: k l > F > 2 k l."""
-    if -1 in map(weak_sign, positive):
-        return True
-    plain = list(map(deciding, positive))
-    return any(_implies(u, -w) for u, w in permutations(plain, 2))
 
 
 def _with_numerators(positive: Sequence[Expr]) -> list[Expr]:
@@ -124,10 +116,7 @@ def _implies(given: Expr, expression: Expr) -> bool:
     if _is_square(expression) and expression.base.is_Symbol:  # given fails at x = 0
         at_zero = given.xreplace({expression.base: S.Zero})
         return at_zero == 0 or weak_sign(at_zero) == -1
-    own, other = (e.expand().as_coefficients_dict() for e in (expression, given))
-    ratios = {own[term] / other[term] for term in own if term in other}
-    rests = (simplify(expression - ratio * given) for ratio in ratios if ratio.is_positive)
-    return any(rest == 0 or weak_sign(rest) == 1 for rest in rests)
+    return any(rest == 0 or weak_sign(rest) == 1 for rest in shorter_sums(expression, -given))
 
 
 def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ()) -> Above | None:

@@ -11,11 +11,11 @@ from lagcli.algebra import is_zero
 from lagcli.algebra.signs import sign
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.conditions import conditions
+from lagcli.mechanics.inequalities import one_is_negative
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.rest.exceptions import without_unknowns
-from lagcli.mechanics.stability.inequalities import one_is_negative
 from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.pipeline import explain
 from lagcli.statements.wording import enumerated

@@ -26,10 +26,10 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
+from lagcli.mechanics.inequalities import contradictory
 from lagcli.mechanics.parameter_values import DIGITS, admissible_values
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_contacts import SteadyContacts
-from lagcli.mechanics.stability.inequalities import contradictory
 from lagcli.notation.given_formulas import names_of
 from lagcli.notation.naming import free
 

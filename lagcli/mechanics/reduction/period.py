@@ -28,7 +28,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
-from lagcli.mechanics.conditions import contradictory
+from lagcli.mechanics.inequalities import never_together
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom
 from lagcli.mechanics.rest.equilibria import RestPoints
@@ -141,7 +141,7 @@ class Periods:
         slopes = [at(motion.potential.diff(q, k), {q: place}) for k in range(2, ORDER + 3)]
         curvature = slopes[0]
         known = sign(curvature, point.positive)
-        never = contradictory((*point.positive, curvature))
+        never = never_together((*point.positive, curvature))
         if known in (0, -1) or never:
             return None
         masses = [at(motion.mass.diff(q, k), {q: place}) for k in range(ORDER + 1)]

@@ -26,7 +26,7 @@ from lagcli.algebra.positivity import deciding
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
-from lagcli.mechanics.conditions import contradictory
+from lagcli.mechanics.inequalities import never_together
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_motion import Steady
 
@@ -177,7 +177,7 @@ class SteadyFamilies:
             for p, by_rate in chart.items():
                 momenta[p] = at(by_rate.xreplace({**momenta, **rates_given}), state)
             whole = {**state, **momenta}
-            if not self.routh.regular_at(state) or contradictory(positive):
+            if not self.routh.regular_at(state) or never_together(positive):
                 return []
             if not all(is_zero(at(c, whole)) is True for c in self.conditions):
                 self.complete = False

@@ -17,8 +17,8 @@ from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, SystemSolution, divisors, solve_system
-from lagcli.mechanics.conditions import contradictory
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.inequalities import never_together
 from lagcli.mechanics.rest.family import Family, exists_where, family
 from lagcli.mechanics.rest.kinks import at_cusps, at_kinks
 from lagcli.mechanics.rest.rest_conditions import RestConditions, RestPoint
@@ -122,7 +122,7 @@ class RestPoints(RestConditions):
             if any(e.has(S.NaN, S.ComplexInfinity) for e in each.positive):
                 lost = True  # a force has no value there, as that of asin(sin(x)) at pi/2
                 continue
-            if contradictory(each.positive):
+            if never_together(each.positive):
                 continue
             solution = replace(each, values=self._to_the_last_digit(each.values))
             point = self._point(solution)

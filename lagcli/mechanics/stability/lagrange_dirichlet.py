@@ -20,12 +20,12 @@ from collections.abc import Sequence
 from sympy import Expr, count_ops
 
 from lagcli.algebra.positivity import sign_of, weak_sign
+from lagcli.mechanics.inequalities import contradictory
 from lagcli.mechanics.stability.higher import (
     order_at_critical_values,
     order_of_minimum,
     potential_derivatives,
 )
-from lagcli.mechanics.stability.inequalities import contradictory
 from lagcli.mechanics.stability.lowest_form import by_lowest_form
 from lagcli.mechanics.stability.lyapunov import FALLING
 from lagcli.mechanics.stability.near import Hypotheses, Near

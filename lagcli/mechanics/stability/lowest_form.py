@@ -81,8 +81,8 @@ def _negative_somewhere(near: Near, form: _Terms) -> bool:
     """Whether a coefficient says so: of an odd form any, of any other one of a pure power."""
     odd = all(sum(e) % 2 for e in form)
     decisive = {1, -1} if odd else {-1}
-    chosen = [c for e, c in form.items() if odd or sum(1 for k in e if k) == 1]
-    odd_powers = [c for e, c in form.items() if sum(1 for k in e if k) == 1 and sum(e) % 2]
+    chosen = [c for e, c in form.items() if odd or _is_pure(e)]
+    odd_powers = [c for e, c in form.items() if _is_pure(e) and sum(e) % 2]
     return not decisive.isdisjoint(near.signs(chosen)) or not {1, -1}.isdisjoint(
         near.signs(odd_powers)
     )
@@ -111,6 +111,11 @@ def _terms(near: Near) -> _Terms:
     return found
 
 
+def _is_pure(exponents: Sequence[int]) -> bool:
+    """Whether it is a power of one displacement."""
+    return sum(map(bool, exponents)) == 1
+
+
 def _first_powers(terms: _Terms, n: int) -> list[int] | None:
     pure = [[sum(e) for e in terms if e[i] == sum(e)] for i in range(n)]
     return [min(powers) for powers in pure] if all(pure) else None
@@ -126,8 +131,8 @@ def _definite(lowest: _Terms, first: Sequence[int]) -> list[Expr] | None:
     Of squares of the u_i^(d_i/2) it is enough that no coefficient is negative; a form
     a x² + b x y + c y² of two of them, x and y of one sign where both are even powers.
     """
-    pure = [c for e, c in lowest.items() if sum(1 for k in e if k) == 1]
-    mixed = {e: c for e, c in lowest.items() if sum(1 for k in e if k) > 1}
+    pure = [c for e, c in lowest.items() if _is_pure(e)]
+    mixed = {e: c for e, c in lowest.items() if not _is_pure(e)}
     if all(k % 2 == 0 for e in mixed for k in e) and all(
         sign_of(c, ()) == 1 for c in mixed.values()
     ):
@@ -136,11 +141,6 @@ def _definite(lowest: _Terms, first: Sequence[int]) -> list[Expr] | None:
     if set(mixed) != {half} or any(d % 2 for d in first):
         return None
     a, b = (lowest[tuple(d if i == j else 0 for j, d in enumerate(first))] for i in range(2))
-    product = sympy.sqrt(a * b)
-    bound = simplify(2 * product)
-    one = [simplify(bound + mixed[half])]
-    return [
-        *pure,
-        *one,
-        *([] if all(k % 2 == 0 for k in half) else [simplify(bound - mixed[half])]),
-    ]
+    bound = 2 * sympy.sqrt(a * b)
+    signs = (1,) if all(k % 2 == 0 for k in half) else (1, -1)
+    return [*pure, *(simplify(bound + side * mixed[half]) for side in signs)]

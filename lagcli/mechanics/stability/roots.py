@@ -18,8 +18,8 @@ from sympy import Expr
 
 from lagcli.algebra import simplify
 from lagcli.algebra.positivity import sign_of, weak_sign
+from lagcli.mechanics.inequalities import contradictory, one_is_negative
 from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
-from lagcli.mechanics.stability.inequalities import contradictory, one_is_negative
 from lagcli.mechanics.stability.lyapunov import GROWING, growing
 from lagcli.mechanics.stability.near import Near
 from lagcli.mechanics.stability.spectrum import conditions_of

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import combinations, permutations
 
 from mpmath import mpf
@@ -12,7 +12,7 @@ from sympy.core.function import AppliedUndef
 
 from lagcli.algebra import simplify
 from lagcli.algebra.numeric import Evaluator
-from lagcli.algebra.positivity import deciding, sign_of
+from lagcli.algebra.positivity import deciding, sign_of, weak_sign
 
 _DRAWS = 400  # a region that takes a hundredth of the values is missed once in 50 times
 _DIGITS = 15
@@ -35,18 +35,30 @@ def contradictory(conditions: Sequence[Expr], positive: Sequence[Expr] = ()) -> 
     return not any(_all_positive(evaluate, symbols, source) for _ in range(_DRAWS))
 
 
+def never_together(positive: Sequence[Expr]) -> bool:
+    """Whether one of these is never positive, or two never are together: k l > F > 2 k l."""
+    return -1 in map(weak_sign, positive) or any(
+        sum_ == 0 or weak_sign(sum_) == -1
+        for pair in combinations(map(deciding, positive), 2)
+        for sum_ in shorter_sums(*pair)
+    )
+
+
 def one_is_negative(conditions: Sequence[Expr], positive: Sequence[Expr] = ()) -> bool:
     """Whether for all values one is negative: a positive multiple of one and another are."""
     plain = [deciding(e, positive) for e in conditions]
-    for first, second in permutations(plain, 2):
-        own, other = (e.expand().as_coefficients_dict() for e in (first, second))
-        ratios = {-own[term] / other[term] for term in own if term in other}
-        if any(
-            ratio.is_positive and sign_of(simplify(first + ratio * second), positive) == -1
-            for ratio in ratios
-        ):
-            return True
-    return False
+    return any(
+        sign_of(sum_, positive) == -1
+        for pair in permutations(plain, 2)
+        for sum_ in shorter_sums(*pair)
+    )
+
+
+def shorter_sums(first: Expr, second: Expr) -> Iterator[Expr]:
+    """first + c second for the c > 0 for which a term of the first is gone."""
+    own, other = (e.expand().as_coefficients_dict() for e in (first, second))
+    ratios = {-own[term] / other[term] for term in own if term in other}
+    return (simplify(first + ratio * second) for ratio in ratios if ratio.is_positive)
 
 
 def _all_positive(evaluate: Evaluator, symbols: Sequence[Symbol], source: random.Random) -> bool:
