@@ -30,6 +30,10 @@ class Quantity:
     span: Span = field(default=NOWHERE, compare=False)
     unit_span: Span = field(default=NOWHERE, compare=False)
 
+    def allows(self, value: Any) -> bool:
+        """Whether a number is what the quantity is said to be."""
+        return not _BREAKS[self.assume](value)
+
 
 @record(kw_only=True)
 class Coordinate(Quantity):
@@ -37,7 +41,7 @@ class Coordinate(Quantity):
 
 
 #: The values that break what is said of a quantity.
-_BREAKS: dict[str, Callable[[Fraction | float], bool]] = {
+_BREAKS: dict[str, Callable[[Any], bool]] = {
     "positive": lambda value: value <= 0,
     "nonnegative": lambda value: value < 0,
     "nonzero": lambda value: value == 0,
@@ -55,7 +59,7 @@ class Parameter(Quantity):
 
     def mistake_of(self, value: Fraction | float) -> str | None:
         """The mistake where the value is not what the parameter is said to be, else None."""
-        if _BREAKS[self.assume](value):
+        if not self.allows(value):
             return f"'{self.name}' is {self.assume}, and its value is not"
         if self.integer and value != int(value):
             return f"'{self.name}' is an integer, and its value is not"

@@ -27,6 +27,11 @@ class ComparisonVerdict(Enum):
     UNDEFINED = "undefined"  # no real value
 
 
+def is_zero(x: arb) -> bool:
+    """Whether a value is 0."""
+    return compare(x, arb(0)) is ComparisonVerdict.EQUAL
+
+
 def compare(a: arb, b: arb) -> ComparisonVerdict:
     """Whether a and b are equal."""
     if not (a.is_finite() and b.is_finite()):

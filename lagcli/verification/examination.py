@@ -16,7 +16,7 @@ from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
-from lagcli.verification.comparison import ComparisonVerdict, compare
+from lagcli.verification.comparison import ComparisonVerdict, compare, is_zero
 from lagcli.verification.linear import Unclear, rank
 from lagcli.verification.reference import Reference
 from lagcli.verification.states import State, phase_states, random_states
@@ -211,7 +211,7 @@ class Examination:
         return True
 
     def _all_zero(self, value: Truth, count: int) -> bool:
-        return all(compare(value(s), arb(0)) is ComparisonVerdict.EQUAL for s in self.states(count))
+        return all(is_zero(value(s)) for s in self.states(count))
 
     @property
     def _on_branches(self) -> int:

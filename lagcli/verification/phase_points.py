@@ -7,7 +7,6 @@ Legendre transform needs no formula of H); otherwise p is random and H is that o
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from functools import cached_property
 from random import Random
 
 from flint import arb
@@ -52,15 +51,10 @@ class PhasePoint:
         """The values of formulas that have further names."""
         return self.reference.values({(_HAMILTONIAN, 0): self.energy, **self.environment, **more})
 
-    @cached_property
-    def momenta(self) -> list[int]:
-        """The steps of p_x."""
-        return [self.reference.program.symbol(f"p_{name}") for name in self.reference.names]
-
     def slopes(self, place: int) -> tuple[list[arb], list[arb]]:
         """The derivatives of a formula with respect to q and to p."""
         found = self.at.gradient(place)
-        by_q, by_p = column(found, self.reference.q), column(found, self.momenta)
+        by_q, by_p = column(found, self.reference.q), column(found, self.reference.p)
         weight = found.get(self.reference.program.symbol(_HAMILTONIAN))
         if weight is None or (_HAMILTONIAN, 0) in self.environment:
             return by_q, by_p
@@ -104,8 +98,7 @@ class PhaseState:
         assert given is not None
         H = reference.place(given)
         found = self.at.gradient(H)
-        momenta = [reference.program.symbol(f"p_{name}") for name in reference.names]
-        slopes = column(found, reference.q), column(found, momenta)
+        slopes = column(found, reference.q), column(found, reference.p)
         self.phase = PhasePoint(reference, environment, self.at(H), slopes)
 
 

@@ -88,6 +88,11 @@ class Reference:
         return [self.by(self.lagrangian, v) for v in self.v]
 
     @cached_property
+    def p(self) -> list[int]:
+        """The symbols p_x."""
+        return [self.program.symbol(f"p_{name}") for name in self.names]
+
+    @cached_property
     def energy(self) -> int:
         """h = sum q' p - L."""
         program = self.program
@@ -112,6 +117,12 @@ class Reference:
                     arm = self.by(place, q)
                     total[j] = program.sum(total[j], program.product(force, arm))
         return total
+
+    @property
+    def pushed(self) -> bool:
+        """Whether more than L and the constraints acts."""
+        given = self.problem
+        return bool(given.forces or given.dissipation or any(p.force for p in given.points))
 
     @cached_property
     def dissipation(self) -> int | None:

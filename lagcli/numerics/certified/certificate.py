@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from typing import Any
 
 from lagcli.numerics.certified.accuracy import Outcome
-from lagcli.numerics.certified.drift import changes, relative
+from lagcli.numerics.certified.drift import changes
 from lagcli.numerics.certified.exact_columns import with_digits
 from lagcli.numerics.certified.methods import METHODS
+from lagcli.numerics.certified.scales import relative
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import told
 from lagcli.numerics.hybrid.events import Event
@@ -150,7 +151,7 @@ def _drifts(simulation: Setup, outcome: Outcome, kept: int) -> dict[str, float]:
     for j, name in enumerate(simulation.charges):
         values = [row[first + j] for row in outcome.rows[:kept]]
         for _, found, scale in changes(outcome.run, j, values):
-            drifts[name] = max(drifts.get(name, 0.0), relative(found, scale))
+            drifts[name] = max(drifts.get(name, 0.0), relative(max(map(abs, found)), scale))
     return drifts
 
 

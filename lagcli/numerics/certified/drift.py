@@ -33,9 +33,3 @@ def changes(
             found = [float(value - here[0]) for value in here]
             peak = max(map(abs, map(float, here)))
             yield places, found, max(peak, phase.mode.sizes.largest(run.marks, places)[charge])
-
-
-def relative(changes: Sequence[float], scale: float) -> float:
-    """The largest of the changes beside a scale; 0 where nothing changes."""
-    largest = max(map(abs, changes))
-    return largest / scale if largest else 0.0

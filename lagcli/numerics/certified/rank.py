@@ -90,9 +90,9 @@ def _pivots(mode: Mode) -> Pivots:
         return lambda mark: [math.sqrt(abs(float(x))) for x in held(mark.t, *mark.q, *mark.v)]
 
     def of_numbers(mark: Mark) -> list[float]:
-        n, values = motion.n, [float(x) for x in motion.matrices(mark.t, *mark.q, *mark.v)]
-        masses, rest = values[: n * n : n + 1], values[n * n + n :]
-        rows = [rest[k * n : (k + 1) * n] for k in range(motion.m)]
+        mass, _, held, _ = motion.system(mark.t, *mark.q, *mark.v)
+        masses = [float(row[j]) for j, row in enumerate(mass)]
+        rows = [[float(x) for x in row] for row in held]
         return [x for pivot in pivots_of(masses, rows) for x in (pivot, 1.0)]
 
     return of_numbers

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 from lagcli.diagnostics import Diagnostic
@@ -12,14 +11,6 @@ from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.problem_data import Parameter
-
-_ALLOWS: dict[str, Callable[[Any], bool]] = {
-    "positive": lambda x: x > 0,
-    "nonnegative": lambda x: x >= 0,
-    "nonzero": lambda x: x != 0,
-    "negative": lambda x: x < 0,
-    "real": lambda _: True,
-}
 
 
 def constants_of(
@@ -68,11 +59,7 @@ def _value(
     if not good:
         message = f"the value of '{parameter.name}' is not a real number"
         raise Refusal((Diagnostic(message, span),))
-    if not _ALLOWS[parameter.assume](value):
-        message = f"'{parameter.name}' is {parameter.assume}, and its value is not"
-        raise Refusal((Diagnostic(message, span),))
-    if parameter.integer and value != int(float(value)):
-        raise Refusal(
-            (Diagnostic(f"'{parameter.name}' is an integer, and its value is not", span),)
-        )
+    mistake = parameter.mistake_of(float(value))
+    if mistake is not None:
+        raise Refusal((Diagnostic(mistake, span),))
     return value

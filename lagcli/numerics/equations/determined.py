@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from lagcli.numerics.equations.null_space import reduced
 from lagcli.numerics.equations.straight_line import PIVOT_TOLERANCE
 
 
@@ -19,20 +20,7 @@ def determined(rows: Sequence[Sequence[float]], right: Sequence[float]) -> dict[
         if (scale := max(map(abs, row), default=0.0)) > 0
     ]
     width = len(rows[0]) if rows else 0
-    left, bound = list(range(len(system))), {}
-    while left:
-        r, c = max(
-            ((i, j) for i in left for j in range(width)), key=lambda at: abs(system[at[0]][at[1]])
-        )
-        pivot = system[r][c]
-        if abs(pivot) <= PIVOT_TOLERANCE:
-            break
-        system[r] = [x / pivot for x in system[r]]
-        for i, row in enumerate(system):
-            if i != r and row[c]:
-                system[i] = [x - row[c] * y for x, y in zip(row, system[r], strict=True)]
-        left.remove(r)
-        bound[c] = r
+    bound = {c: r for r, c in reduced(system, width, PIVOT_TOLERANCE)}
     free = [j for j in range(width) if j not in bound]
     return {
         c: system[r][width]

@@ -20,6 +20,7 @@ from lagcli.numerics.equations.regular import regular_motion
 from lagcli.numerics.equations.straight_line import Guard, straight_line
 
 Function = Callable[..., tuple[Any, ...]]
+Vector = list[Any]
 
 #: A time in which a sign shows itself.
 _AFTER = 1e-6
@@ -154,14 +155,8 @@ class Motion:
 
     def held(self, *state: float) -> Held:
         """The null-space way, or a quicker one of numbers where it does as well."""
-        n, m = self.n, self.m
-        values = self.matrices(*state)
-        mass = [values[i * n : (i + 1) * n] for i in range(n)]
-        forcing = list(values[n * n : n * n + n])
-        rest = values[n * n + n :]
-        rows = [rest[k * n : (k + 1) * n] for k in range(m)]
-        found = self._held(mass, forcing, rows, list(rest[m * n :]))
-        self._independent = found.independent if len(found.independent) < m else None
+        found = self._held(*self.system(*state))
+        self._independent = found.independent if len(found.independent) < self.m else None
         return found
 
     def independent(self, *state: float) -> tuple[int, ...] | None:
@@ -181,6 +176,12 @@ class Motion:
     def matrices(self) -> Function:
         """M, forcing, A and the bias c, row by row in one tuple."""
         return self.function(self.equations.dynamics, frozen=True)
+
+    def system(self, *state: Any) -> tuple[list[Vector], Vector, list[Vector], Vector]:
+        """The same apart: M and A by rows."""
+        n, m, values = self.n, self.m, list(self.matrices(*state))
+        rows = [values[i : i + n] for i in range(0, (n + 1 + m) * n, n)]
+        return rows[:n], rows[n], rows[n + 1 :], values[(n + 1 + m) * n :]
 
     @cached_property
     def pivots(self) -> tuple[Function, Function]:
@@ -321,12 +322,9 @@ class Motion:
         plain = self.function(residuals)
 
         def robust(*state: float) -> tuple[Any, ...]:
-            n, m = self.n, self.m
-            values, found = self.matrices(*state), plain(*state)
-            mass = [values[i * n : (i + 1) * n] for i in range(n)]
-            rest = values[n * n + n : n * n + n + m * n]
-            rows = [rest[k * n : (k + 1) * n] for k in which]
-            held = self._held(mass, [0.0] * n, rows, [-value for value in found])
+            (mass, _, rows, _), found = self.system(*state), plain(*state)
+            free, lacking = [0.0] * self.n, [-value for value in found]
+            held = self._held(mass, free, [rows[k] for k in which], lacking)
             return (*held.accelerations, *found)
 
         if eliminated is None:

@@ -62,7 +62,7 @@ def held_motion(mass: Matrix, forcing: Vector, rows: Matrix, bias: Vector) -> He
     work = [
         [*row, -c / (length or 1.0)] for row, length, c in zip(unit, lengths, bias, strict=True)
     ]
-    pivots = _reduced(work, n)
+    pivots = reduced(work, n, _DEPENDENT)
     free = [j for j in range(n) if j not in {column for _, column in pivots}]
     particular = [0.0] * n
     for i, column in pivots:
@@ -128,15 +128,15 @@ def pivots_of(masses: Sequence[float], rows: Matrix) -> Vector:
     return found
 
 
-def _reduced(work: list[Vector], n: int) -> list[tuple[int, int]]:
-    """Gauss-Jordan with full pivoting, in place; (row, column) of each pivot."""
+def reduced(work: list[Vector], n: int, least: float) -> list[tuple[int, int]]:
+    """Gauss-Jordan with full pivoting, in place; (row, column) of each pivot above the least."""
     pivots: list[tuple[int, int]] = []
     rows = set(range(len(work)))
     columns = set(range(n))
     while rows and columns:
         size, i, j = max((abs(work[i][j]), -i, -j) for i in rows for j in columns)
         i, j = -i, -j
-        if not size > _DEPENDENT:
+        if not size > least:
             break
         pivots.append((i, j))
         rows.discard(i)

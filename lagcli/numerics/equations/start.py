@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from functools import partial as partial_call
+from itertools import starmap
 from math import factorial
 from typing import Any
 
@@ -241,9 +242,7 @@ class _Completion:
         length = max((abs(float(x)) for x in sizes), default=0.0) or 1.0
         roots = assemblies(partial_call(at, *known.values()), len(unknowns), length)
         return [
-            root
-            for root in roots
-            if all(_allowed(self._coordinate(s), x) for s, x in zip(unknowns, root, strict=True))
+            root for root in roots if all(starmap(self._allows, zip(unknowns, root, strict=True)))
         ]
 
     def _several(
@@ -299,7 +298,7 @@ class _Completion:
         coefficients = [value / factorial(k) for k, value in enumerate(at_zero)]
         if not any(coefficients[1:]):
             return None
-        roots = [x for x in real_roots(coefficients) if _allowed(self._coordinate(unknown), x)]
+        roots = [x for x in real_roots(coefficients) if self._allows(unknown, x)]
         if len(roots) > 1:
             raise self._open(unknown, which, f"could be any of {', '.join(map(repr, roots))}")
         return roots[0] if roots else None
@@ -330,12 +329,15 @@ class _Completion:
             return None
         return next(c for c in self.equations.problem.coordinates if c.name == symbol.name)
 
+    def _allows(self, symbol: Symbol, value: float) -> bool:
+        coordinate = self._coordinate(symbol)
+        return coordinate is None or coordinate.allows(value)
+
     def _check_signs(self) -> None:
         wrong = [
             (symbol, coordinate)
             for symbol, value in self.values.items()
-            if (coordinate := self._coordinate(symbol)) is not None
-            and not _allowed(coordinate, value)
+            if (coordinate := self._coordinate(symbol)) is not None and not coordinate.allows(value)
         ]
         if wrong:
             raise Refusal(
@@ -383,16 +385,7 @@ class _Completion:
 
     def _nearest(self, q: list[float], v: list[float]) -> tuple[list[float], list[float]] | None:
         """The state on the constraints, by Newton steps in the metric M."""
-        surface = Surface(self.motion)
-        try:
-            for _ in range(_ROUNDS):
-                surface.measure(0.0, q, v)
-                q, v = surface.project(0.0, q, v)
-            surface.residuals = [0.0] * len(surface.residuals)
-            surface.note(0.0, q, v)
-        except (ArithmeticError, ValueError):
-            return None
-        return (q, v) if max(surface.residuals) <= _ON_SURFACE else None
+        return Surface(self.motion).nearest(0.0, q, v, _ROUNDS, _ON_SURFACE)
 
 
 def _connected(
@@ -407,17 +400,3 @@ def _connected(
                 mask |= mask_of(s for s in unknowns if s.mask & node.mask)
     part = [s for s in unknowns if s.mask & mask]
     return part, [(k, node) for k, node in equations if node.mask & mask]
-
-
-def _allowed(coordinate: Coordinate | None, value: float) -> bool:
-    match coordinate.assume if coordinate is not None else "real":
-        case "positive":
-            return value > 0
-        case "nonnegative":
-            return value >= 0
-        case "negative":
-            return value < 0
-        case "nonzero":
-            return value != 0
-        case _:
-            return True

@@ -83,6 +83,25 @@ class Surface:
             x = [each - d for each, d in zip(x, found[:n], strict=True)]
         return x
 
+    def nearest(
+        self, t: float, q: Vector, v: Vector, rounds: int, near: float
+    ) -> tuple[Vector, Vector] | None:
+        """The state on the constraints after some projections; None where they do not lead there.
+
+        Parameters
+        ----------
+        near
+            The largest residual that is left.
+        """
+        try:
+            for _ in range(rounds):
+                self.measure(t, q, v)
+                q, v = self.project(t, q, v)
+            self.note(t, q, v)
+        except (ArithmeticError, ValueError):
+            return None
+        return (q, v) if max(self.residuals) <= near else None
+
     def join(self, part: Surface, place: Mapping[int, int]) -> None:
         """Take over the residuals of some of the constraints.
 

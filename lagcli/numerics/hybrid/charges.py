@@ -21,12 +21,11 @@ from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.setup import Setup
-from lagcli.problem_data import Coordinate
 
 _ATTEMPTS, _ENOUGH = 40, 6
 _ZERO = 1e-9
 _SPREAD = 0.4
-_PROJECTIONS = 8
+_PROJECTIONS, _ON_SURFACE = 8, _ZERO**1.25
 _LOOKS = 8
 
 
@@ -79,36 +78,12 @@ def _states(simulation: Setup, motion: Motion) -> Iterator[tuple[float, list[flo
         q = [x + _SPREAD * (2 * number() - 1) * (abs(x) or 1.0) for x in q0]
         v = [x + _SPREAD * (2 * number() - 1) * max(abs(x), 1.0) for x in v0]
         if motion.equations.rows:
-            state = _on_constraints(motion, t, q, v)
+            state = Surface(motion).nearest(t, q, v, _PROJECTIONS, _ON_SURFACE)
             if state is None:
                 continue
             q, v = state
-        if all(map(_allowed, simulation.problem.coordinates, q)):
+        if all(c.allows(x) for c, x in zip(simulation.problem.coordinates, q, strict=True)):
             yield t, q, v
-
-
-def _on_constraints(
-    motion: Motion, t: float, q: list[float], v: list[float]
-) -> tuple[list[float], list[float]] | None:
-    surface = Surface(motion)
-    try:
-        surface.measure(t, q, v)
-        for _ in range(_PROJECTIONS):
-            q, v = surface.project(t, q, v)
-        surface.note(t, q, v)
-    except (ArithmeticError, ValueError):
-        return None
-    return (q, v) if max(surface.residuals) <= _ZERO * _ZERO**0.25 else None
-
-
-def _allowed(coordinate: Coordinate, value: float) -> bool:
-    match coordinate.assume:
-        case "positive" | "nonnegative":
-            return value > 0
-        case "negative":
-            return value < 0
-        case _:
-            return True
 
 
 def size(graph: Graph, node: Node, known: dict[Node, Node] | None = None) -> Node:

@@ -122,13 +122,9 @@ def stopped(
     e = motion.equations
     nodes = [motion.kinks[k] for k in which]
     slopes = [partial(e.graph, u)(node) for node in nodes for u in e.qdot]
-    n, m = motion.n, motion.m
-    found = motion.function([*slopes, *nodes])(t, *q, *v)
-    values = motion.matrices(t, *q, *v)
-    mass = [list(values[i * n : (i + 1) * n]) for i in range(n)]
-    rest = values[n * n + n :]
+    n, found = motion.n, motion.function([*slopes, *nodes])(t, *q, *v)
+    mass, _, held, _ = motion.system(t, *q, *v)
     rows = [list(found[i * n : (i + 1) * n]) for i in range(len(which))]
-    rows += [list(rest[k * n : (k + 1) * n]) for k in range(m)]
-    lacking = [*found[len(which) * n :], *([0.0] * m)]
-    jump = held_motion(mass, [0.0] * n, rows, lacking)
+    lacking = [*found[len(which) * n :], *([0.0] * motion.m)]
+    jump = held_motion(mass, [0.0] * n, [*rows, *held], lacking)
     return [x + d for x, d in zip(v, jump.accelerations, strict=True)]

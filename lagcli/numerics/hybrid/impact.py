@@ -59,17 +59,11 @@ class Hinge:
         v: Sequence[float],
     ) -> None:
         self.contacts = contacts
-        n, m = motion.n, motion.m
-        values = motion.matrices(t, *q, *v)
-        self.mass = [list(values[i * n : (i + 1) * n]) for i in range(n)]
-        self.forcing = list(values[n * n : n * n + n])
-        rest = values[n * n + n :]
-        signs = [contacts[k].sign if k in contacts else 1 for k in range(m)]
-        self.rows = [
-            [s * x for x in rest[k * n : (k + 1) * n]] for k, s in zip(range(m), signs, strict=True)
-        ]
-        self.bias = [s * x for s, x in zip(signs, rest[m * n :], strict=True)]
         state = (t, *q, *v)
+        self.mass, self.forcing, rows, bias = motion.system(*state)
+        signs = [contacts[k].sign if k in contacts else 1 for k in range(motion.m)]
+        self.rows = [[s * x for x in row] for s, row in zip(signs, rows, strict=True)]
+        self.bias = [s * x for s, x in zip(signs, bias, strict=True)]
         found = motion.rates(*state)
         self.rates = [s * x for s, x in zip(signs, found, strict=True)]
         sizes = motion.sizes(*state)[len(motion.equations.holonomic) :]

@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 
-from lagcli.expression import Expression, Name, Negative, Number, Product, Quotient, Sum
+from lagcli.expression import ZERO, Expression, Name, Number, Sum, multiple_of, signed, sum_of
+from lagcli.formatters.grammar import to_grammar
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.problem_data import Problem
 from lagcli.record import replace
@@ -87,9 +88,9 @@ def _zero(scene: ExtremeScene) -> Iterator[Case]:
 def _valued(
     scene: ExtremeScene, kind: str, name: str, values: Mapping[str, Expression]
 ) -> Iterator[Case]:
-    """The problem with other values, its state on its constraints."""
+    """The problem with other values, its state on its constraints; a 0 is always allowed."""
     parameters = tuple(
-        replace(p, value=values[p.name], assume=_allowing(p.assume, values[p.name]))
+        replace(p, value=values[p.name], assume="real" if values[p.name] == ZERO else p.assume)
         if p.name in values
         else p
         for p in scene.problem.parameters
@@ -102,13 +103,6 @@ def _valued(
         except Refusal:  # the trial finds the same, and says why
             problem = replace(problem, initial=scene.at(scene.q, scene.v))
     yield Case(kind=kind, name=name, problem=problem, parameters=values)
-
-
-def _allowing(assume: str, value: Expression) -> str:
-    """An assumption that leaves room for 0."""
-    if isinstance(value, Number) and not value.value:
-        return "real"
-    return assume
 
 
 # -- states --------------------------------------------------------------------------------------
@@ -148,7 +142,7 @@ def _at_angle(
     name, factor = moved
     rest = [(n, k) for n, k in angle.factors if n != name]
     target = _beside(halves, side)
-    told = f"{_combined(angle)} = {_told(halves, side)}"
+    told = f"{_combined(angle)} = {to_grammar(target)}"
     if not rest and factor == 1 and not angle.constant:
         exact, value = target, math.pi / 2 * halves + side * float(_BESIDE)
     else:
@@ -169,27 +163,13 @@ def _value(scene: ExtremeScene, names: Sequence[str], name: str) -> float:
 
 def _beside(halves: int, side: int) -> Expression:
     """k pi/2 + 1e-9."""
-    small: Expression = Number(_BESIDE, decimal=True)
-    if not halves:
-        return small if side > 0 else Negative(small)
-    whole: Expression = _PI if halves == 2 else Quotient(_PI, Number(Fraction(2)))
-    return Sum((whole, small if side > 0 else Negative(small)))
-
-
-def _told(halves: int, side: int) -> str:
-    sign = "+" if side > 0 else "-"
-    return f"{('', 'pi/2', 'pi')[halves]} {sign} 1e-9" if halves else f"{'-' * (side < 0)}1e-9"
+    whole = [multiple_of(Fraction(halves, 2), [_PI], [])] if halves else []
+    return sum_of([*whole, signed(side * _BESIDE, decimal=True)])
 
 
 def _combined(angle: Angle) -> str:
-    text = ""
-    for name, k in angle.factors:
-        sign = " - " if k < 0 else " + "
-        size = "" if abs(k) == 1 else f"{abs(k)}*"
-        text += f"{sign if text else '-' * (k < 0)}{size}{name}"
-    if angle.constant:
-        text += f" {'-' if angle.constant < 0 else '+'} {abs(angle.constant)}"
-    return text
+    terms = [multiple_of(k, [Name(name)], []) for name, k in angle.factors]
+    return to_grammar(sum_of([*terms, *([signed(angle.constant)] if angle.constant else [])]))
 
 
 def _singular(scene: ExtremeScene) -> Iterator[Case]:
@@ -204,7 +184,7 @@ def _singular(scene: ExtremeScene) -> Iterator[Case]:
             if beside:
                 small = Number(beside, decimal=True)
                 exact = small if root.twelfths == 0 else Sum((place, small))
-            shown = f"{root.value:.10g}" if root.twelfths is None else _angle_text(root.twelfths)
+            shown = f"{root.value:.10g}" if root.twelfths is None else to_grammar(place)
             told = "1e-9" if beside and shown == "0" else shown + " + 1e-9" * bool(beside)
             yield from _stated(
                 scene, "singular", f"{name} = {told}", q, scene.v, {Name(name): exact}
@@ -212,25 +192,7 @@ def _singular(scene: ExtremeScene) -> Iterator[Case]:
 
 
 def _twelfths(k: int) -> Expression:
-    share = Fraction(abs(k), 12)
-    if not share:
-        return number(0)
-    above: Expression = _PI
-    if share.numerator != 1:
-        above = Product((Number(Fraction(share.numerator)), _PI))
-    whole = above
-    if share.denominator != 1:
-        whole = Quotient(above, Number(Fraction(share.denominator)))
-    return Negative(whole) if k < 0 else whole
-
-
-def _angle_text(k: int) -> str:
-    share = Fraction(abs(k), 12)
-    if not share:
-        return "0"
-    above = "pi" if share.numerator == 1 else f"{share.numerator}*pi"
-    below = "" if share.denominator == 1 else f"/{share.denominator}"
-    return f"{'-' * (k < 0)}{above}{below}"
+    return multiple_of(Fraction(k, 12), [_PI], []) if k else ZERO
 
 
 def _separatrix(scene: ExtremeScene) -> Iterator[Case]:
@@ -273,7 +235,8 @@ def _velocity(scene: ExtremeScene, top: float, side: int) -> Vector | None:
 
 def _place(x: float) -> str:
     twelfths = round(x * 12 / math.pi)
-    return _angle_text(twelfths) if abs(x - twelfths * math.pi / 12) < 1e-9 else f"{x:.6g}"
+    near = abs(x - twelfths * math.pi / 12) < 1e-9
+    return to_grammar(_twelfths(twelfths)) if near else f"{x:.6g}"
 
 
 def _light(scene: ExtremeScene) -> Iterator[Case]:

@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import Any
 
 from lagcli.numerics.certified.precise import precision
-from lagcli.numerics.equations.arithmetic import Balls
-from lagcli.numerics.equations.motion import Motion
 from lagcli.studies.extremes.scene import ExtremeScene
 
 _DIGITS = 60
@@ -26,37 +22,19 @@ def mass_condition(scene: ExtremeScene) -> float:
     ----------
     van der Sluis, "Condition numbers and equilibration of matrices", Numer. Math. 14 (1969).
     """
-    import mpmath
+    from flint import arb, arb_mat
 
-    e, n = scene.equations, scene.n
+    n = scene.n
     with precision(_DIGITS):
-        arithmetic = Balls()
-        constants = {symbol: arithmetic.ball(x) for symbol, x in scene.constants.items()}
-        motion = Motion(e, constants, arithmetic)
-        state = [arithmetic.ball(x) for x in (0.0, *scene.q, *scene.v)]
-        values = motion.function([entry for row in e.mass for entry in row])(*state)
-        if not all(arithmetic.ball(x).is_finite() for x in values):
+        motion, state = scene.in_balls()
+        entries = [entry for row in scene.equations.mass for entry in row]
+        mass = arb_mat(n, n, [arb(x).mid() for x in motion.function(entries)(*state)])
+        scales = [abs(mass[i, i]).rsqrt() for i in range(n)]
+        scaled = [[mass[i, j] * scales[i] * scales[j] for j in range(n)] for i in range(n)]
+        if not all(x.is_finite() for row in scaled for x in row):
             return math.inf
-        with mpmath.workdps(_DIGITS):
-            numbers = [_number(arithmetic.ball(x)) for x in values]
-            return _condition([numbers[n * i : n * i + n] for i in range(n)])
-
-
-def _number(ball: Any) -> Any:
-    import mpmath
-
-    return mpmath.mpf(ball.mid().str(_DIGITS, radius=False))
-
-
-def _condition(rows: Sequence[Sequence[Any]]) -> float:
-    import mpmath
-
-    n = len(rows)
-    if not all(rows[i][i] for i in range(n)):
-        return math.inf
-    scales = [1 / mpmath.sqrt(abs(rows[i][i])) for i in range(n)]
-    scaled = [[rows[i][j] * scales[i] * scales[j] for j in range(n)] for i in range(n)]
-    sizes = sorted(abs(x) for x in mpmath.eigsy(mpmath.matrix(scaled), eigvals_only=True))
-    if not sizes[0] > _SINGULAR * sizes[-1]:
-        return math.inf
-    return float(sizes[-1] / sizes[0])
+        values = arb_mat(scaled).mid().eig(algorithm="approx", nonstop=True)
+        sizes = sorted((abs(x.real.mid()) for x in values), key=float)
+        if not sizes[0] > _SINGULAR * sizes[-1]:
+            return math.inf
+        return float(sizes[-1] / sizes[0])

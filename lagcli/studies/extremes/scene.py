@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
+from typing import Any
 
 from lagcli.expression import Expression, Name, signed
 from lagcli.graph.nodes import Node, Symbol, mask_of, with_values
-from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.arithmetic import Balls, Doubles
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.contact import with_contacts
 from lagcli.numerics.equations.equations import Equations
@@ -143,16 +144,22 @@ class ExtremeScene:
         fixed: Collection[int],
     ) -> Vector:
         """The shortest d with A d = -residuals, 0 where a coordinate is fixed."""
-        n, m = self.n, len(self.equations.rows)
-        free = [j for j in range(n) if j not in fixed]
-        values = self.motion.matrices(0.0, *q, *v)[n * n + n :]
-        rows = [[values[k * n + j] for j in free] for k in range(m) if k in which]
+        free = [j for j in range(self.n) if j not in fixed]
+        held = self.motion.system(0.0, *q, *v)[2]
+        rows = [[held[k][j] for j in free] for k in which]
         unit = [[float(i == j) for j in free] for i in free]
         found = held_motion(unit, [0.0] * len(free), rows, list(residuals)).accelerations
-        step = [0.0] * n
+        step = [0.0] * self.n
         for j, d in zip(free, found, strict=True):
             step[j] = d
         return step
+
+    def in_balls(self) -> tuple[Motion, list[Any]]:
+        """The motion and the state in balls of the digits that are set."""
+        arithmetic = Balls()
+        constants = {symbol: arithmetic.ball(x) for symbol, x in self.constants.items()}
+        state = [arithmetic.ball(x) for x in (0.0, *self.q, *self.v)]
+        return Motion(self.equations, constants, arithmetic), state
 
     def at(
         self,

@@ -11,9 +11,7 @@ from time import process_time
 from lagcli.numerics.certified.precise import precision
 from lagcli.numerics.certified.scales import relative
 from lagcli.numerics.certified.simulate import simulate
-from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.jacobian import jacobian
-from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.numerics.hybrid.result import Result
@@ -97,17 +95,14 @@ def _values(scene: ExtremeScene) -> dict[str, float]:
 
 def _run_loss(scene: ExtremeScene) -> float | None:
     """Digits lost by the accelerations as a run works them out; None where there are none."""
+    from flint import arb
+
     state = (0.0, *scene.q, *scene.v)
     try:
         found = scene.motion.accelerations(*state)
         with precision(_PRECISE):
-            arithmetic = Balls()
-            constants = {symbol: arithmetic.ball(x) for symbol, x in scene.constants.items()}
-            motion = Motion(scene.equations, constants, arithmetic)
-            exact = [
-                arithmetic.ball(x)
-                for x in motion.accelerations(*(arithmetic.ball(x) for x in state))
-            ]
+            motion, exact_state = scene.in_balls()
+            exact = [arb(x) for x in motion.accelerations(*exact_state)]
     except (ArithmeticError, ValueError, Refusal):
         return None
     if not all(x.is_finite() for x in exact):

@@ -102,7 +102,7 @@ def cheapest(points: Sequence[RunPoint], accuracy: float, cost: Cost) -> RunPoin
 
 @record(kw_only=True)
 class AccuracyVerdict:
-    """For one accuracy: the cheapest run that is certified, and what `auto` takes."""
+    """For one accuracy: the cheapest run that is certified, and that of `auto` if it is."""
 
     accuracy: float
     best: RunPoint | None
@@ -111,7 +111,7 @@ class AccuracyVerdict:
     @property
     def ratio(self) -> float | None:
         """What `auto` costs, in units of the cheapest; None where either is missing."""
-        if self.best is None or self.auto is None or not self.auto.reached:
+        if self.best is None or self.auto is None:
             return None
         if self.best.total is None or self.auto.total is None:
             return None
@@ -122,7 +122,7 @@ class AccuracyVerdict:
         """Whether `auto` takes the cheapest, or one that costs hardly more."""
         if self.best is None or self.auto is None:
             return False
-        same = self.auto.reached and self.auto.taken == self.best.taken
+        same = self.auto.taken == self.best.taken
         return same or (self.ratio is not None and self.ratio <= AS_GOOD)
 
 
@@ -130,7 +130,7 @@ def verdict(points: Sequence[RunPoint], accuracy: float) -> AccuracyVerdict:
     """Of the runs with a certificate for this accuracy."""
     asked = [point for point in points if point.accuracy == accuracy]
     named = [point for point in asked if point.method != "auto" and point.reached]
-    chosen = [point for point in asked if point.method == "auto"]
+    chosen = [point for point in asked if point.method == "auto" and point.reached]
     return AccuracyVerdict(
         accuracy=accuracy,
         best=cheapest(named, accuracy, COSTS["total"]),

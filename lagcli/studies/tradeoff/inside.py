@@ -40,17 +40,21 @@ def _cut(study: Study) -> Trade | None:
         if full is None:
             continue
         same = [point for point in study.points if point.method == full.method]
-        less = cheapest(same, accuracy, cost)
-        if less is None or not full.integration or not less.integration:
-            continue
-        ratio = full.integration / less.integration
-        return Trade(
-            name="minimal coordinates against multipliers",
-            told=f"at {accuracy:.0e} {full.method} integrates\n  the model of the requested "
-            f"columns {ratio:.3g} times faster than the one of the file",
-            numbers={"accuracy": accuracy, "faster": ratio},
-        )
+        if (ratio := _ratio(full, cheapest(same, accuracy, cost))) is not None:
+            return Trade(
+                name="minimal coordinates against multipliers",
+                told=f"at {accuracy:.0e} {full.method} integrates\n  the model of the requested "
+                f"columns {ratio:.3g} times faster than the one of the file",
+                numbers={"accuracy": accuracy, "faster": ratio},
+            )
     return None
+
+
+def _ratio(slow: RunPoint | None, fast: RunPoint | None) -> float | None:
+    """How many times longer one integrates than the other; None where either is missing."""
+    if slow is None or fast is None or not slow.integration or not fast.integration:
+        return None
+    return slow.integration / fast.integration
 
 
 def _compiled(study: Study) -> Trade | None:
@@ -60,12 +64,10 @@ def _compiled(study: Study) -> Trade | None:
     cost = COSTS["integration"]
     for accuracy in reversed(ACCURACIES):
         fast, slow = cheapest(ours, accuracy, cost), cheapest(theirs, accuracy, cost)
-        if fast is None or slow is None or not fast.integration or not slow.integration:
+        ratio = _ratio(slow, fast)
+        if fast is None or slow is None or ratio is None:
             continue
-        if fast.total is None or slow.total is None:
-            continue
-        ratio = slow.integration / fast.integration
-        later = (fast.total - fast.integration) - (slow.total - slow.integration)
+        later = _preparation(fast) - _preparation(slow)
         told = (
             f"at {accuracy:.0e} {fast.method} integrates {ratio:.3g} times faster than "
             f"{slow.method},\n  and is ready {abs(later) * 1e3:.0f} ms "
@@ -79,6 +81,11 @@ def _compiled(study: Study) -> Trade | None:
     return None
 
 
+def _preparation(point: RunPoint) -> float:
+    """What is done before the integration."""
+    return (point.total or 0.0) - (point.integration or 0.0)
+
+
 def _digits(study: Study) -> Trade | None:
     """How far doubles go, and what more digits take for the same and for more."""
     doubles = _with(study, lambda words: "any precision" not in words)
@@ -89,11 +96,9 @@ def _digits(study: Study) -> Trade | None:
         return None
     cost = COSTS["integration"]
     least, exact = min(reached), max(min(beyond), study.resolved)
-    near = cheapest(doubles, 10 * least, cost)
-    same = cheapest(more, 10 * least, cost)
-    if near is None or same is None or not near.integration or not same.integration:
+    ratio = _ratio(cheapest(more, 10 * least, cost), cheapest(doubles, 10 * least, cost))
+    if ratio is None:
         return None
-    ratio = same.integration / near.integration
     return Trade(
         name="digits",
         told=f"the hardware's numbers reach {least:.1e}; carried in software\n  the same costs "

@@ -22,7 +22,7 @@ from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.numerics.integrators.steps import Tolerance, component_scales
 from lagcli.record import record, replace
-from lagcli.studies.tradeoff.trial import LimitReached, until
+from lagcli.studies.tradeoff.trial import DIGITS, LimitReached, decimal_of, rows_shown, until
 
 if TYPE_CHECKING:
     from lagcli.problem_data import Problem
@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 _LADDER = ((34, 1e-22, 1e-25), (52, 1e-36, 1e-40), (90, 1e-70, 1e-75))
 _BETWEEN = 8  # digits fewer in the other run
 _GOOD = 1e-17
-_DIGITS = 50
 #: The accuracy of a run in doubles, where nothing better is possible.
 _DOUBLES = (1e-12, 1e-10, 1e-8, 1e-6)
 #: A formula further from the motion than this is not its solution.
@@ -87,7 +86,7 @@ def difference(
     """
     if len(rows) != len(others):
         return float("inf")
-    with localcontext(Context(prec=_DIGITS)):
+    with localcontext(Context(prec=DIGITS)):
         peaks, apart = [], []
         for one, other in zip(zip(*rows, strict=True), zip(*others, strict=True), strict=True):
             pairs = [
@@ -205,19 +204,12 @@ def _run(
             return None
         if run.stop is not None:
             return None
-        count = len(asked.columns)
-        rows = [
-            [_decimal(x) for x in row[:count]]
-            for mark, row in zip(run.marks, run.rows(), strict=True)
-            if mark.sample >= 0 and mark.sample % simulation.every == 0
-        ]
-    return tuple(map(tuple, rows)), [asked.until, *component_scales(run.peaks, asked.until)]
+        rows = _decimals(rows_shown(simulation, run, run.rows()))
+    return rows, [asked.until, *component_scales(run.peaks, asked.until)]
 
 
-def _decimal(value: Any) -> Decimal | None:
-    if value is None or isinstance(value, float):
-        return None if value is None else Decimal(value)
-    return Decimal(value.mid().str(_DIGITS, radius=False))
+def _decimals(rows: Sequence[Sequence[Any]]) -> Rows:
+    return tuple(tuple(map(decimal_of, row)) for row in rows)
 
 
 # -- the formulas of the file --------------------------------------------------------------------
@@ -251,7 +243,7 @@ def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> Referen
             times = [arithmetic.ball(t) for t in simulation.times[:: simulation.every]]
             found = [at(t) for t in times]
             bound = max((float(x.rad()) for row in found for x in row), default=0.0)
-            rows = tuple(tuple(_decimal(x) for x in row) for row in found)
+            rows = _decimals(found)
     except (ArithmeticError, ValueError, Refusal) as error:
         warnings.append(f"the formulas of `expect: trajectory` have no numbers: {error}")
         return None
@@ -286,7 +278,7 @@ def _doubles(problem: Problem, asked: Asked, limit: float) -> ReferenceMotion:
     else:
         raise Refusal(f"no reference to measure against: {last}", mistake=False)
     bound = max(result.certificate.global_error.values())
-    rows = tuple(tuple(map(_decimal, row)) for row in result.rows)
-    kind = f"{result.method} with its certificate"
-    scales = result.certificate.scales
-    return ReferenceMotion(rows=rows, bound=bound, kind=kind, seconds=0.0, scales=scales)
+    kind, scales = f"{result.method} with its certificate", result.certificate.scales
+    return ReferenceMotion(
+        rows=_decimals(result.rows), bound=bound, kind=kind, seconds=0.0, scales=scales
+    )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from time import process_time
 from typing import TYPE_CHECKING, Any
@@ -18,6 +18,7 @@ from lagcli.record import record
 if TYPE_CHECKING:
     from lagcli.numerics.hybrid.request import Asked
     from lagcli.numerics.hybrid.run import Run
+    from lagcli.numerics.hybrid.setup import Setup
     from lagcli.problem_data import Problem
 
 #: A short integration is timed repeatedly, up to these seconds and runs.
@@ -29,7 +30,7 @@ _LEAST = 1e-14
 #: The name of a run that is proved, beside those of the methods.
 PROOF = "proof"
 #: Significant digits of the numbers that are compared.
-_DIGITS = 50
+DIGITS = 50
 
 
 @record(kw_only=True)
@@ -168,21 +169,18 @@ def _single(
             "drift": _drift(run, rows, len(asked.columns)),
             "residual": _residual(run),
             "method": run.method_name,
-            "rows": [
-                [_text(x) for x in row[: len(asked.columns)]]
-                for mark, row in zip(run.marks, rows, strict=True)
-                if mark.sample >= 0 and mark.sample % simulation.every == 0
-            ],
+            "rows": _texts(rows_shown(simulation, run, rows)),
         }
 
 
 def _drift(run: Run, rows: list[list[Any]], first: int) -> float | None:
     """The largest change of a charge, relative to the sum of its terms."""
-    from lagcli.numerics.certified.drift import changes, relative
+    from lagcli.numerics.certified.drift import changes
+    from lagcli.numerics.certified.scales import relative
 
     return max(
         (
-            relative(found, scale)
+            relative(max(map(abs, found)), scale)
             for j in range(len(rows[0]) - first)
             for _, found, scale in changes(run, j, [row[first + j] for row in rows])
         ),
@@ -222,15 +220,29 @@ def _claimed(
         "residual": max(residuals, default=None),
         "method": result.method,
         "reached": held.reached,
-        "rows": [[_text(x) for x in row] for row in rows],
+        "rows": _texts(rows),
     }
 
 
-def _text(value: Any) -> str | None:
+def rows_shown(simulation: Setup, run: Run, rows: Sequence[Sequence[Any]]) -> list[Sequence[Any]]:
+    """The columns that are asked for, at the times that are."""
+    count = len(simulation.asked.columns)
+    return [
+        row[:count]
+        for mark, row in zip(run.marks, rows, strict=True)
+        if mark.sample >= 0 and mark.sample % simulation.every == 0
+    ]
+
+
+def decimal_of(value: Any) -> Decimal | None:
     """Every digit: a double is a sum of powers of two, and written as that number."""
     if value is None or isinstance(value, float):
-        return None if value is None else str(Decimal(value))
-    return str(value.mid().str(_DIGITS, radius=False))
+        return None if value is None else Decimal(value)
+    return Decimal(value.mid().str(DIGITS, radius=False))
+
+
+def _texts(rows: Sequence[Sequence[Any]]) -> list[list[str | None]]:
+    return [[None if x is None else str(decimal_of(x)) for x in row] for row in rows]
 
 
 def main() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 from lagcli.formatters.json_values import fields_of
 from lagcli.numerics.tables.writing import records_as_csv
 from lagcli.studies.tradeoff.front import AS_GOOD, AccuracyVerdict, RunPoint
-from lagcli.studies.tradeoff.inside import Trade, trades
+from lagcli.studies.tradeoff.inside import trades
 from lagcli.studies.tradeoff.study import Study
 
 _HEAD = (
@@ -49,7 +49,7 @@ def to_text(study: Study) -> str:
             *(_verdict(each) for each in study.verdicts),
         ]
     )
-    lines += ["", *map(_trade, trades(study))]
+    lines += ["", *(f"{trade.name}: {trade.told}" for trade in trades(study))]
     lines += [
         f"warning: {point.method} claims {point.accuracy:g} and errs by {point.error:.1e}"
         for point in study.broken
@@ -88,24 +88,17 @@ def _cells(point: RunPoint, study: Study) -> list[str]:
 
 
 def _verdict(verdict: AccuracyVerdict) -> list[str]:
-    best, auto = verdict.best, verdict.auto
-    ratio = verdict.ratio
-    taken = "none"
-    if auto is not None and auto.reached:
-        taken = auto.taken
+    none = RunPoint(method="none", taken="none")
+    best, auto, ratio = verdict.best or none, verdict.auto or none, verdict.ratio
     return [
         f"{verdict.accuracy:.0e}",
-        best.taken if best is not None else "none",
-        _seconds(best.total if best is not None else None),
-        taken,
-        _seconds(auto.total if auto is not None and auto.reached else None),
+        best.taken,
+        _seconds(best.total),
+        auto.taken,
+        _seconds(auto.total),
         "–" if ratio is None else f"{ratio:.2f}{'' if verdict.agrees else f' > {AS_GOOD:g}'}",
-        _small(auto.error if auto is not None and auto.reached else None),
+        _small(auto.error),
     ]
-
-
-def _trade(trade: Trade) -> str:
-    return f"{trade.name}: {trade.told}"
 
 
 def _seconds(value: float | None) -> str:
@@ -160,7 +153,7 @@ def to_json(study: Study) -> str:
                 "accuracy": each.accuracy,
                 "method": each.best.taken if each.best is not None else None,
                 "total": each.best.total if each.best is not None else None,
-                "auto": each.auto.taken if each.auto is not None and each.auto.reached else None,
+                "auto": each.auto.taken if each.auto is not None else None,
                 "ratio": each.ratio,
                 "auto_agrees": each.agrees,
             }

@@ -57,7 +57,7 @@ class Action:
     def momenta(self, s: State) -> list[arb] | None:
         """p_i = sum_j p_j dq_j'/dq_i', the momenta of the coordinates that are left."""
         names = list(self.x.reference.names)
-        p = [s.phase.at(place) for place in s.phase.momenta]
+        p = [s.phase.at(place) for place in self.x.reference.p]
         kept = [names.index(n) for n in self.names]
         gone = [j for j in range(len(names)) if j not in kept]
         if not gone:

@@ -18,7 +18,7 @@ from flint import arb
 
 from lagcli.expression import ZERO
 from lagcli.statements.answers import Charge
-from lagcli.verification.comparison import ComparisonVerdict, compare
+from lagcli.verification.comparison import is_zero
 from lagcli.verification.examination import Examination
 from lagcli.verification.states import State
 from lagcli.verification.sweeps import StepValues
@@ -85,11 +85,7 @@ def _is_total_derivative(x: Examination, change: int) -> bool:
     residuals, states = euler_operator(x, change), x.states()
     if not states:
         return False
-    return all(
-        compare(_anywhere(state)(residual), arb(0)) is ComparisonVerdict.EQUAL
-        for state in states
-        for residual in residuals
-    )
+    return all(is_zero(_anywhere(state)(residual)) for state in states for residual in residuals)
 
 
 def _anywhere(state: State) -> StepValues:

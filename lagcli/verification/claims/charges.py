@@ -17,7 +17,7 @@ from lagcli.record import replace
 from lagcli.statements.answers import Charge, ChargesSection
 from lagcli.verification.claims.boundary import boundary_term
 from lagcli.verification.claims.rest import conditions
-from lagcli.verification.comparison import ComparisonVerdict, compare
+from lagcli.verification.comparison import is_zero
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, dot, rank
 from lagcli.verification.states import State
@@ -73,9 +73,7 @@ def evident(x: Examination) -> Iterator[tuple[str, int, Callable[[Sequence[State
         def conserved(states: Sequence[State], place: int = place, slope: int = slope) -> bool:
             """Whether the slope and the rate are 0."""
             return all(
-                compare(value, arb(0)) is ComparisonVerdict.EQUAL
-                for s in states
-                for value in (s.at(slope), s.laws.rate(place))
+                is_zero(value) for s in states for value in (s.at(slope), s.laws.rate(place))
             )
 
         yield what, place, conserved

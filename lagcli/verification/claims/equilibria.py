@@ -12,7 +12,7 @@ from lagcli.record import replace
 from lagcli.statements.answers import EquilibriaSection, Equilibrium
 from lagcli.statements.motions import SteadyMotion, SteadySection, Verdict
 from lagcli.verification.claims.eliminated import reduced_momenta
-from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues, occur
+from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues_of_motion, occur
 from lagcli.verification.claims.poles import refuted_at_a_pole
 from lagcli.verification.claims.rest import (
     BITS,
@@ -231,12 +231,10 @@ def _same_motion(near: LinearMotion, flat: Sequence[Sequence[arb]]) -> bool:
     M, C, K = (arb_mat(size, size, list(m)) for m in flat)
     if not all(e.is_finite() for m in flat for e in m) or M.det().contains(0):
         return True
-    by_v, by_q = (-M.solve(each) for each in (C, K))
-    rows = [[arb(0)] * size + [arb(int(i == j)) for j in range(size)] for i in range(size)]
-    rows += [[*a, *b] for a, b in zip(by_q.tolist(), by_v.tolist(), strict=True)]
+    by_v, by_q = ((-M.solve(each)).tolist() for each in (C, K))
     left = list(near.eigenvalues)
     scale = max([1e-3, *map(abs, left)])
-    for value in eigenvalues(rows):
+    for value in eigenvalues_of_motion(by_q, by_v):
         nearest = min(left, key=lambda z: abs(z - value), default=None)
         if nearest is None or abs(nearest - value) > 1e-7 * scale:
             return False

@@ -14,10 +14,9 @@ def legendre_transform(x: Examination) -> bool:
     given = x.problem.hamiltonian
     assert given is not None
     H = x.reference.place(given)
-    momenta = [x.reference.program.symbol(f"p_{name}") for name in x.reference.names]
 
     def sides(s: State) -> tuple[list[arb], list[arb]]:
-        rates = column(s.at.gradient(H), momenta)
+        rates = column(s.at.gradient(H), x.reference.p)
         return [s.laws.energy, *s.laws.velocities], [s.at(H), *rates]
 
     return x.decide("the Lagrangian that follows from H", sides)

@@ -7,13 +7,13 @@ that break them.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cached_property
 
 from flint import arb, arb_mat
 
 from lagcli.verification.examination import Examination
-from lagcli.verification.linear import Unclear, rank, size, solve
+from lagcli.verification.linear import Unclear, dot, rank, size, solve
 from lagcli.verification.phase_points import Environment
 from lagcli.verification.reference import DynamicsAtState
 
@@ -83,17 +83,19 @@ class LinearMotion:
     @cached_property
     def slopes(self) -> tuple[list[list[arb]], list[list[arb]]]:
         """dq''/dq and dq''/dq', rows by acceleration."""
-        columns: list[list[list[arb]]] = [[], []]
-        here = self.laws.accelerations
-        for primes in (0, 1):
-            for name in self.x.reference.names:
-                moved = {**self.environment}
-                moved[name, primes] = moved[name, primes] + _STEP
-                there = self.laws_at(moved).accelerations
-                gaps = [(b - a) / _STEP for a, b in zip(here, there, strict=True)]
-                columns[primes].append(gaps)
-        by_q, by_v = ([list(r) for r in zip(*c, strict=True)] for c in columns)
+        by_q, by_v = (self._slopes(lambda laws: laws.accelerations, k) for k in (0, 1))
         return by_q, by_v
+
+    def _slopes(
+        self, of: Callable[[DynamicsAtState], Sequence[arb]], primes: int = 0
+    ) -> list[list[arb]]:
+        """The derivatives of some values by the coordinates or velocities, rows by value."""
+        here, columns = of(self.laws), []
+        for name in self.x.reference.names:
+            moved = {**self.environment, (name, primes): self.environment[name, primes] + _STEP}
+            pairs = zip(here, of(self.laws_at(moved)), strict=True)
+            columns.append([(b - a) / _STEP for a, b in pairs])
+        return [list(row) for row in zip(*columns, strict=True)]
 
     @cached_property
     def sides(self) -> tuple[int, ...]:
@@ -117,15 +119,9 @@ class LinearMotion:
     @cached_property
     def eigenvalues(self) -> list[complex]:
         """Those of J that no constraint adds."""
-        n = self.size
-        by_q, by_v = self.slopes
-        rows = [[arb(0)] * n + [arb(int(i == j)) for j in range(n)] for i in range(n)]
-        rows += [[*a, *b] for a, b in zip(by_q, by_v, strict=True)]
-        found = eigenvalues(rows)
-        extra = self._added
-        return sorted(found, key=abs)[extra:]
+        return sorted(eigenvalues_of_motion(*self.slopes), key=abs)[self._added :]
 
-    @cached_property
+    @property
     def _added(self) -> int:
         rows = self.x.reference.rows
         pairs = list(zip(rows, self.laws.jacobian, strict=True))
@@ -135,53 +131,39 @@ class LinearMotion:
     @cached_property
     def stiffness(self) -> list[float]:
         """Eigenvalues of the second derivatives of V - T_0 along the constraints, at rest."""
-        n, tangent = self.size, self._tangent()
-        here = self._static(self.environment)
-        columns = []
-        for name in self.x.reference.names:
-            moved = {**self.environment}
-            moved[name, 0] = moved[name, 0] + _STEP
-            gaps = zip(here, self._static(moved), strict=True)
-            columns.append([(b - a) / _STEP for a, b in gaps])
-        K = [
-            [sum((columns[j][i] * v[j] for j in range(n)), arb(0)) for v in tangent]
-            for i in range(n)
-        ]
-        rows = [
-            [sum((u[i] * K[i][k] for i in range(n)), arb(0)) for k in range(len(tangent))]
-            for u in tangent
-        ]
+        jacobian = self.laws.jacobian
+        tangent = solve(jacobian, [arb(0)] * len(jacobian), self.size).kernel
+        K = self._slopes(self._static)
+        along = [[dot(row, way) for row in K] for way in tangent]
+        rows = [[dot(way, pull) for pull in along] for way in tangent]
         return [value.real for value in eigenvalues(rows)]
 
     @property
     def is_bowl(self) -> bool:
         """Whether V - T_0 surely has a minimum there, and nothing but L and constraints acts."""
-        given = self.x.problem
-        pushed = given.forces or given.dissipation or any(p.force for p in given.points)
         definite = all(z.real > NOTHING for z in eigenvalues(self.laws.mass_matrix))
-        return not pushed and definite and all(k > 1e-8 for k in self.stiffness)
+        return not self.x.reference.pushed and definite and all(k > 1e-8 for k in self.stiffness)
 
     @cached_property
     def curvatures(self) -> list[float]:
         """Eigenvalues of the second derivatives of V - T_0 without constraints, at rest."""
-        here, columns = self.laws.drift, []
-        for name in self.x.reference.names:
-            moved = {**self.environment, (name, 0): self.environment[name, 0] + _STEP}
-            pairs = zip(here, self.laws_at(moved).drift, strict=True)
-            columns.append([(b - a) / _STEP for a, b in pairs])
-        return [z.real for z in eigenvalues(list(zip(*columns, strict=True)))]
+        return [z.real for z in eigenvalues(self._slopes(lambda laws: laws.drift))]
 
-    def _tangent(self) -> list[tuple[arb, ...]]:
-        jacobian = self.laws.jacobian
-        return list(solve(jacobian, [arb(0)] * len(jacobian), self.size).kernel)
-
-    def _static(self, environment: Environment) -> list[arb]:
+    def _static(self, laws: DynamicsAtState) -> list[arb]:
         """d(V - T_0)/dq - Q - sum lambda a with the multipliers of the state of rest."""
-        laws = self.laws_at(environment)
         found = [e - f for e, f in zip(laws.drift, laws.applied, strict=True)]
         for m, row in zip(self.laws.multipliers, laws.jacobian, strict=True):
             found = [r - m * a for r, a in zip(found, row, strict=True)]
         return found
+
+
+def eigenvalues_of_motion(
+    by_q: Sequence[Sequence[arb]], by_v: Sequence[Sequence[arb]]
+) -> list[complex]:
+    """Those of x'' = by_q x + by_v x'."""
+    n = len(by_q)
+    rows = [[arb(0)] * n + [arb(int(i == j)) for j in range(n)] for i in range(n)]
+    return eigenvalues([*rows, *([*a, *b] for a, b in zip(by_q, by_v, strict=True))])
 
 
 def eigenvalues(rows: Sequence[Sequence[arb]]) -> list[complex]:

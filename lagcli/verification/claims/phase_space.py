@@ -260,8 +260,7 @@ class Tested:
 
     def _relations(self, kind: str, F: int, valence: Sequence[int]) -> Sides:
         """What the derivatives of F are, and what they must be."""
-        program, reference = self.x.reference.program, self.x.reference
-        q, p = reference.q, [program.symbol(f"p_{n}") for n in reference.names]
+        q, p = self.x.reference.q, self.x.reference.p
 
         def sides(s: State) -> tuple[list[arb], list[arb]]:
             at = self._new(s.phase)
@@ -281,7 +280,7 @@ class Tested:
     def _action_form(self, point: PhasePoint, c: arb, P: Sequence[arb]) -> list[arb]:
         """c p - sum P dQ/dq, and -sum P dQ/dp."""
         slopes = [point.slopes(self.places[n]) for n in self.Q]
-        momenta = [point.at(x) for x in point.momenta]
+        momenta = [point.at(x) for x in self.x.reference.p]
         by_q = [c * m - dot(P, [d[0][j] for d in slopes]) for j, m in enumerate(momenta)]
         return by_q + [-dot(P, [d[1][j] for d in slopes]) for j in range(len(momenta))]
 

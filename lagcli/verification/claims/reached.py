@@ -8,7 +8,7 @@ from random import Random
 from flint import arb
 
 from lagcli.statements.answers import Charge
-from lagcli.verification.comparison import ComparisonVerdict, compare
+from lagcli.verification.comparison import is_zero
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import rank
 from lagcli.verification.newton import settled
@@ -44,8 +44,7 @@ class Reached:
         return [
             place
             for place in dict.fromkeys((h, *p, program.sum(h, *driven)))
-            if states
-            and all(compare(s.laws.rate(place), arb(0)) is ComparisonVerdict.EQUAL for s in states)
+            if states and all(is_zero(s.laws.rate(place)) for s in states)
         ]
 
     def _driven(self, states: Sequence[State]) -> list[int]:

@@ -60,10 +60,10 @@ def refutes(x: Examination, what: str, near: LinearMotion, verdict: Verdict, zer
     leaves, returns = 1 in sides, sides == (-1, -1)
     if verdict.stable and (judged.growing or leaves):
         return "a disturbance grows"
-    given = x.problem
-    pushed = given.forces or given.dissipation or any(p.force for p in given.points)
     damping = sum((row[i] for i, row in enumerate(near.slopes[1])), arb(0))
-    conservative = not (pushed or zeros) and size(damping) < NOTHING  # masses may grow with t
+    conservative = (
+        not (x.reference.pushed or zeros) and size(damping) < NOTHING
+    )  # masses may grow with t
     definite = all(_positive(value) for value in eigenvalues(near.laws.mass_matrix))
     free = not any(not row.holonomic for row in x.reference.rows)
     bowl = conservative and definite and free and all(k > 1e-8 for k in near.stiffness)
@@ -97,9 +97,8 @@ def _at_a_pole(near: LinearMotion, verdict: Verdict) -> str:
 
     Only where L is even in the velocities and nothing but L acts.
     """
-    x, given = near.x, near.x.problem
-    pushed = given.forces or given.dissipation or any(p.force for p in given.points)
-    if pushed or x.reference.rows or not all(map(_is_even, x.states())):
+    x = near.x
+    if x.reference.pushed or x.reference.rows or not all(map(_is_even, x.states())):
         return ""
     values = [k for k in near.curvatures if abs(k) > 1e-8]
     if verdict.stable and any(k < 0 for k in values):

@@ -36,10 +36,8 @@ Change = list[int]
 
 def symmetries_are_listed(x: Examination, section: ChargesSection) -> bool:
     """Whether no other is affine in lengths and to t^2, or linear in p; noted if not."""
-    given = x.problem
-    pushed = given.forces or given.dissipation or any(p.force for p in given.points)
-    size = len(x.reference.names)
-    if size > _MOST or pushed or x.reference.rows or given.functions or not x.regular:
+    reference, size = x.reference, len(x.reference.names)
+    if size > _MOST or reference.pushed or reference.rows or x.problem.functions or not x.regular:
         return True
     listed = _listed(x, section)
     if not x.states() or listed is None:
