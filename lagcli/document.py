@@ -6,7 +6,7 @@ the formatters `text`, `latex`, `markdown` and `html` set it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 from lagcli.expression import ZERO, Expression, Negative, opposite, sum_of, terms_of
 from lagcli.record import field, record
@@ -137,6 +137,15 @@ class Matrix:
         if self.column_names:
             index.append(self.column_names[column])
         return Label(self.label.letter, tuple(index), matrix=True)
+
+    def listed(self, is_zero: Callable[[Expression], bool]) -> tuple[Row, ...]:
+        """The entries that are not 0, one by one."""
+        return tuple(
+            Row(self.entry_label(i, j), entry)
+            for i, row in enumerate(self.entries)
+            for j, entry in enumerate(row)
+            if not is_zero(entry)
+        )
 
 
 Block = Heading | Paragraph | Items | Equations | Matrix

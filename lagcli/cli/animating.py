@@ -30,7 +30,7 @@ def animate_file(run: SimulateOptions, *, forces: bool, dark: bool) -> Status:
             f"-o {instead} needs nothing"
         )
         return Status.USAGE
-    found = understood(run.file, run.settings, run.state, lambda p: asked_of(p, run))
+    found = understood(run, lambda p: asked_of(p, run))
     if found is None:
         return Status.USAGE
     problem, asked = found

@@ -81,7 +81,5 @@ def plot(
       lagcli plot kepler --show "x,y,energy" --until 20
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.plotting import PlotWish, plot_file
-    from lagcli.cli.simulating import SimulateOptions
 
-    run = gathered(SimulateOptions, locals())
     return plot_file(gathered(PlotWish, locals()))

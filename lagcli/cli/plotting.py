@@ -30,10 +30,9 @@ _NO_END = 0.0
 
 
 @record(kw_only=True)
-class PlotWish:
+class PlotWish(SimulateOptions):
     """The command line, as it was written."""
 
-    run: SimulateOptions
     kind: str | None = None
     section: str | None = None
     orbits: int
@@ -44,12 +43,10 @@ class PlotWish:
 
 def plot_file(wish: PlotWish) -> Status:
     """Compute, draw, and say how it ended."""
-    output = wish.run.output
     good = wish.kind is None or is_known("--kind", wish.kind, KINDS)
-    if not (good & is_drawn_as(output, PICTURES)) or not has_place(output, wish.run.file):
+    if not (good & is_drawn_as(wish.output, PICTURES)) or not has_place(wish.output, wish.file):
         return Status.USAGE
-    run = wish.run
-    found = understood(run.file, run.settings, run.state, lambda p: _asked(p, wish))
+    found = understood(wish, lambda p: _asked(p, wish))
     return Status.USAGE if found is None else _draw(*found, wish)
 
 
@@ -59,7 +56,7 @@ def _draw(problem: Problem, asked: Asked, wish: PlotWish) -> Status:
 
         request = PictureRequest(
             kind=_kind(asked, wish),
-            chosen=bool(wish.run.show),
+            chosen=bool(wish.show),
             section=wish.section,
             orbits=wish.orbits,
         )
@@ -67,7 +64,7 @@ def _draw(problem: Problem, asked: Asked, wish: PlotWish) -> Status:
             picture, refusal = picture_of(problem, asked, request, progress)
         return _written(picture, wish), refusal
 
-    return drawn(problem, work, wish.run.output)
+    return drawn(problem, work, wish.output)
 
 
 def drawn(problem: Problem, work: Callable[[], tuple[bytes, str]], output: Path | None) -> Status:
@@ -95,10 +92,10 @@ def drawn(problem: Problem, work: Callable[[], tuple[bytes, str]], output: Path 
 
 def _asked(problem: Problem, wish: PlotWish) -> Asked | None:
     """The options of the run; of a picture over time the coordinates, unless others are given."""
-    run = wish.run
+    run = wish
     if not run.show and wish.kind in {None, "series"}:
-        run = replace(run, show=("coordinates",))
-    needs_no_end = wish.kind in {*_WITHOUT_MOTION, None} and not wish.run.show
+        run = replace(wish, show=("coordinates",))
+    needs_no_end = wish.kind in {*_WITHOUT_MOTION, None} and not wish.show
     return asked_of(problem, run, without_end=_NO_END if needs_no_end else None)
 
 
@@ -110,11 +107,10 @@ def _kind(asked: Asked, wish: PlotWish) -> str:
 
 
 def _written(picture: Picture, wish: PlotWish) -> bytes:
-    output = wish.run.output
-    if output is not None:
+    if wish.output is not None:
         from lagcli.pictures.figure import to_bytes
 
-        return to_bytes(picture, ending(output), dark=wish.dark)
+        return to_bytes(picture, ending(wish.output), dark=wish.dark)
     from lagcli.pictures.terminal import Terminal, to_text
 
     encoding = (sys.stdout.encoding or "utf-8").lower()

@@ -5,7 +5,8 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, TypeVar
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol, TypeVar
 
 from lagcli.cli.files import read_input, reason
 from lagcli.cli.telling import tell, tell_line
@@ -13,6 +14,7 @@ from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem_data import Problem
 from lagcli.reader.suggest import did_you_mean
+from lagcli.record import record
 
 if TYPE_CHECKING:
     from lagcli.studies.run_options import OptionReader
@@ -31,26 +33,52 @@ def problem_of(file: str, request: Request | None = None) -> Problem | None:
     return found.problem
 
 
+class OfFile(Protocol):
+    """What every command that runs motions is told: a file, its parameters and its state."""
+
+    @property
+    def file(self) -> str:
+        """The problem."""
+
+    @property
+    def settings(self) -> tuple[str, ...]:
+        """`--set`."""
+
+    @property
+    def state(self) -> tuple[str, ...]:
+        """`--at`."""
+
+
+@record(kw_only=True)
+class StudyOptions:
+    """What studies of one file have in common, as it was written."""
+
+    file: str
+    until: str | None = None
+    settings: tuple[str, ...] = ()
+    state: tuple[str, ...] = ()
+    limit: float
+    format_name: str
+    output: Path | None = None
+
+
 def understood(
-    file: str,
-    settings: tuple[str, ...],
-    state: tuple[str, ...],
-    options: Callable[[Problem], Options | None],
+    wish: OfFile, options: Callable[[Problem], Options | None]
 ) -> tuple[Problem, Options] | None:
     """The file's problem with its Lagrangian, and the options; None once all mistakes are told.
 
     Where a setting is wrong, the options are read beside the values of the file.
     """
     try:
-        data = read_input(file)
+        data = read_input(wish.file)
     except OSError as error:
-        tell_line(f"{file}: error: {reason(error)}")
+        tell_line(f"{wish.file}: error: {reason(error)}")
         return None
-    found = read(file, data, Request(settings=settings, state=state))
+    found = read(wish.file, data, Request(settings=wish.settings, state=wish.state))
     tell(found.source, found.diagnostics)
     problem = found.problem
     if problem is None:
-        plain = read(file, data).problem
+        plain = read(wish.file, data).problem
         if plain is not None:
             options(plain)
         return None

@@ -90,7 +90,7 @@ def _simulate_together(files: Sequence[str], wish: SimulateOptions) -> Status:
 
 def _table(wish: SimulateOptions) -> tuple[bytes | None, Status]:
     """The table of one run, or None, and how the run ended."""
-    found = understood(wish.file, wish.settings, wish.state, lambda p: asked_of(p, wish))
+    found = understood(wish, lambda p: asked_of(p, wish))
     return (None, Status.USAGE) if found is None else _run(*found, wish)
 
 

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import STUDIES
 from lagcli.cli.delivering import has_place, place
-from lagcli.cli.running import counted, is_known, option_reader, understood
+from lagcli.cli.running import StudyOptions, counted, is_known, option_reader, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line, tell_refusal
 from lagcli.record import record
@@ -18,24 +17,17 @@ if TYPE_CHECKING:
 
 
 @record(kw_only=True)
-class ExtremesOptions:
+class ExtremesOptions(StudyOptions):
     """The command line, as it was written."""
 
-    file: str
-    until: str | None = None
-    settings: tuple[str, ...] = ()
-    state: tuple[str, ...] = ()
     cases: str | None = None
     accuracy: str | None = None
-    limit: float
-    format_name: str
-    output: Path | None = None
 
 
 def stretch_file(wish: ExtremesOptions) -> Status:
     """Try all cases, write, and say how it ended."""
     good = is_known("--format", wish.format_name, STUDIES) & has_place(wish.output, wish.file)
-    found = understood(wish.file, wish.settings, wish.state, lambda p: _wanted(p, wish))
+    found = understood(wish, lambda p: _wanted(p, wish))
     return _study(*found, wish) if good and found is not None else Status.USAGE
 
 

@@ -83,11 +83,9 @@ def sweep(
       lagcli sweep kepler --vary "y'=0.5:1:9" --scheduler tcp://host:8786
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import PICTURES, TABLES, format_of
-    from lagcli.cli.simulating import SimulateOptions
-    from lagcli.cli.sweeping import sweep_file
+    from lagcli.cli.sweeping import SweepOptions, sweep_file
 
     form = format_of(format_name, output, TABLES | PICTURES, "table")
     rows = samples if along else 2
-    wish = gathered(SimulateOptions, locals(), samples=rows, times=(), format_name=form)
-    drawn = tuple(vary or ()), random, seed
-    return sweep_file(wish, *drawn, along=along, times=times, jobs=jobs, scheduler=scheduler)
+    others = {"samples": rows, "times": (), "at_times": times, "format_name": form}
+    return sweep_file(gathered(SweepOptions, locals(), **others))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from hashlib import sha256
 
 from lagcli.cli.checking import cores
@@ -15,50 +14,48 @@ from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.problem_data import Problem
+from lagcli.record import record, replace
 from lagcli.studies.sweep import WRITERS, Plan, Table, WrongPlan, at_times, plan_of, sweep, times_of
 from lagcli.studies.sweep.journal import Journal
 from lagcli.studies.sweep.workers import NoCluster
 
 
-def sweep_file(
-    wish: SimulateOptions,
-    vary: Sequence[str],
-    random: int | None,
-    seed: int,
-    *,
-    along: bool,
-    times: str | None,
-    jobs: int | None,
-    scheduler: str | None,
-) -> Status:
+@record(kw_only=True)
+class SweepOptions(SimulateOptions):
+    """The command line, as it was written."""
+
+    vary: tuple[str, ...] = ()
+    random: int | None = None
+    seed: int
+    along: bool
+    at_times: str | None
+    jobs: int | None = None
+    scheduler: str | None = None
+
+
+def sweep_file(wish: SweepOptions) -> Status:
     """Run, write, and say how it ended."""
     known = is_known("--format", wish.format_name, (*TABLES, *PICTURES))
     if not (known and _can_be_written(wish)) & has_place(wish.output):
         return Status.USAGE
-    found = understood(
-        wish.file,
-        wish.settings,
-        wish.state,
-        lambda problem: _options(problem, wish, vary, random, seed, times),
-    )
+    found = understood(wish, lambda problem: _options(problem, wish))
     if found is None:
         return Status.USAGE
     problem, (asked, plan) = found
-    along = along or bool(asked.times)
-    digest = _digest(wish, problem, asked, plan, along=along)
-    with Journal(wish.output, digest) as journal:
+    wish = replace(wish, along=wish.along or bool(asked.times))
+    with Journal(wish.output, _digest(wish, problem, asked, plan)) as journal:
         if journal.done:
             tell_line(f"{wish.output}: going on after {len(journal.done)} finished parts")
         try:
             with counted("sweeping") as progress:
                 table = sweep(
-                    problem, asked, plan, journal,
-                    along=along, jobs=jobs or cores(), scheduler=scheduler, progress=progress,
+                    problem, asked, plan, journal, along=wish.along, jobs=wish.jobs or cores(),
+                    scheduler=wish.scheduler, progress=progress,
                 )  # fmt: skip
         except NoCluster as reason:
             tell_line(f"lagcli: error: {reason}")
             return _without_cluster(wish, journal)
-        data = _written(table, problem, asked, plan, wish, along=along)
+        data = _written(table, problem, asked, plan, wish)
         if data is None or not place(data, wish.output):
             return Status.USAGE
         journal.remove()
@@ -69,7 +66,7 @@ def sweep_file(
     return Status.WELL
 
 
-def _can_be_written(wish: SimulateOptions) -> bool:
+def _can_be_written(wish: SweepOptions) -> bool:
     if wish.format_name not in PICTURES:
         return can_be_written(wish)
     if wish.output is None:
@@ -79,7 +76,7 @@ def _can_be_written(wish: SimulateOptions) -> bool:
 
 
 def _written(
-    table: Table, problem: Problem, asked: Asked, plan: Plan, wish: SimulateOptions, *, along: bool
+    table: Table, problem: Problem, asked: Asked, plan: Plan, wish: SweepOptions
 ) -> bytes | None:
     """The table or its picture; None where there is no such picture, which is reported."""
     if wish.format_name not in PICTURES:
@@ -95,7 +92,7 @@ def _written(
         columns=asked.columns,
         rows=[row[:count] for row in table.rows],
         are_right=[row[reached] == 1.0 for row in table.rows],
-        along=along,
+        along=wish.along,
     )
     try:
         return to_bytes(ensemble(problem, motions), wish.format_name)
@@ -104,7 +101,7 @@ def _written(
         return None
 
 
-def _without_cluster(wish: SimulateOptions, journal: Journal) -> Status:
+def _without_cluster(wish: SweepOptions, journal: Journal) -> Status:
     """What is there for the next call, when the scheduler was lost or never found."""
     if not journal.done:
         journal.remove()
@@ -114,17 +111,10 @@ def _without_cluster(wish: SimulateOptions, journal: Journal) -> Status:
     return Status.NOT_FOUND
 
 
-def _options(
-    problem: Problem,
-    wish: SimulateOptions,
-    vary: Sequence[str],
-    random: int | None,
-    seed: int,
-    times: str | None,
-) -> tuple[Asked, Plan] | None:
+def _options(problem: Problem, wish: SweepOptions) -> tuple[Asked, Plan] | None:
     try:
-        plan = plan_of(problem, vary, random, seed)
-        given = times_of(times) if times else ()
+        plan = plan_of(problem, wish.vary, wish.random, wish.seed)
+        given = times_of(wish.at_times) if wish.at_times else ()
     except WrongPlan as error:
         for line in error.lines:
             tell_line(f"lagcli: error: {line}")
@@ -133,13 +123,11 @@ def _options(
     return None if asked is None else (at_times(asked, given), plan)
 
 
-def _digest(
-    wish: SimulateOptions, problem: Problem, asked: Asked, plan: Plan, *, along: bool
-) -> str:
+def _digest(wish: SweepOptions, problem: Problem, asked: Asked, plan: Plan) -> str:
     """Names the sweep by all that its rows depend on, the program included."""
     from lagcli.platform.cache import key
 
     options = [repr(plan), wish.until, wish.accuracy, wish.samples, wish.settings, wish.state,
-               wish.show, wish.method, along, asked.times, wish.stop_when]  # fmt: skip
+               wish.show, wish.method, wish.along, asked.times, wish.stop_when]  # fmt: skip
     text = key({"sweep": repr(options)}, [(wish.file, problem.source.text.encode())])
     return sha256(str(text).encode()).hexdigest()

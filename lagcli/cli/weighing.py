@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lagcli.cli.choices import COSTS, PICTURES, STUDIES
 from lagcli.cli.delivering import has_place, place
 from lagcli.cli.plotting import ending, is_drawn_as
-from lagcli.cli.running import counted, is_known, option_reader, understood
+from lagcli.cli.running import StudyOptions, counted, is_known, option_reader, understood
 from lagcli.cli.status import Status
 from lagcli.cli.telling import tell_line, tell_refusal
 from lagcli.problem_data import METHODS
@@ -27,21 +27,14 @@ _PATIENCE = 10.0
 
 
 @record(kw_only=True)
-class TradeoffOptions:
+class TradeoffOptions(StudyOptions):
     """The command line, as it was written."""
 
-    file: str
-    until: str | None = None
-    settings: tuple[str, ...] = ()
-    state: tuple[str, ...] = ()
     samples: int
     methods: str | None = None
     cost: str
     repeat: int
-    limit: float
     project: bool
-    format_name: str
-    output: Path | None = None
     plot: Path | None = None
 
 
@@ -51,7 +44,7 @@ def weigh_file(wish: TradeoffOptions) -> Status:
     methods = _methods(wish.methods)
     good = good & (methods is not None) & is_drawn_as(wish.plot, PICTURES, "--plot")
     good = good & has_place(wish.output, wish.file) & has_place(wish.plot, wish.file)
-    found = understood(wish.file, wish.settings, wish.state, lambda p: _end(p, wish))
+    found = understood(wish, lambda p: _end(p, wish))
     if found is None or not good or methods is None:
         return Status.USAGE
     problem, until = found

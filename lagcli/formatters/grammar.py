@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from lagcli.document import Label
 from lagcli.expression import (
     Call,
     Diff,
@@ -134,6 +135,16 @@ class GrammarPrinter(Printer[Layout]):
 
     def rate(self, node: Rate) -> Layout:
         return (*text("d/dt"), *self.arguments((node.operand,)))
+
+    def labelled(self, label: Label, letter: str, change: str) -> Layout:
+        """A symbol of the page: its letter, the names at it, and what stands for a change."""
+        head, *names = (self.spelled(name, 0) for name in (letter, *label.index))
+        shown = "_".join([head, *names])
+        if label.change:
+            shown = change + head
+        elif label.matrix and names:
+            shown = f"{head}[{', '.join(names)}]"
+        return text(f"[{shown}]" if label.unit else shown)
 
     def arguments(self, nodes: tuple[Expression, ...]) -> Layout:
         """Arguments in their brackets; a line may break after a comma."""

@@ -109,13 +109,8 @@ class LatexDisplay:
             line = rf"{joined(head)} &= \begin{{pmatrix}} {rows} \end{{pmatrix}}"
             yield [Set(matrix.label, [line])]
             return
-        listed = [
-            Row(matrix.entry_label(i, j), entry)
-            for i, row in enumerate(matrix.entries)
-            for j, entry in enumerate(row)
-            if boxes[i][j].text != "0"
-        ]
-        yield from self.equations(Equations(tuple(listed)))
+        listed = matrix.listed(lambda entry: self.printer.show(entry).text == "0")
+        yield from self.equations(Equations(listed))
 
     def _shown(self, row: Row) -> _Shown:
         return _Shown(row.left, self.formula(row.left), self.formula(row.right), row.note)

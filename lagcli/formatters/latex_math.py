@@ -45,6 +45,7 @@ from lagcli.formatters.precedence import (
     Level,
     begins_with_number,
     parted_root,
+    whole_ratio,
 )
 from lagcli.record import record
 
@@ -235,19 +236,12 @@ class LatexPrinter(FractionPrinter[Box]):
 
     def _raised(self, node: Expression) -> Box:
         """Set an exponent; a fraction of numbers stays on one line there, x^{1/2}."""
-        match node:
-            case Negative(operand=Number() | Quotient() as operand):
-                inner = self._raised(operand)
-                return Box((TextPiece("-", 8), *inner.pieces))
-            case Number(value=value, decimal=False) if value.denominator != 1:
-                return Box((*digits(value.numerator), _SLASH, *digits(value.denominator)))
-            case Quotient(
-                numerator=Number(value=a, decimal=False),
-                denominator=Number(value=b, decimal=False),
-            ):
-                if a.denominator == b.denominator == 1:
-                    return Box((*digits(a.numerator), _SLASH, *digits(b.numerator)))
-        return self.show(node)
+        ratio = whole_ratio(node)
+        if ratio is None:
+            return self.show(node)
+        minus, above, below = ratio
+        sign = (TextPiece("-", 8),) if minus else ()
+        return Box((*sign, *digits(above), _SLASH, *digits(below)))
 
     def call(self, node: Call) -> Box:
         if node.function == "sqrt":

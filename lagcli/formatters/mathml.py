@@ -23,7 +23,7 @@ from lagcli.expression import (
 )
 from lagcli.formatters.functions import FIXED, ON_PAPER, TRIGONOMETRIC
 from lagcli.formatters.numbers import decimal_parts, digit_groups
-from lagcli.formatters.precedence import FractionPrinter, Level, begins_with_number
+from lagcli.formatters.precedence import FractionPrinter, Level, begins_with_number, whole_ratio
 from lagcli.notation.greek import BY_NAME
 from lagcli.notation.letters import bold
 from lagcli.notation.naming import name_parts
@@ -239,14 +239,9 @@ def _is_function(node: Expression) -> bool:
 
 def _on_one_line(exponent: Expression) -> str:
     """A fraction of whole numbers with a slash; empty for everything else."""
-    minus = "<mo>−</mo>" if isinstance(exponent, Negative) else ""
-    match exponent.operand if isinstance(exponent, Negative) else exponent:
-        case Number(value=value, decimal=False) if value.denominator > 1:
-            above, below = value.numerator, value.denominator
-        case Quotient(numerator=Number(value=over), denominator=Number(value=under)) if (
-            over.denominator == under.denominator == 1
-        ):
-            above, below = over.numerator, under.numerator
-        case _:
-            return ""
-    return f"<mrow>{minus}<mn>{above}</mn>{_SLASH}<mn>{below}</mn></mrow>"
+    ratio = whole_ratio(exponent)
+    if ratio is None:
+        return ""
+    minus, above, below = ratio
+    sign = "<mo>−</mo>" if minus else ""
+    return f"<mrow>{sign}<mn>{above}</mn>{_SLASH}<mn>{below}</mn></mrow>"

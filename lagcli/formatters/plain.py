@@ -24,6 +24,11 @@ def harmless(text: str) -> str:
     )
 
 
+def with_spaces_of(part: str, shown: str, after: str = " ") -> str:
+    """A part of a sentence as it is shown, with the spaces at the ends that it had."""
+    return (" " if part[:1] == " " else "") + shown + (after if part[-1:] == " " else "")
+
+
 def _acts(character: str) -> bool:
     return unicodedata.category(character) in _UNSHOWN and character not in _JOINERS
 

@@ -264,6 +264,20 @@ def begins_with_number(node: Expression) -> bool:
     return isinstance(node, Number)
 
 
+def whole_ratio(node: Expression) -> tuple[bool, int, int] | None:
+    """Whether a minus stands before a fraction of whole numbers, and these; None of others."""
+    minus = isinstance(node, Negative)
+    match node.operand if isinstance(node, Negative) else node:
+        case Number(value=value, decimal=False) if value.denominator > 1:
+            return minus, value.numerator, value.denominator
+        case Quotient(
+            numerator=Number(value=above, decimal=False),
+            denominator=Number(value=below, decimal=False),
+        ) if above.denominator == below.denominator == 1:
+            return minus, above.numerator, below.numerator
+    return None
+
+
 def parted_root(node: Expression) -> Product | None:
     """sqrt(m/2) (E - V)^(-1/2) for sqrt(m/(2 (E - V))), which is too wide; None of others."""
     if not isinstance(node, Quotient) or any(

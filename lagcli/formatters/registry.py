@@ -13,11 +13,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from lagcli.formatters.options import Formatter
+from lagcli.platform.plug_ins import plug_ins
 from lagcli.platform.rooms import modules_in
 from lagcli.record import record
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
     from importlib.metadata import EntryPoint
 
 GROUP = "lagcli.formatters"
@@ -58,9 +58,9 @@ def find_formatter(name: str) -> Formatter | UnknownFormatter:
     """Find the formatter of that name; only its own module is imported."""
     if name in built_in():
         return _built_in(name)
-    plug_ins = [point for point in _plug_ins() if point.name == name]
-    if plug_ins:
-        return _loaded(plug_ins[0])
+    for point in plug_ins(GROUP):
+        if point.name == name:
+            return _loaded(point)
     return _unknown(name)
 
 
@@ -68,7 +68,7 @@ def list_formatters() -> tuple[ListedFormatter, ...]:
     """List every formatter with its origin and what it says of itself."""
     ours = [_listed(name, "lagcli", _built_in(name)) for name in built_in()]
     others: list[ListedFormatter] = []
-    for point in _plug_ins():
+    for point in plug_ins(GROUP):
         origin = point.dist.name if point.dist else "unknown"
         taken = point.name in built_in() or any(point.name == other.name for other in others)
         if taken:
@@ -77,20 +77,6 @@ def list_formatters() -> tuple[ListedFormatter, ...]:
         else:
             others.append(_listed(point.name, origin, _loaded(point)))
     return (*ours, *others)
-
-
-def entry_points(*, group: str) -> Iterable[EntryPoint]:
-    """The entry points of a group; the scanner costs half of typer to import."""
-    from importlib.metadata import entry_points as installed
-
-    return installed(group=group)
-
-
-def _plug_ins() -> list[EntryPoint]:
-    """Scan for the formatters of other packages, by name and then by package."""
-    every = entry_points(group=GROUP)  # of lagcli itself, too, where an older one is installed
-    points = [point for point in every if not point.dist or point.dist.name != "lagcli"]
-    return sorted(points, key=lambda point: (point.name, point.dist.name if point.dist else ""))
 
 
 def _loaded(point: EntryPoint) -> Formatter | UnknownFormatter:
@@ -112,7 +98,7 @@ def _listed(name: str, origin: str, found: Formatter | UnknownFormatter) -> List
 
 
 def _unknown(name: str) -> UnknownFormatter:
-    known = [*built_in(), *(point.name for point in _plug_ins())]
+    known = [*built_in(), *(point.name for point in plug_ins(GROUP))]
     from difflib import get_close_matches
 
     close = get_close_matches(name.lower(), known, n=1)

@@ -25,7 +25,6 @@ from lagcli.formatters.precedence import Level
 from lagcli.notation.greek import BY_NAME, romanized
 from lagcli.notation.letters import in_ascii
 from lagcli.notation.naming import name_parts
-from lagcli.record import replace
 
 _SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _SUPERSCRIPTS = str.maketrans("0123456789−n", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿ")
@@ -134,15 +133,7 @@ class UnicodePrinter(GrammarPrinter):
 
     def label(self, label: Label) -> Layout:
         """Show a symbol of the page."""
-        if label.unit:
-            return text(f"[{joined(self.label(replace(label, unit=False)))}]")
-        letter = self.spelled(label.letter, 0)
-        names = [self.spelled(name, 0) for name in label.index]
-        if label.change:
-            return text("Δ" + letter)
-        if label.matrix:
-            return text(letter + (f"[{', '.join(names)}]" if names else ""))
-        return text("_".join([letter, *names]))
+        return self.labelled(label, label.letter, "Δ")
 
     def integral(self, integral: Integral) -> Layout:
         """Show an integral: `2 ∫ f(x) dx`."""
@@ -169,15 +160,7 @@ class AsciiPrinter(GrammarPrinter):
 
     def label(self, label: Label) -> Layout:
         """Show a symbol of the page."""
-        if label.unit:
-            return text(f"[{joined(self.label(replace(label, unit=False)))}]")
-        names = [romanized(name) for name in label.index]
-        letter = romanized(in_ascii(label.letter))
-        if label.change:
-            return text(f"Delta {letter}")
-        if label.matrix:
-            return text(letter + (f"[{', '.join(names)}]" if names else ""))
-        return text("_".join([letter, *names]))
+        return self.labelled(label, in_ascii(label.letter), "Delta ")
 
     def integral(self, integral: Integral) -> Layout:
         """Show an integral: `2*integral(f(x), x)`."""

@@ -6,7 +6,8 @@ writer has its own colours, dashes and characters for them.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from itertools import groupby
 from typing import Literal
 
 from lagcli.record import field, record
@@ -149,6 +150,12 @@ class CannotDraw(Exception):
     """Why there is no such picture of this problem, and what to do: a sentence for the user."""
 
 
+def unbroken(points: Iterable[Point | None]) -> tuple[Piece, ...]:
+    """A line in pieces, between the places where there is no point."""
+    parts = groupby(points, key=lambda point: point is not None)
+    return tuple(tuple(p for p in part if p is not None) for is_point, part in parts if is_point)
+
+
 def drawn_by(panel: Panel) -> list[Curve | Marks | Rule]:
     """The parts that a key of the panel lists: those with a label, each label once."""
     found: dict[str, Curve | Marks | Rule] = {}
@@ -169,6 +176,18 @@ def equilibria(
             label = words(f"{role} equilibrium")
             items.append(Marks(points=points, role=role, colour=colour, label=label))
     return items
+
+
+def widened(
+    spans: Sequence[tuple[float, float]], least: float, room: float = 0.0
+) -> list[tuple[float, float]]:
+    """Spans none of which is narrower than this part of the longest, and room of a part of it."""
+    longest = max(high - low for low, high in spans) or 1.0
+    found = []
+    for low, high in spans:
+        missing = max(0.0, least * longest - (high - low)) / 2 + room * longest
+        found.append((low - missing, high + missing))
+    return found
 
 
 def extent(values: list[float], room: float = 0.05) -> tuple[float, float]:

@@ -22,9 +22,9 @@ from lagcli.pictures.drawing import (
     Marks,
     Panel,
     Picture,
-    Piece,
     Point,
     extent,
+    unbroken,
 )
 from lagcli.pictures.labels import Labels, with_unit
 from lagcli.problem_data import Problem
@@ -115,7 +115,7 @@ def _over_the_first(labels: Labels, motions: Motions, place: int) -> Panel:
     points = tuple((float(row[0] or 0.0), value) for row, value in found)
     item: Item = Marks(points=points, role="dots")
     if motions.is_grid and not motions.along:
-        item = Curve(pieces=tuple(_unbroken(motions, place)), role="series")
+        item = Curve(pieces=unbroken(_line(motions, place)), role="series")
     column = motions.columns[place]
     span = extent([value for _, value in found] or [0.0])
     y = labels.axis_over(column, span)
@@ -123,18 +123,11 @@ def _over_the_first(labels: Labels, motions: Motions, place: int) -> Panel:
     return Panel(x=x, y=y, items=(item,))
 
 
-def _unbroken(motions: Motions, place: int) -> Iterator[Piece]:
-    """The curve in pieces, between rows that do not count."""
-    piece: list[Point] = []
+def _line(motions: Motions, place: int) -> Iterator[Point | None]:
+    """The curve; None for a row that does not count."""
     for row, right in zip(motions.rows, motions.are_right, strict=True):
         value = row[len(motions.varied) + place]
-        if right and value is not None:
-            piece.append((float(row[0] or 0.0), value))
-        elif piece:
-            yield tuple(piece)
-            piece = []
-    if piece:
-        yield tuple(piece)
+        yield (float(row[0] or 0.0), value) if right and value is not None else None
 
 
 def _map(labels: Labels, motions: Motions, place: int) -> Panel:

@@ -73,12 +73,12 @@ def _errors(
 ) -> tuple[Piece, ...]:
     """|x - reference| / scale at the rows that both have; rows beside an event differ in time."""
     known = {row[0]: row[place] for row in reference.result.rows}
-    found: list[Piece] = []
-    for piece in run.pieces:
-        line = [
+    found = (
+        tuple(
             (row[0] or 0.0, max(abs(value - other) / scale, FLOOR))
             for row in piece
             if (value := row[place]) is not None and (other := known.get(row[0])) is not None
-        ]
-        found.append(tuple(line))
+        )
+        for piece in run.pieces
+    )
     return tuple(line for line in found if line)

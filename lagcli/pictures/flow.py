@@ -32,7 +32,7 @@ from lagcli.pictures.drawing import (
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.run import PicturedRun, run_with
 from lagcli.pictures.starts import begun
-from lagcli.pictures.turning import is_periodic, wrapped
+from lagcli.pictures.turning import all_wrapped, is_periodic
 from lagcli.problem_data import Expect, Problem
 from lagcli.reader.columns import Column, phase_columns
 from lagcli.record import record, replace
@@ -209,15 +209,9 @@ def _line(
         run = run_with(replace(problem, initial=initial), asked, columns)
     except Refusal:
         return ()
-    lines = _shown(run, made)
-    return tuple(tuple((x, sign * y) for x, y in line) for line in lines)
-
-
-def _shown(run: PicturedRun, made: Flow) -> tuple[tuple[tuple[float, float], ...], ...]:
     pieces = run.curve(1, 2)
-    if made.turns:
-        return tuple(part for piece in pieces for part in wrapped(piece))
-    return pieces
+    lines = all_wrapped(pieces) if made.turns else pieces
+    return tuple(tuple((x, sign * y) for x, y in line) for line in lines)
 
 
 def reversed_in_time(problem: Problem) -> Problem:

@@ -17,6 +17,7 @@ from lagcli.pictures.drawing import (
     Point,
     extent,
     symbol,
+    widened,
     words,
 )
 from lagcli.pictures.labels import with_unit
@@ -103,10 +104,5 @@ def _once(text: str, colour: int, *, named: bool) -> DrawnName | None:
 
 def _axes(points: list[Point]) -> tuple[tuple[float, float], tuple[float, float]]:
     """The extents, neither much narrower than the other."""
-    spans = [extent([point[k] for point in points], room=0.08) for k in (0, 1)]
-    longest = max(high - low for low, high in spans)
-    made = []
-    for low, high in spans:
-        missing = max(0.0, _LEAST * longest - (high - low)) / 2
-        made.append((low - missing, high + missing))
-    return made[0], made[1]
+    first, second = widened([extent([p[k] for p in points], room=0.08) for k in (0, 1)], _LEAST)
+    return first, second

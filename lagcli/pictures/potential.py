@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.pictures.contours import grid
 from lagcli.pictures.drawing import (
@@ -16,6 +14,7 @@ from lagcli.pictures.drawing import (
     Picture,
     Point,
     Rule,
+    unbroken,
     words,
 )
 from lagcli.pictures.labels import Labels, with_unit
@@ -95,11 +94,5 @@ def _pieces(
 ) -> tuple[tuple[Point, ...], ...]:
     """The curve where it is defined; what is far outside of the panel is left out."""
     margin = 2 * (top - bottom)
-    pieces: list[list[Point]] = [[]]
-    for x in grid(*window.q, _PLACES):
-        y = freedom.potential(x)
-        if math.isfinite(y) and bottom - margin <= y <= top + margin:
-            pieces[-1].append((x, y))
-        elif pieces[-1]:
-            pieces.append([])
-    return tuple(tuple(piece) for piece in pieces if piece)
+    line = ((x, freedom.potential(x)) for x in grid(*window.q, _PLACES))
+    return unbroken(p if bottom - margin <= p[1] <= top + margin else None for p in line)

@@ -14,9 +14,21 @@ from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.hybrid.events import Event
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.numerics.hybrid.result import Result
-from lagcli.pictures.drawing import Axis, Band, Curve, Item, Marks, Piece, Rule, extent, words
+from lagcli.pictures.drawing import (
+    Axis,
+    Band,
+    Curve,
+    Item,
+    Marks,
+    Piece,
+    Point,
+    Rule,
+    extent,
+    unbroken,
+    words,
+)
 from lagcli.pictures.labels import Labels
-from lagcli.pictures.turning import wrapped
+from lagcli.pictures.turning import all_wrapped
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import Column
 from lagcli.record import replace
@@ -69,18 +81,12 @@ class PicturedRun:
 
     def curve(self, x: int, y: int) -> tuple[Piece, ...]:
         """Column y over column x, in pieces; what is not defined breaks the line."""
-        found: list[Piece] = []
-        for piece in self.pieces:
-            line: list[tuple[float, float]] = []
-            for row in piece:
-                a, b = row[x], row[y]
-                if a is None or b is None:
-                    found.append(tuple(line))
-                    line = []
-                else:
-                    line.append((a, b))
-            found.append(tuple(line))
-        return tuple(line for line in found if line)
+
+        def point(row: Values) -> Point | None:
+            a, b = row[x], row[y]
+            return None if a is None or b is None else (a, b)
+
+        return tuple(line for piece in self.pieces for line in unbroken(map(point, piece)))
 
     def in_the_plane(self, *, turns: bool = False, named: bool = True) -> list[Item]:
         """The second column over the first, and where it begins; `turns`: over an angle."""
@@ -88,7 +94,7 @@ class PicturedRun:
         if not pieces:
             return []
         if turns:
-            pieces = tuple(part for piece in pieces for part in wrapped(piece))
+            pieces = all_wrapped(pieces)
         label = words("motion") if named else None
         return [
             Curve(pieces=pieces, role="motion", label=label),

@@ -13,7 +13,7 @@ from itertools import combinations, starmap
 
 from lagcli.expression import Expression, Name
 from lagcli.numerics.hybrid.request import Asked
-from lagcli.pictures.drawing import Piece
+from lagcli.pictures.drawing import Piece, widened
 from lagcli.pictures.forces import Arrow, arrows
 from lagcli.pictures.points import AXES, mass_of, tracks
 from lagcli.pictures.run import WITHOUT_BOUND, PicturedRun
@@ -301,12 +301,6 @@ def _without_flight(places: Sequence[Place]) -> list[Place]:
 
 def _corners(places: Iterable[Place]) -> tuple[Place, Place]:
     """The least box with room around; as wide as a quarter of its length at least."""
-    columns = list(zip(*places, strict=True))
-    spans = [(min(values), max(values)) for values in columns]
-    longest = max(high - low for low, high in spans) or 1.0
-    low, high = [], []
-    for least, most in spans:
-        missing = max(0.0, 0.3 * longest - (most - least)) / 2 + 0.1 * longest
-        low.append(least - missing)
-        high.append(most + missing)
-    return tuple(low), tuple(high)
+    spans = [(min(values), max(values)) for values in zip(*places, strict=True)]
+    low, high = zip(*widened(spans, 0.3, 0.1), strict=True)
+    return low, high

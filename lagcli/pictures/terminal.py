@@ -96,20 +96,17 @@ class _Writer:
         if panel.equal:
             width, height = _fitted(low, high, width, height)
         across = ticks(panel.x, max(2, width // 11))
-        canvas = Canvas(
-            width,
-            height,
-            _logged(panel, low),
-            _logged(panel, high),
-            unicode=self.terminal.unicode,
-            dashed=not self.terminal.colour,
-        )
+        canvas = self._canvas(width, height, _logged(panel, low), _logged(panel, high))
         for item in _fewer_levels(panel.items):
             self._draw(canvas, panel, item)
         lines = [" " * margin + self.cut(self.name(panel.y.label), width)]
         lines += self._framed(canvas, panel.y, down, margin)
         lines += self._bottom(panel.x, across, margin, width)
         return [*lines, *self._key(panel)]
+
+    def _canvas(self, width: int, height: int, low: Point, high: Point) -> Canvas:
+        unicode, dashed = self.terminal.unicode, not self.terminal.colour
+        return Canvas(width, height, low, high, unicode=unicode, dashed=dashed)
 
     # -- what is in it ---------------------------------------------------------------------------
 
@@ -191,14 +188,7 @@ class _Writer:
     def _sample(self, item: Curve | Marks | Rule) -> list[Cell]:
         match item:
             case Curve(role=role, colour=colour):
-                canvas = Canvas(
-                    4,
-                    1,
-                    (0.0, 0.0),
-                    (1.0, 1.0),
-                    unicode=self.terminal.unicode,
-                    dashed=not self.terminal.colour,
-                )
+                canvas = self._canvas(4, 1, (0.0, 0.0), (1.0, 1.0))
                 canvas.line([(0.0, 0.5), (1.0, 0.5)], colour, thin=role in {"level", "surface"})
                 return next(canvas.rows())
             case Marks(role=role, colour=colour):

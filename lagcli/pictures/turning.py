@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 
 from lagcli.pictures.drawing import Piece, Point
 
@@ -12,6 +12,11 @@ def is_periodic(f: Callable[[float], float]) -> bool:
     """Whether a function of an angle is the same one turn later."""
     pairs = [(f(x), f(x + 2 * math.pi)) for x in (0.3, 1.1, 2.7)]
     return all(abs(a - b) <= 1e-9 * (1 + abs(a)) for a, b in pairs)
+
+
+def all_wrapped(pieces: Iterable[Piece]) -> tuple[Piece, ...]:
+    """Lines over an angle between -pi and pi."""
+    return tuple(part for piece in pieces for part in wrapped(piece))
 
 
 def wrapped(piece: Piece) -> list[Piece]:

@@ -13,6 +13,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
+from lagcli.platform.plug_ins import plug_ins
 from lagcli.platform.rooms import modules_in
 from lagcli.statements.declaration import Declaration, Expected
 
@@ -129,17 +130,9 @@ def _sorted(declared: Iterable[Declaration]) -> list[Declaration]:
 # -- those of other packages ----------------------------------------------------------------
 
 
-def entry_points(*, group: str) -> Iterable[EntryPoint]:
-    """The entry points of a group; the scanner costs half of typer to import."""
-    from importlib.metadata import entry_points as installed
-
-    return installed(group=group)
-
-
 def _plug_ins() -> list[EntryPoint]:
-    """Scan for the sections of other packages, by name and then by package."""
-    points = [point for point in entry_points(group=GROUP) if point.name not in _rooms()]
-    return sorted(points, key=lambda point: (point.name, point.dist.name if point.dist else ""))
+    """The sections of other packages under names that no built-in one has."""
+    return [point for point in plug_ins(GROUP) if point.name not in _rooms()]
 
 
 def _loadable() -> Iterator[Declaration]:

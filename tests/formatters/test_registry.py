@@ -15,16 +15,17 @@ from lagcli.formatters.registry import (
     find_formatter,
     list_formatters,
 )
+from lagcli.platform import plug_ins
 
 
 def install(monkeypatch, **points):
     found = [EntryPoint(name, value, registry.GROUP) for name, value in points.items()]
-    monkeypatch.setattr(registry, "entry_points", lambda **_: found)
+    monkeypatch.setattr(plug_ins, "entry_points", lambda **_: found)
 
 
 @pytest.mark.parametrize("name", built_in())
 def test_built_in_formatters_are_found_without_a_scan(name, monkeypatch):
-    monkeypatch.setattr(registry, "entry_points", lambda **_: pytest.fail("scanned"))
+    monkeypatch.setattr(plug_ins, "entry_points", lambda **_: pytest.fail("scanned"))
     assert callable(find_formatter(name))
 
 

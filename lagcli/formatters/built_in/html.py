@@ -34,7 +34,7 @@ from lagcli.expression import (
 from lagcli.formatters.mathml import MathmlPrinter, enclosed
 from lagcli.formatters.options import Options
 from lagcli.formatters.page import to_document
-from lagcli.formatters.plain import harmless
+from lagcli.formatters.plain import harmless, with_spaces_of
 from lagcli.formatters.units import mathml_unit
 from lagcli.statements.answers import Answers
 from lagcli.units import Unit
@@ -130,9 +130,7 @@ def _sentence(parts: Sequence[str | Formula], printer: MathmlPrinter) -> str:
 
 def _part(part: str | Formula, printer: MathmlPrinter) -> str:
     if isinstance(part, str):
-        before = " " if part[:1] == " " else ""
-        after = " " if part[-1:] == " " else ""
-        return before + _CODE.sub(r"<code>\1</code>", escaped(part)) + after
+        return with_spaces_of(part, _CODE.sub(r"<code>\1</code>", escaped(part)))
     return f"<math>{_show(part, printer)}</math>"
 
 

@@ -22,6 +22,7 @@ from lagcli.formatters.latex_text import latex_text
 from lagcli.formatters.layout import joined
 from lagcli.formatters.options import Options
 from lagcli.formatters.page import to_document
+from lagcli.formatters.plain import with_spaces_of
 from lagcli.statements.answers import Answers
 
 _PREAMBLE = r"""\documentclass{article}
@@ -96,6 +97,4 @@ def _sentence(parts: Sequence[str | Formula], display: LatexDisplay) -> str:
 
 def _words(part: str) -> str:
     """Escaped words, with the spaces at their ends."""
-    before = " " if part[:1] == " " else ""
-    after = ("~" if part.endswith("= ") else " ") if part[-1:] == " " else ""
-    return before + latex_text(part) + after
+    return with_spaces_of(part, latex_text(part), "~" if part.endswith("= ") else " ")

@@ -21,7 +21,7 @@ from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.layout import joined
 from lagcli.formatters.options import Options
 from lagcli.formatters.page import to_document
-from lagcli.formatters.plain import harmless
+from lagcli.formatters.plain import harmless, with_spaces_of
 from lagcli.statements.answers import Answers
 
 #: Characters that mean something to HTML or to GitHub, and those that a backslash disarms.
@@ -102,6 +102,4 @@ def _inline(latex: str) -> str:
 
 
 def _words(part: str) -> str:
-    before = " " if part[:1] == " " else ""
-    after = " " if part[-1:] == " " else ""
-    return before + escaped(part) + after
+    return with_spaces_of(part, escaped(part))

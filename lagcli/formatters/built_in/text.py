@@ -30,7 +30,7 @@ from lagcli.formatters.layout import (
 )
 from lagcli.formatters.options import Options
 from lagcli.formatters.page import to_document
-from lagcli.formatters.plain import FIRM_SPACE, filled, harmless
+from lagcli.formatters.plain import FIRM_SPACE, filled, harmless, with_spaces_of
 from lagcli.formatters.unicode import AsciiPrinter, UnicodePrinter
 from lagcli.formatters.units import unicode_unit
 from lagcli.notation.greek import romanized
@@ -126,9 +126,7 @@ class _TextPage:
     def text(self, part: str) -> str:
         """Make a part of a sentence harmless, keeping the spaces at its ends."""
         words = " ".join(self.words(part))
-        before = " " if part[:1] == " " else ""
-        after = " " if part[-1:] == " " and words else ""
-        return before + words + after
+        return with_spaces_of(part, words, " " if words else "")
 
     def inline(self, formula: Formula) -> str:
         return joined(self.formula(formula)).replace(" ", FIRM_SPACE)
@@ -203,15 +201,8 @@ class _TextPage:
         return {0: ("⎡", "⎤"), count - 1: ("⎣", "⎦")}.get(row, ("⎢", "⎥"))
 
     def entries(self, matrix: Matrix, width: int) -> Iterator[str]:
-        rows = []
-        zeros = False
-        for i, entries in enumerate(matrix.entries):
-            for j, entry in enumerate(entries):
-                if joined(self.printer.show(entry)) == "0":
-                    zeros = True
-                else:
-                    rows.append(Row(matrix.entry_label(i, j), entry))
-        if zeros:
+        rows = matrix.listed(lambda entry: joined(self.printer.show(entry)) == "0")
+        if len(rows) < sum(map(len, matrix.entries)):
             name = joined(self.printer.label(matrix.label))
             yield f"{name} is 0 but for" if rows else f"{name} = 0"
         yield from self.equations(rows, width)
