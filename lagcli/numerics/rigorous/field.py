@@ -8,8 +8,9 @@ from typing import Any
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.rigorous.solution import LinearSystem, convolved, horner, sizes
 
-#: Coefficients found one by one; from there on each step of Newton's method doubles them.
-_BASE = 12
+#: Coefficients found one by one; from there on each step of Newton's method doubles them.  These
+#: are so small a part of the state (2^-28) that they need _FEWER bits less.
+_BASE, _FEWER = 12, 24
 
 
 class VectorField:
@@ -22,9 +23,9 @@ class VectorField:
     """
 
     def __init__(self, motion: Motion) -> None:
-        from flint import arb, arb_mat, arb_poly
+        from flint import arb, arb_mat, arb_poly, ctx
 
-        self._ball, self._matrix, self._polynomial = arb, arb_mat, arb_poly
+        self._ball, self._matrix, self._polynomial, self._context = arb, arb_mat, arb_poly, ctx
         self.n, equations = motion.n, motion.equations
         symbols = (*equations.q, *equations.qdot)
         self.system = LinearSystem(motion, equations.forcing, equations.bias, symbols)
@@ -47,8 +48,9 @@ class VectorField:
     def coefficients(self, t: Any, x: Sequence[Any], order: int) -> list[list[Any]]:
         """Taylor coefficients 0 .. order of the solution from x: of q, then of v."""
         found = self._first(t, x, min(order, _BASE))
-        while len(found[0]) <= order:
-            found = self._doubled(t, found, min(2 * len(found[0]), order + 1))
+        with self._context.workprec(self._context.prec - _FEWER):
+            while len(found[0]) <= order:
+                found = self._doubled(t, found, min(2 * len(found[0]), order + 1))
         return found
 
     def _first(self, t: Any, x: Sequence[Any], order: int) -> list[list[Any]]:

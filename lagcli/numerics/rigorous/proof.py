@@ -21,12 +21,12 @@ from lagcli.numerics.rigorous.rows import Rows
 from lagcli.numerics.rigorous.sets import LohnerSet, around
 from lagcli.problem_data import Problem
 
-#: Bits of the first attempt and of the last; the order in proportion, from a scan of costs.
-_BITS, _MOST_BITS, _ORDER = 80, 640, 0.45
-#: All is worked out in _GUARD bits more than a step keeps; the remainder of a step lies _REMAINDER
-#: bits below those kept: the pendulum's radius at t = 20 is 1.1 units of the last bit kept.  With a
-#: remainder 2 bits below it is 23, without more bits 4200 (1300 by the 135 roundings alone).
-_GUARD, _REMAINDER = 12, 10
+#: Bits of the first attempt and of the last; the order beside those of the remainder, from a scan.
+_BITS, _MOST_BITS, _ORDER = 64, 640, 0.43
+#: The remainder of a step lies _REMAINDER bits below those kept, and constants, states and the
+#: coefficients that weigh have _GUARD more: the pendulum's radius at t = 20 is 0.0008 units of the
+#: last bit kept.  With all in 12 bits more and a remainder 10 below it is 3, and a third slower.
+_GUARD, _REMAINDER = 24, 20
 #: Nodes of f and J that are evaluated to order 28, all attempts together: some 10 minutes.
 _WORK = 2e6
 #: With fewer bits than _PATIENT an attempt ends where the width of the set makes steps shorter
@@ -99,7 +99,7 @@ def prove(
     last = 0.0
     while True:
         kind = attempts or Attempt
-        with ctx.workprec(bits + kind.guard):
+        with ctx.workprec(bits + _GUARD):
             attempt = kind(setup, implied, bits, work, progress)
             found = attempt.proof()
         best = found if best is None or found.holds_until >= best.holds_until else best
@@ -113,8 +113,6 @@ def prove(
 class Attempt:
     """One proof at a given precision, with the order that suits it."""
 
-    guard = _GUARD
-
     def __init__(
         self,
         setup: Simulation,
@@ -125,7 +123,7 @@ class Attempt:
     ) -> None:
         self.setup, self.implied, self.bits, self.most = setup, implied, bits, most
         self.progress = progress
-        self.order = int(_ORDER * bits)
+        self.order = int(_ORDER * (bits + _REMAINDER))
         self.arithmetic = Balls()
         self.steps, self.work = 0, 0.0
         self.refusal = ""
@@ -162,7 +160,7 @@ class Attempt:
             accuracy=asked.accuracy,
             reached=reached,
             holds_until=holds,
-            bits=self.bits + self.guard,
+            bits=self.bits + _GUARD,
             kept=self.bits,
             order=self.order,
             steps=self.steps,
@@ -181,9 +179,10 @@ class Attempt:
             return self.bits + math.ceil(math.log2(self.excess)) + 2 * _SPARE
         if not (self.excess > 1 or self.width > _NARROW * accuracy):
             return 0
-        lost = max(1.0, self.bits + math.log2(max(self.width, 2.0**-self.bits)))
+        finest = self.bits + _REMAINDER
+        lost = max(1.0, finest + math.log2(max(self.width, 2.0**-finest)))
         share = until / max(self.last, until / _FARTHEST)
-        wanted = lost * share - math.log2(accuracy) + _SPARE
+        wanted = lost * share - math.log2(accuracy) + _SPARE - _REMAINDER
         return max(self.bits + 32, 16 * math.ceil(wanted / 16))
 
     def _go(self) -> None:

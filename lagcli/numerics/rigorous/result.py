@@ -34,8 +34,8 @@ class Proof:
     accuracy, reached, holds_until
         As of a certificate; here they are proved.
     bits, kept, order, steps : int
-        Of the successful attempt: bits of the arithmetic, and those of them that a step keeps; what
-        it leaves out is below 2^-kept of the state.
+        Of the successful attempt: bits of states, constants and the coefficients that weigh, and of
+        the rest; what a step leaves out is below 2^-kept of the state.
     assumed : tuple of str
         What the proof stands on.
     events : tuple of ProvedEvent

@@ -69,9 +69,6 @@ class SplitStep:
 class Shadowing(Attempt):
     """A shadow of one pseudo-orbit, at a given precision."""
 
-    #: Its steps leave out less than they round: each of these bits halves how near the start is.
-    guard = 16
-
     def _go(self) -> None:
         t, start, mode, _ = self._begin()
         if self.setup.equations.rows or mode.watched:
