@@ -23,7 +23,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import product
-from math import prod
 
 import sympy
 from sympy import Expr, Symbol
@@ -54,11 +53,13 @@ def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
     if metric.n == 1:
         length = _arc_length(metric.g[0][0], metric.q[0])
         return [] if length is None else [length]
-    factors = [*(_of_coordinate(x, metric, K) for x in metric.q), _joint(metric)]
-    if prod(map(len, factors)) > _MOST:
+    factors, joint = [_of_coordinate(x, metric, K) for x in metric.q], _joint(metric)
+    plain = [[f for f in each if not _has_sums_below(f)] for each in factors]
+    tried = [*product(*factors), *product(joint[1:], *plain)]
+    if len(tried) > _MOST:
         return []
     try:
-        found = _solutions(metric, K, [sympy.Mul(*parts) for parts in product(*factors)], allowed)
+        found = _solutions(metric, K, [sympy.Mul(*parts) for parts in tried], allowed)
     except (NoPoint, ZeroDivisionError):
         return []
     found = [X for X in found if not free_of(X, metric.q)]
@@ -181,7 +182,13 @@ def _joint(metric: Metric) -> list[Expr]:
         if p.exp.is_negative and p.base.is_Add and len(p.base.free_symbols & set(metric.q)) > 1
     }  # fmt: skip
     ordered = sorted(bases, key=sympy.default_sort_key)
-    return [one, *(1 / b**k for b in ordered for k in (1, sympy.S.Half))]
+    half = sympy.S.Half
+    return [one, *(b**k for b in ordered for k in (-1, -half, half))]
+
+
+def _has_sums_below(factor: Expr) -> bool:
+    """Whether it has a power of a sum of one coordinate, which no joint one stands beside."""
+    return any(p.base.is_Add for p in factor.atoms(sympy.Pow))
 
 
 def _arguments(expressions: Iterable[Expr], functions: tuple[type, ...]) -> list[Expr]:

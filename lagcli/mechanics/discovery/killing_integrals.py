@@ -209,8 +209,10 @@ class KillingIntegrals:
             dot(c, column) - shift * rate
             for *column, rate in zip(*(part.slopes for part in parts), v, strict=True)
         )
-        # p.eta - Q, with p.q' - H = L
+        # p.eta - Q, with p.q' - H = L and the p - M q' of terms of L that change nothing
         gauge = dot(c, [(part.degree - 1) * part.value for part in parts]) - shift * system.L - S
+        linear = [derivative(system.L, rate).xreplace(self._still) for rate in v]
+        gauge += dot(linear, [e + shift * rate for e, rate in zip(eta, v, strict=True)])
         return integral_of(self.noether, eta, self._collected(moving) + S, gauge)
 
     def _scalar(self, rate: Expr, f: Expr) -> Expr | None:
