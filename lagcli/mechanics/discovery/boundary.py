@@ -83,9 +83,18 @@ def _candidates(by_t: Expr, by_q: Sequence[Expr], t: Symbol, q: Sequence[Symbol]
         left += _functions(sympy.expand(term.diff(t)), t, q)
         if not term.has(*_OF_TIME) or free_of(term, [t]):
             seen.add(t * term)
+        else:
+            seen |= _means(term, t)
     found.update(dict.fromkeys(sorted(seen, key=sympy.default_sort_key)))
     found.pop(sympy.S.One, None)
     return list(found)
+
+
+def _means(term: Expr, t: Symbol) -> set[Expr]:
+    """T f for f sin^k cos^l(w t), which has a mean: at resonance a charge grows with the time."""
+    waves = {f for f in term.atoms(sympy.sin, sympy.cos) if t in f.free_symbols}
+    still = term.xreplace(dict.fromkeys(waves, sympy.S.One))
+    return {t * still} if waves and still.is_polynomial(t) else set()
 
 
 def _divides_by(term: Expr, t: Symbol) -> bool:

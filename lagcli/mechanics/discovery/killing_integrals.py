@@ -169,7 +169,7 @@ class KillingIntegrals:
         return [derivative(rate, v) / self.frame.factor for v in self.equations.v]
 
     def _products(self, known: Sequence[NoetherCharge]) -> list[Expr]:
-        """Integrals of degree N, N - 2, ... that follow from the known ones, without their S."""
+        """Integrals of degrees N - 2 to N that follow from the known ones, without their S."""
         fixed = [c.charge for c in known if self.equations.t not in c.charge.free_symbols]
         v = self.equations.v
         degrees = {Q: sympy.Poly(Q, *v).total_degree() for Q in fixed}
@@ -177,7 +177,7 @@ class KillingIntegrals:
             sympy.Mul(*chosen)
             for count in range(1, self.degree + 1)
             for chosen in combinations_with_replacement(fixed, count)
-            if sum(map(degrees.__getitem__, chosen)) in (self.degree, self.degree - 2)
+            if 0 <= self.degree - sum(map(degrees.__getitem__, chosen)) <= 2
         ]
         return [Q - Q.xreplace(self._still) for Q in made]
 

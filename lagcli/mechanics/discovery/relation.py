@@ -81,7 +81,9 @@ class Relation:
         """c with sum c_k vector_k + (last vector) = 0, or None; checked by the caller."""
         last = len(self.vectors) - 1
         try:
-            vector = next((v for v in self.kernel() if last in v), None)
+            # one component may tell all, as the slope by t among those by x, y and z
+            kernel = self.kernel(len(self.vectors[0]))
+            vector = next((v for v in kernel if last in v), None)
             known = None if vector is None else self.exact(vector)
         except (NoPoint, ZeroDivisionError):
             return None
