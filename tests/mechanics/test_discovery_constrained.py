@@ -41,7 +41,8 @@ KNOWN = {
         "energy momentum_x momentum_y L_z boost_x boost_y charge_1", "", "Galilei", True),
     "classics/spherical-pendulum-cartesian": ("energy L_z", "", "R^2", True),
     "classics/particle-in-paraboloid": ("energy L_z", "", None, None),
-    "driven/bead-on-wire-turning-horizontally": ("charge_1 charge_2 charge_4", "", "sch(1)", True),
+    "driven/bead-on-wire-turning-horizontally": (
+        "conformal_exp conformal_exp_2 translation_r_exp_2", "", "sch(1)", True),
     "chains/cartesian-double-pendulum": ("energy", "", "R", None),
     "driven/bead-on-wire-turning-in-vertical-plane": ("", "", None, None),
 }  # fmt: skip

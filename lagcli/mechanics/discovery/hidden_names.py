@@ -4,17 +4,25 @@ runge_lenz   A = p x L - m k r/|r|, whose part without velocities is m r V
 fradkin_xy   p_x p_y + m k x y of an oscillator
 energy_x     p_x^2/(2 m) + V_x of one separated coordinate
 dilation_x, conformal_x    those of the inverse square, in one separated coordinate
+
+By the terms of second degree alone, where other potentials act beside the central one:
+
+runge_lenz     p x L + ... with Kepler's m k r/|r| (Stark, Hartmann)
+L_z_squared    L_z^2 + ..., L_squared (Smorodinsky and Winternitz)
+L_z_p_y        L_z p_y + ..., as of an oscillator with frequencies 1:2
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations, combinations_with_replacement
 
 import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.mechanics.discovery.kinds import Kinds
+from lagcli.mechanics.discovery.names import AXES
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
@@ -26,11 +34,13 @@ class HiddenNames:
     def __init__(self, system: System, equations: SlotEquations, kinds: Kinds) -> None:
         self.t = equations.t
         self.q = equations.q
+        self.v = equations.v
         self.mass = equations.mass
         rest = dict.fromkeys(equations.v, sympy.S.Zero)
         self._rest = rest
         self.V = -system.L.xreplace(rest)
         self.axes = list(self._axes(kinds))
+        self._tensors = list(self._known_tensors(kinds))
 
     def of(self, functions: Sequence[tuple[Slot, Expr]], charge: NoetherCharge) -> tuple[str, Expr]:
         """The name, empty for none, and the factor that makes the charge the textbook's."""
@@ -45,7 +55,44 @@ class HiddenNames:
             ratio = next((r for r in ratios if r is not None), None)
             if ratio is not None:
                 return f"runge_lenz_{name}", sympy.S.NegativeOne if ratio < 0 else sympy.S.One
+        return self._of_tensor(charge.charge)
+
+    def _of_tensor(self, Q: Expr) -> tuple[str, Expr]:
+        """The name by the terms of second degree, of which the others follow."""
+        if not self._tensors:
+            return "", sympy.S.One
+        pairs = combinations_with_replacement(self.v, 2)
+        leading = sympy.Add(*(Q.diff(u, w) * u * w / (2 if u == w else 1) for u, w in pairs))
+        for name, known in self._tensors:
+            ratio = sympy.cancel(leading / known)
+            if ratio.free_symbols.isdisjoint({*self.q, *self.v}):
+                return name, sympy.Integer(-1 if ratio.could_extract_minus_sign() else 1)
         return "", sympy.S.One
+
+    def _known_tensors(self, kinds: Kinds) -> Iterator[tuple[str, Expr]]:
+        """Products of momenta and angular momenta, in Cartesian coordinates of one mass."""
+        n, names = range(len(self.q)), [x.name for x in self.q]
+        m = self.mass[0][0]
+        alike = all(self.mass[i][k] == (m if i == k else 0) for i in n for k in n)
+        if len(kinds.lengths) != len(self.q) or not alike or not set(names) <= set("xyz"):
+            return
+        L = {(i, k): self.q[i] * self.v[k] - self.q[k] * self.v[i] for i in n for k in n}
+        for i, k in combinations(n, 2):
+            yield f"L_{AXES[''.join(sorted(names[i] + names[k]))]}_squared", L[i, k] ** 2
+        if len(self.q) == 3:
+            yield "L_squared", sympy.Add(*(L[pair] ** 2 for pair in combinations(n, 2)))
+        kepler = any(self._attracts(part) for part in sympy.Add.make_args(sympy.expand(self.V)))
+        for i in n:
+            known = sympy.Add(*(self.v[k] * L[i, k] for k in n))
+            if kepler:
+                yield f"runge_lenz_{names[i]}", known
+            elif len(self.q) == 2 and set(names) == {"x", "y"}:
+                yield f"L_z_p_{names[1 - i]}", known if names[i] == "x" else -known
+
+    def _attracts(self, part: Expr) -> bool:
+        """Whether a term of V is c/r."""
+        r = sympy.sqrt(sympy.Add(*(x**2 for x in self.q)))
+        return self._constant_ratio(part, 1 / r) is not None
 
     def _timed(self, functions: Sequence[tuple[Slot, Expr]]) -> str:
         """The dilation and the conformal integral of one separated coordinate."""

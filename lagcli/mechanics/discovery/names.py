@@ -13,7 +13,8 @@ from sympy import Expr, Symbol
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.noether import NoetherCharge
 
-_AXES = {"xy": "z", "yz": "x", "xz": "y"}
+AXES = {"xy": "z", "yz": "x", "xz": "y"}
+MOVING = "_moving"
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,8 +35,19 @@ class Naming:
         if not any(e.free_symbols & set(self.q) for e in moved.values()):
             return self._translation_in_time(moved)
         if self.t not in sympy.Tuple(*moved.values()).free_symbols:
-            return self._rotation(moved)
-        return ""
+            return "dilation" if self._stretches(moved) else self._rotation(moved)
+        centred = {x: e - self._drift(e) for x, e in moved.items()}
+        drifts = centred != moved and self.t not in sympy.Tuple(*centred.values()).free_symbols
+        name = self._rotation({x: e for x, e in centred.items() if e != 0}) if drifts else ""
+        return name and f"{name}{MOVING}"  # about a point that moves, as in crossed fields
+
+    def _drift(self, change: Expr) -> Expr:
+        """The part of a displacement that is the same at all places."""
+        return change.as_independent(*self.q, as_Add=True)[0]
+
+    def _stretches(self, moved: Mapping[Symbol, Expr]) -> bool:
+        """Whether all lengths grow alike: an isometry of hyperbolic space."""
+        return set(moved) == set(self.kinds.lengths) and all(e == x for x, e in moved.items())
 
     def _of_time(self, tau: Expr, moved: Mapping[Symbol, Expr]) -> str:
         inside = tau.free_symbols & set(self.q)
@@ -46,7 +58,10 @@ class Naming:
             slope = moved[x].diff(self.t)
             return f"boost_{x}" if slope != 0 and not slope.free_symbols & {self.t, x} else ""
         if self.t not in tau.free_symbols:
-            return "" if moved else "energy"
+            steady = set(self.q).isdisjoint(sympy.Tuple(*moved.values()).free_symbols)
+            return ("moving_energy" if steady else "") if moved else "energy"
+        if self._grows(tau):
+            return "conformal_exp"
         turns = self._turning(tau)
         if len(turns) == 1:
             return f"conformal_{turns.pop().func.__name__}"
@@ -62,6 +77,11 @@ class Naming:
         """The sines and cosines of the time: cos(ω t), not the cos(α) of a slope."""
         return {f for f in sympy.Tuple(*changes).atoms(sympy.sin, sympy.cos) if f.has(self.t)}
 
+    def _grows(self, change: Expr) -> bool:
+        """Whether it is c exp(lambda t)."""
+        rate = sympy.cancel(change.diff(self.t) / change)
+        return rate != 0 and rate.free_symbols.isdisjoint({self.t, *self.q})
+
     def _direction(self, moved: Mapping[Symbol, Expr]) -> str:
         """Of all particles, of all along one axis, or of the named coordinates."""
         letters = {_bare(x.name) for x in moved}
@@ -75,6 +95,8 @@ class Naming:
         alike = _equal(moved)
         if all((e / self.t).diff(self.t) == 0 for e in moved.values()):
             return f"boost{axis}"
+        if alike and self._grows(next(iter(moved.values()))):
+            return f"translation{axis}_exp"
         turns = self._turning(*moved.values())
         if len(turns) == len(moved) == 2 and len({turn.args[0] for turn in turns}) == 1:
             first = next(iter(moved.values()))  # a circle: (cos Omega t, -sin Omega t)
@@ -104,8 +126,8 @@ class Naming:
                                            for x, e in moved.items()})  # fmt: skip
         if len(planes) == 1 and whole:
             [plane] = planes
-            if plane in _AXES and (len(moved) == 2) == (len(self.q) <= 3):
-                return f"L_{_AXES[plane]}"
+            if plane in AXES and (len(moved) == 2) == (len(self.q) <= 3):
+                return f"L_{AXES[plane]}"
         if len(moved) == 2:
             one, other = moved
             return f"angular_momentum_{one.name}_{other.name}"
@@ -142,7 +164,7 @@ class Naming:
         same = _bare(one.name) == _bare(partner.name) and _bare(pair[0].name) == _bare(pair[1].name)
         plane = "".join(sorted((_bare(one.name), _bare(other.name))))
         return (
-            f"L_{_AXES[plane]}_relative" if same and plane in _AXES else "angular_momentum_relative"
+            f"L_{AXES[plane]}_relative" if same and plane in AXES else "angular_momentum_relative"
         )
 
     def of_mode(self, eta: Sequence[Expr]) -> str:
@@ -171,6 +193,9 @@ class Naming:
             slope = moved[other].diff(one)  # of y_2 by x_1: the other particle's is opposite
             backward = not slope.could_extract_minus_sign()
             return sympy.S.NegativeOne if backward != (name[2] == "y") else sympy.S.One
+        if name == "moving_energy" and any(moved.values()):
+            return sympy.S.NegativeOne  # p.xi - h tau: the textbook's is h
+        name = name.removesuffix(MOVING)
         if name not in ("L_x", "L_y", "L_z"):
             return sympy.S.One
         if len(self.kinds.latitudes) == 1 and moved[self.kinds.latitudes[0]] != 0:

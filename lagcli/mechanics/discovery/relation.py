@@ -11,6 +11,7 @@ from lagcli.algebra import derivative, dot
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import (
+    PRIME,
     NoPoint,
     independent,
     kernel_modulo,
@@ -81,15 +82,22 @@ class Relation:
         """c with sum c_k vector_k + (last vector) = 0, or None; checked by the caller."""
         last = len(self.vectors) - 1
         try:
-            # one component may tell all, as the slope by t among those by x, y and z
-            kernel = self.kernel(len(self.vectors[0]))
-            vector = next((v for v in kernel if last in v), None)
+            vector = next((v for v in self.kernel() if last in v), None)
+            if vector is not None and not self._holds(vector):
+                # one component tells all, as the slope by t beside those by x, y and z
+                kernel = self.kernel(len(self.vectors[0]))
+                vector = next((v for v in kernel if last in v), None)
             known = None if vector is None else self.exact(vector)
         except (NoPoint, ZeroDivisionError):
             return None
         if not known or known[last] == 0:
             return None
         return [known.get(i, sympy.S.Zero) / known[last] for i in range(last)]
+
+    def _holds(self, vector: dict[int, int]) -> bool:
+        """Whether the combination vanishes at a new point as well."""
+        rows = self.rows(1)
+        return not any(sum(c * row[k] for k, c in vector.items()) % PRIME for row in rows)
 
 
 def with_gradient(

@@ -144,16 +144,18 @@ def _searches(discovery: Discovery, allowed: Allowance) -> Iterator[Search | Non
     """
     equations, found = discovery.equations, discovery.coordinate_kinds
     t = equations.t
-    powers = (sympy.S.One, t, t**2)
     slots = point_slots(equations)
-    unknowns = point_unknowns(
-        slots,
-        TimeFunctions(powers, powers, ()),
-        affine(found),
-        time_with_space=not discovery.quadratic_mass,
-    )
-    few = len(unknowns) <= _MOST_UNKNOWNS
-    yield Search(equations, slots, unknowns, allowed) if few else None
+    for powers in ((sympy.S.One, t, t**2), (sympy.S.One,)):
+        unknowns = point_unknowns(
+            slots,
+            TimeFunctions(powers, powers, ()),
+            affine(found),
+            time_with_space=not discovery.quadratic_mass,
+        )
+        few = len(unknowns) <= _MOST_UNKNOWNS
+        yield Search(equations, slots, unknowns, allowed) if few else None
+        if few:
+            break
     if len(equations.q) < 2 or not discovery.quadratic_mass or not discovery.canonical:
         return
     centred = discovery.centred_kinds
