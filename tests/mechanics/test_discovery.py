@@ -51,11 +51,11 @@ KNOWN = {
     "discovery/oscillator-equal-frequencies": (8, "energy L_z fradkin_xy", "sch(2)", True),
     "discovery/smorodinsky-winternitz": (
         3,
-        "energy conformal_cos energy_x charge_1 conformal_x_cos conformal_x_sin",
+        "energy conformal_cos energy_x L_z_squared conformal_x_cos conformal_x_sin",
         None,
         True,
     ),
-    "particles/oscillator-one-to-two": (5, "energy energy_x charge_1", None, True),
+    "particles/oscillator-one-to-two": (5, "energy energy_x L_z_p_x", None, True),
     "discovery/oscillator-three-to-two": (5, "energy energy_x", None, True),
     "classics/spherical-pendulum": (2, "energy p_phi", "R^2", True),
     "classics/spherical-pendulum-cartesian": (2, "energy L_z", "R^2", True),
@@ -78,8 +78,8 @@ KNOWN = {
 SPECIAL = {
     "particles/anisotropic-oscillator": {
         ("k2", "k1"): (10, "L_z fradkin_xy"),
-        ("k2", "k1/4"): (7, "charge_1"),
-        ("k2", "4*k1"): (7, "charge_1"),
+        ("k2", "k1/4"): (7, "L_z_p_y"),
+        ("k2", "4*k1"): (7, "L_z_p_x"),
     },
     # Chang, Tabor and Weiss, J. Math. Phys. 23 (1982) 531: D/C = -1/6
     "discovery/henon-heiles-any-cubic": {("epsilon", "6"): (2, "charge_1")},

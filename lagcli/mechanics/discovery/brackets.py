@@ -85,15 +85,15 @@ class Brackets:
         surface = [dynamics.constraints.velocity_forms[k] for k in kept]
         surface += [equations[k].f for k in kept if equations[k].holonomic]
         self._constraints = len(surface)
-        self.charges = (*charges, *surface)
-        self.dynamics = dynamics
-        self.allowed = allowed
         q, v = system.q, system.qdot
-        momenta = dynamics.lagrange.momenta
+        # without the s of p_phi + s: {A_x, A_y} = -2 E p_phi has no E s
+        moving = [Q - Q.as_independent(system.t, *q, *v, as_Add=True)[0] for Q in charges]
+        self.charges = (*moving, *surface)
+        self.dynamics, self.allowed = dynamics, allowed
         expressions: list[Expr] = list(self.charges)
         expressions += [derivative(Q, x) for Q in self.charges for x in (*q, *v)]
         expressions += [m for row in dynamics.lagrange.mass_matrix for m in row]
-        expressions += [derivative(p, x) for p in momenta for x in q]
+        expressions += [derivative(p, x) for p in dynamics.lagrange.momenta for x in q]
         self._evaluate = Evaluator(expressions, _DIGITS)
         self._samples: list[Sample] = []
         self._source = self._states()

@@ -72,9 +72,9 @@ class HiddenNames:
     def _known_tensors(self, kinds: Kinds) -> Iterator[tuple[str, Expr]]:
         """Products of momenta and angular momenta, in Cartesian coordinates of one mass."""
         n, names = range(len(self.q)), [x.name for x in self.q]
-        m = self.mass[0][0]
-        alike = all(self.mass[i][k] == (m if i == k else 0) for i in n for k in n)
-        if len(kinds.lengths) != len(self.q) or not alike or not set(names) <= set("xyz"):
+        if len(kinds.lengths) != len(self.q) or not set(names) <= set("xyz"):
+            return
+        if not self._has_one_mass:
             return
         L = {(i, k): self.q[i] * self.v[k] - self.q[k] * self.v[i] for i in n for k in n}
         for i, k in combinations(n, 2):
@@ -88,6 +88,12 @@ class HiddenNames:
                 yield f"runge_lenz_{names[i]}", known
             elif len(self.q) == 2 and set(names) == {"x", "y"}:
                 yield f"L_z_p_{names[1 - i]}", known if names[i] == "x" else -known
+
+    @property
+    def _has_one_mass(self) -> bool:
+        """Whether T is m v^2/2."""
+        n, m = range(len(self.q)), self.mass[0][0]
+        return all(self.mass[i][k] == (m if i == k else 0) for i in n for k in n)
 
     def _attracts(self, part: Expr) -> bool:
         """Whether a term of V is c/r."""
@@ -149,6 +155,8 @@ class HiddenNames:
         if is_zero(self.V) is True:
             return
         if len(kinds.lengths) == len(self.q):
+            if not self._has_one_mass:
+                return
             from_centre = [x - kinds.centre.get(x, 0) for x in self.q]
             if self._is_central(from_centre):
                 yield from ((x.name, y) for x, y in zip(self.q, from_centre, strict=True))

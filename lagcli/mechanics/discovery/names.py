@@ -80,7 +80,7 @@ class Naming:
     def _grows(self, change: Expr) -> bool:
         """Whether it is c exp(lambda t)."""
         rate = sympy.cancel(change.diff(self.t) / change)
-        return rate != 0 and rate.free_symbols.isdisjoint({self.t, *self.q})
+        return bool(rate != 0) and rate.free_symbols.isdisjoint({self.t, *self.q})
 
     def _direction(self, moved: Mapping[Symbol, Expr]) -> str:
         """Of all particles, of all along one axis, or of the named coordinates."""

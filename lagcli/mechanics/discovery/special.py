@@ -3,7 +3,8 @@
 They are the roots of the factors on which the rank of the linear systems falls (`pivots`): equal
 masses, the exponents of power laws, the frequency of a frame.  Where the functions of time of
 the ansatz depend on each other, at frequencies in the ratio 1, 2 or 3, the rank tells nothing:
-these are tried too, and the exponents at which a power makes the equations linear.  At each
+these are tried too, and the exponents at which a power makes the equations linear.  Under
+constraints equal values are tried of parameters that change places with two coordinates.  At each
 value the whole search is made anew, and what is found there is compared with what is found
 everywhere.
 
@@ -22,7 +23,7 @@ from itertools import combinations
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import simplify, to_expression
+from lagcli.algebra import is_zero, simplify, to_expression
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.signs import sign
@@ -31,6 +32,8 @@ from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.spectrum import Exponent
+from lagcli.mechanics.discovery.surface import relations_on_surface
+from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Problem
@@ -89,6 +92,45 @@ def new_charges(
     except (NoPoint, ZeroDivisionError):
         return ()
     return tuple(found[k - len(known)] for k in kept if k >= len(known))
+
+
+def new_on_surface(
+    known: Sequence[Expr],
+    found: Sequence[NoetherCharge],
+    dynamics: Dynamics,
+    allowed: Allowance,
+) -> tuple[NoetherCharge, ...]:
+    """Those that are no combinations of the known ones where the constraints hold."""
+    kept = [[x] for x in known]
+    new = []
+    for charge in found:
+        last = len(kept)
+        relations = relations_on_surface([*kept, [charge.charge]], dynamics, allowed)
+        if not any(last in relation for relation in relations):
+            kept.append([charge.charge])
+            new.append(charge)
+    return tuple(new)
+
+
+def exchanged(dynamics: Dynamics) -> list[Value]:
+    """b = a where L and the constraints stay the same as a and b, x and y change places."""
+    system = dynamics.system
+    if any(kind != "holonomic" for kind in dynamics.constraints.kinds.values()):
+        return []
+    if any(is_zero(f) is not True for f in system.applied_forces):
+        return []
+    formulas = [system.L, *(e.f for e in dynamics.constraints.equations)]
+    moving = [list(pair) for pair in zip(system.q, system.qdot, strict=True)]
+    found: list[Value] = []
+    for a, b in combinations(system.parameters, 2):
+        for one, other in combinations(moving, 2):
+            places = list(zip([a, *one], [b, *other], strict=True))
+            swap = {x: y for pair in places for x, y in (pair, pair[::-1])}
+            turned = [f.xreplace(swap) for f in formulas]
+            if all(is_zero(f - g) is True for f, g in zip(formulas, turned, strict=True)):
+                found.append((b, a))
+                break
+    return [(b, a) for b, a in found if _admissible(b, a)]
 
 
 def linear_powers(equations: SlotEquations) -> list[Expr]:

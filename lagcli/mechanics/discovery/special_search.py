@@ -21,8 +21,10 @@ from lagcli.mechanics.discovery.special import (
     SpecialCase,
     Value,
     candidates,
+    exchanged,
     linear_powers,
     new_charges,
+    new_on_surface,
     problem_at,
 )
 from lagcli.mechanics.discovery.spectrum import Exponent
@@ -46,14 +48,17 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
     if discovery.unsearched:
         return ()
     few = 0 < len(system.q) <= _MOST_COORDINATES
-    if discovery.dynamics.constraints.equations or not few or not system.parameters:
+    if not few or not system.parameters:
         return ()
     allowed = Allowance(_UNITS)
     variables = (system.t, *system.q, *system.qdot)
     found: list[SpecialCase] = []
     try:
-        factors = [*_factors(discovery, allowed), *linear_powers(discovery.equations)]
-        values = candidates(system, factors, _exponents(discovery))
+        if discovery.dynamics.constraints.equations:
+            values = exchanged(discovery.dynamics)
+        else:
+            factors = [*_factors(discovery, allowed), *linear_powers(discovery.equations)]
+            values = candidates(system, factors, _exponents(discovery))
         if len(values) > _MOST_VALUES:
             discovery.words.append(_NOT_TRIED)
         for parameter, value in values[:_MOST_VALUES]:
@@ -62,7 +67,7 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
                 continue
             there = _at(discovery, parameter, value)
             allowed.check()
-            if there is None or len(there.charges) <= len(discovery.charges):
+            if there is None or not _has_more(there, discovery):
                 continue
             known = [
                 part for c in discovery.charges
@@ -70,12 +75,24 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
                     _at_value(c.charge, (parameter, value), variables), c.charge
                 )
             ]  # fmt: skip
-            charges = new_charges(known, there.charges, variables, allowed)
+            charges = (
+                new_on_surface(known, there.charges, there.dynamics, allowed)
+                if there.dynamics.constraints.equations
+                else new_charges(known, there.charges, variables, allowed)
+            )
             if charges:
                 found.append(SpecialCase(parameter, value, len(there.charges), charges))
     except TooMuchWork:
         discovery.words.append(_NOT_TRIED)
     return tuple(found)
+
+
+def _has_more(there: Discovery, here: Discovery) -> bool:
+    """More charges, or more point symmetries: L_z in place of an integral of second degree."""
+    return len(there.charges) > len(here.charges) or (
+        len(there.charges) == len(here.charges)
+        and len(there.point_charges) > len(here.point_charges)
+    )
 
 
 def _at_value(charge: Expr, value: Value, moving: Sequence[Symbol]) -> Expr:

@@ -1,0 +1,150 @@
+"""Kinds of systems in which searches had missed a charge, a gauge, a name or a special value.
+
+Driven at resonance: Landau and Lifshitz, *Mechanics*, section 22; the numbers of symmetries of
+linear equations: Lutzky, J. Phys. A 11 (1978) 249, and Niederer, Helv. Phys. Acta 45 (1972) 802.
+Gnomonic coordinates: Higgs, J. Phys. A 12 (1979) 309; Zernike's oscillator: Pogosyan, Wolf and
+Yakhno, J. Math. Phys. 58 (2017) 072901.  Tops: Landau and Lifshitz, section 35.  Jacobi's geodesics
+and Neumann's motion on a sphere: Moser, *Geometry of Quadrics and Spectral Theory* (1980).
+"""
+
+from random import Random
+
+import pytest
+import sympy
+
+from lagcli.mechanics.discovery.summary import summary
+from tests.oracle.constancy import digits_of
+
+from .derived import derive
+
+POS = "{assume: positive}"
+
+
+def text_of(coordinates, L, positive="", constraint=""):
+    parameters = ", ".join(f"{p}: {POS}" for p in positive.split())
+    more = f', constraints: {{s: "{constraint}"}}' if constraint else ""
+    head = f"coordinates: [{', '.join(coordinates)}]"
+    return f'{{{head}, parameters: {{{parameters}}}, L: "{L}"{more}}}'
+
+
+def kinetic(letters):
+    return "(" + " + ".join(f"{x}'^2" for x in letters) + ")/2"
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(3))
+def test_at_resonance_none_is_missed(seed):
+    random = Random(seed)
+    x, w = random.choice("xqs"), random.choice(["w", "2", "3*w"])
+    wave = random.choice(["cos", "sin"])
+    L = f"{kinetic(x)} - ({w})^2*{x}^2/2 + F*{x}*{wave}({w}*t)"
+    derivation = derive(text_of(x, L, "w F"))
+    found = summary(derivation.discovery)
+    assert (len(derivation.discovery.charges), found.independent) == (5, 2)
+    assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("letters", "number"), [("xy", 8), ("xyz", 12), ("uvw", 12)])
+def test_a_force_that_swings_at_a_given_frequency_keeps_them_all(letters, number):
+    pushed = Random(letters).choice(letters)
+    derivation = derive(text_of(letters, f"{kinetic(letters)} + {pushed}*cos(2*t)"))
+    found = summary(derivation.discovery)
+    assert (len(derivation.discovery.charges), found.dimension) == (number, number)
+    assert found.independent == 2 * len(letters)
+    assert min(digits_of(derivation).values()) > 20
+
+
+PLANES = {
+    "gnomonic": ("(x'^2 + y'^2 + l*(x*y' - y*x')^2)/(2*(1 + l*(x^2 + y^2))^2)", "so(3) + R"),
+    "gnomonic, hyperbolic": (
+        "(x'^2 + y'^2 - l*(x*y' - y*x')^2)/(2*(1 - l*(x^2 + y^2))^2)", "sl(2,R) + R"),
+    "Zernike": (
+        "(x'^2 + y'^2 - l*(x*x' + y*y')^2/(1 + l*(x^2 + y^2)))/2", "sl(2,R) + R"),
+    "from above": (
+        "(x'^2 + y'^2 + l*(x*x' + y*y')^2/(1 - l*(x^2 + y^2)))/2", "so(3) + R"),
+}  # fmt: skip
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", PLANES)
+def test_projected_spheres_and_hyperboloids_have_three_isometries(name):
+    L, algebra = PLANES[name]
+    found = summary(derive(text_of("xy", L, "l")).discovery)
+    assert (found.dimension, found.independent, found.name) == (4, 3, algebra)
+
+
+@pytest.mark.parametrize("change", ["s*p'", "s*r*r'", "s*r'*cos(p) - s*r*p'*sin(p)"])
+def test_terms_of_l_that_change_nothing_are_in_the_gauge_alone(change):
+    """Q = p.eta - G with p = dL/dq' for the Runge-Lenz vector, whatever L has added."""
+    L = f"(r'^2 + r^2*p'^2)/2 + k/r + {change}"
+    text = f'{{coordinates: {{r: {POS}, p: {{}}}}, parameters: {{k: {POS}, s: {POS}}}, L: "{L}"}}'
+    derivation = derive(text)
+    found = {c.name: c for c in derivation.discovery.charges}
+    for name in ("runge_lenz_x", "runge_lenz_y"):
+        charge, system = found[name], derivation.system
+        momenta = [system.L.diff(v) for v in system.qdot]
+        moved = sum(p * e for p, e in zip(momenta, charge.transformation.changes, strict=True))
+        assert sympy.simplify(moved - charge.gauge - charge.charge) == 0
+    assert summary(derivation.discovery).name.startswith("the energy and so(3)")
+
+
+NAMES = {
+    "drifting in crossed fields": (
+        "xyz", "B*x*y' + E*x", {"L_z_moving": "B*x*y' - (B*y + E*t)*x' "
+                                              "+ B^2*(x^2 + y^2)/2 + E*x + E*B*t*y + E^2*t^2/2"}),
+    "falling": ("xy", "-a*y", {"L_z_moving": "(a*t^2 + 2*y)*x' - 2*x*y' - 2*a*t*x"}),
+    "repelled": ("x", "a^2*x^2/2", {"translation_x_exp": "(x' - a*x)*exp(a*t)"}),
+    "walls": ("xy", "-a/x^2 - E/y^2", {"L_z_squared": "(x*y' - y*x')^2 "
+                                                      "+ 2*a*y^2/x^2 + 2*E*x^2/y^2"}),
+    "one to two": ("xy", "-a*(x^2 + 4*y^2)/2", {"L_z_p_x": "x'*(x*y' - y*x') + a*x^2*y"}),
+    "in an electric field": (
+        "xy", "a/sqrt(x^2 + y^2) + E*x",
+        {"runge_lenz_x": "y'*(x*y' - y*x') - a*x/sqrt(x^2 + y^2) + E*y^2/2"}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("case", NAMES)
+def test_charges_are_named_by_what_they_are(case):
+    letters, more, expected = NAMES[case]
+    derivation = derive(text_of(letters, f"{kinetic(letters)} + {more}", "a B E"))
+    charges = {c.name: c.charge for c in derivation.discovery.charges}
+    system = derivation.system
+    rates = dict(zip(letters, system.qdot, strict=True))
+    symbols = {str(s): s for s in (system.t, *system.q, *system.parameters)}
+    for name, known in expected.items():
+        for x, rate in rates.items():
+            known, symbols[f"v_{x}"] = known.replace(f"{x}'", f"v_{x}"), rate
+        value = sympy.sympify(known.replace("^", "**"), symbols)
+        ratio = sympy.simplify(charges[name] / value)
+        assert ratio.is_number or not ratio.free_symbols & {system.t, *system.q, *system.qdot}
+
+
+SURFACES = {
+    "elliptic paraboloid": ("z - a*x^2 - b*y^2", "", {"b = a": "L_z"}),
+    "Neumann": ("x^2 + y^2 + z^2 - 1", " - (a*x^2 + b*y^2 + c*z^2)/2",
+                {"b = a": "L_z", "c = a": "L_y", "c = b": "L_x"}),
+    "Jacobi": ("x^2/a^2 + y^2/b^2 + z^2/c^2 - 1", "",
+               {"b = a": "L_z", "c = a": "L_y", "c = b": "L_x"}),
+    "a sphere, a harmonic force": ("x^2 + y^2 + z^2 - a^2", " - b*z^2/2", {}),
+}  # fmt: skip
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", SURFACES)
+def test_equal_axes_under_constraints_are_special(name):
+    constraint, more, expected = SURFACES[name]
+    letters = [p for p in "abc" if p in constraint + more]
+    text = text_of("xyz", f"{kinetic('xyz')}{more}", " ".join(letters), constraint)
+    special = derive(text).discovery.special
+    found = {f"{s.parameter} = {s.value}": " ".join(c.name for c in s.charges) for s in special}
+    assert found == expected
+
+
+@pytest.mark.long
+def test_each_pair_of_equal_moments_makes_a_top_symmetric():
+    L = ("A*(u'*sin(v)*sin(w) + v'*cos(w))^2/2 + B*(u'*sin(v)*cos(w) - v'*sin(w))^2/2"
+         " + C*(w' + u'*cos(v))^2/2")  # fmt: skip
+    special = derive(text_of("uvw", L, "A B C")).discovery.special
+    assert {f"{s.parameter} = {s.value}" for s in special} == {"B = A", "C = A", "C = B"}
+    assert [s.number for s in special] == [5, 5, 5]
