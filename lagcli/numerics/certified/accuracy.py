@@ -13,9 +13,7 @@ The runs begin one rounding of the initial values apart, and more: see `perturbe
 Where things happen on the way (impacts, contacts lost), both runs must go through the same
 events in the same order.  A time that lies after an event in one run and before it in the
 other is within the error of that event: there the state on the same side is compared, and
-the times of the events are compared as every other number.
-This is a cross-check and no proof; it held in 643 of 643 answers on nine systems, chaotic
-ones among them.
+the times of the events are compared as every other number.  It is a cross-check, no proof.
 
 References
 ----------
@@ -36,7 +34,7 @@ from lagcli.numerics.certified.clock import clock_errors, column_changes
 from lagcli.numerics.certified.drift import changes
 from lagcli.numerics.certified.partners import Partners, both_stop, why_apart
 from lagcli.numerics.certified.rank import RankPlace, places
-from lagcli.numerics.certified.scales import Scales, relative
+from lagcli.numerics.certified.scales import Scales, at_rounding, is_enlarged, relative
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.integrators.steps import DEPENDENT, Explained, component_scales
 from lagcli.record import record, replace
@@ -151,7 +149,7 @@ class Controller:
             fine, fine_rows = self._run(finer, level, coarse)
             found = self._compared(coarse, rows, fine, fine_rows, (tolerance, finer))
             third = None
-            if found.reached and fine.shortened:  # two may be near each other by chance
+            if found.reached and is_enlarged(fine, max(found.errors) / self.chance, self.rounded):
                 third = self._run(tolerance / _THIRD, level, fine, slow=True)
                 found = self._worse(found, third)
             self._furthest = self.furthest(found)
@@ -257,8 +255,10 @@ class Controller:
             return self._scales(fine, fine_rows[:kept], bounds, tolerances[1])
 
         scales = scaled(len(fine_rows))
-        errors = [relative(bound, scale) for bound, scale in zip(bounds, scales, strict=True)]
         good, held, held_scales = self._held(differences, len(places), scaled)
+        most = USUAL * tolerances[0] if factor == USUAL else math.inf
+        found = [*map(relative, bounds, scales)], held
+        errors, held = (at_rounding(each, self.chance / factor, most) for each in found)
         lost = _first_beyond(differences, [SATURATED * scale for scale in [*scales, 1.0]])
         lost_at = math.inf if lost is None else fine.marks[lost].t
         same_end = (coarse.event is None) == (fine.event is None) and partner.agree

@@ -9,7 +9,7 @@ from fractions import Fraction
 from typing import Any
 from weakref import WeakKeyDictionary
 
-from lagcli.numerics.certified.perturbed_twin import clocked, elsewhere, moved_state
+from lagcli.numerics.certified import perturbed_twin as twin
 from lagcli.numerics.certified.prepared import ROUNDED, Prepared
 from lagcli.numerics.compiled.engine import NoCompiler, engine
 from lagcli.numerics.compiled.machine import Machine, NotCompiled
@@ -176,13 +176,13 @@ def prepared_doubles(simulation: Setup, doubles: Modes) -> Prepared | str:
     make = double_machine if independent is None else None
     usual = Runs(simulation, doubles, machine, make, doubles.make_method)
 
-    def prepared(other: Runs, beside: tuple[Sequence[Any], Sequence[Any]]) -> Prepared:
-        both, states = (usual, other), (simulation.start, beside)
+    def prepared(other: Runs, beside: tuple[twin.State, twin.State]) -> Prepared:
+        both, states = (usual, other), (simulation.start, *beside)
 
         def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: int) -> Run:
-            runs, times = both[moved != 0], clocked(simulation.times, moved)
+            runs, times = both[moved != 0], twin.clocked(simulation.times, moved)
             runs.foreseen = lambda steps: too_many(steps / _CERTAINLY)
-            done = runs.run(states[moved != 0], times, bound, every, progress)
+            done = runs.run(states[moved], times, bound, every, progress)
             too_many(done.steps)
             return done
 
@@ -197,7 +197,7 @@ def prepared_doubles(simulation: Setup, doubles: Modes) -> Prepared | str:
             if isinstance(found, str):
                 raise NotPossible(found)
             runs = Runs(simulation, others, found, make, others.make_method)
-            return prepared(runs, elsewhere(simulation))
+            return prepared(runs, twin.elsewhere(simulation))
 
         return Prepared(
             run=run,
@@ -206,7 +206,7 @@ def prepared_doubles(simulation: Setup, doubles: Modes) -> Prepared | str:
             with_others=with_others,
         )
 
-    return prepared(usual, moved_state(simulation, doubles))
+    return prepared(usual, twin.moved_states(simulation, doubles))
 
 
 def prepared_extended(simulation: Setup, doubles: Modes) -> Prepared | str:
@@ -271,11 +271,11 @@ def _prepared(
     q, v = simulation.start
     exact_q, exact_v = refined_state(motion, modes.first.surface(), q, v, anew=not asked.project)
     inexact = rounded_components(motion, q, v)
-    moved_state = [
-        x * (1 + arithmetic.ball(numbers.rounding) * 2) if each else x
-        for x, each in zip((*exact_q, *exact_v), inexact, strict=True)
-    ]
-    states = (exact_q, exact_v), (moved_state[: motion.n], moved_state[motion.n :])
+    unit = arithmetic.ball(numbers.rounding) * 2
+    beside = twin.by_turns(
+        (*exact_q, *exact_v), inexact, motion.n, lambda x, sign: x * (1 + unit * sign)
+    )
+    states = (exact_q, exact_v), *beside
 
     def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: int) -> Run:
         times: list[Any] = simulation.times
@@ -284,7 +284,7 @@ def _prepared(
             times = [*(Fraction(t) * clock for t in times[:-1]), times[-1]]
         bound.unit = numbers.rounding / DOUBLE.rounding
         try:
-            return runs.run(states[moved != 0], times, bound, every, progress)
+            return runs.run(states[moved], times, bound, every, progress)
         except (OverflowError, NotCompiled, Refusal) as reason:
             raise NotPossible(str(reason)) from None
 

@@ -11,8 +11,9 @@ parameters that lie so many times as far from the file's as the doubles do.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
+from itertools import cycle
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -26,6 +27,7 @@ from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.setup import Setup
 
 Vector = list[Any]
+State = tuple[Vector, Vector]
 
 _EPSILON = 2.0**-52
 #: The other parameters lie this multiple of the rounding beyond the file's.
@@ -72,21 +74,33 @@ class BesideDoubles(Doubles):
         return nearest + (2 + chance % 7) * math.copysign(unit, chance % 2 - 0.5)
 
 
-def moved_state(simulation: Setup, modes: Modes) -> tuple[Vector, Vector]:
-    """The next doubles to the initial state: what it is rounded by must not matter."""
+def moved_states(simulation: Setup, modes: Modes) -> tuple[State, State]:
+    """The next doubles to the initial state: all above, and above and below by turns.
+
+    What it is rounded by must not matter; in one of them its parts may cancel.
+    """
     motion, (q, v) = modes.first.motion, simulation.start
     rounded = rounded_components(motion, q, v)
-    moved = [
-        math.nextafter(x, math.inf) if inexact else x
-        for x, inexact in zip((*q, *v), rounded, strict=True)
+
+    return by_turns((*q, *v), rounded, motion.n, lambda x, sign: math.nextafter(x, sign * math.inf))
+
+
+def by_turns(
+    values: Sequence[Any], moves: Sequence[bool], n: int, moved: Callable[[Any, int], Any]
+) -> tuple[State, State]:
+    """The states with what moves moved upwards, and upwards and downwards by turns."""
+    found = [
+        [moved(x, sign) if each else x for x, each, sign in zip(values, moves, signs, strict=False)]
+        for signs in (cycle([1]), cycle([1, -1]))
     ]
-    return moved[: motion.n], moved[motion.n :]
+    above, both = ((each[:n], each[n:]) for each in found)
+    return above, both
 
 
-def elsewhere(simulation: Setup) -> tuple[Vector, Vector]:
-    """The initial state with all its components a few roundings away."""
+def elsewhere(simulation: Setup) -> tuple[State, State]:
+    """The initial state with all its components a few roundings away, to one side or the other."""
     q, v = simulation.start
-    return _turned(q, 1), _turned(v, -1)
+    return (_turned(q, 1), _turned(v, -1)), (_turned(q, -1), _turned(v, -1))
 
 
 def _turned(values: Sequence[float], sign: int) -> list[float]:

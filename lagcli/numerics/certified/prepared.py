@@ -5,14 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from typing import Any
 
 from lagcli.numerics.certified.accuracy import CHANCE, LONGEST, Controller, Outcome
 from lagcli.numerics.certified.perturbed_twin import (
+    State,
     are_felt,
     clocked,
     elsewhere,
-    moved_state,
+    moved_states,
     other_parameters,
 )
 from lagcli.numerics.certified.scales import Scales
@@ -23,7 +23,6 @@ from lagcli.numerics.hybrid.transitions import Transitions
 from lagcli.numerics.integrators.steps import Tolerance
 from lagcli.record import record
 
-Vector = list[Any]
 Precision = Callable[[], AbstractContextManager[None]]
 
 #: Local tolerances below this change nothing: an estimate is rounded at h |rate| 1e-16.
@@ -87,14 +86,14 @@ def in_doubles(make: MakeMethod, simulation: Setup, modes: Modes, rounded: float
     asked = simulation.asked
     usual = modes.by(make)
 
-    def prepared(other: Modes, beside: tuple[Vector, Vector]) -> Prepared:
-        both, states = (usual, other), (simulation.start, beside)
+    def prepared(other: Modes, beside: tuple[State, State]) -> Prepared:
+        both, states = (usual, other), (simulation.start, *beside)
 
         def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: int) -> Run:
             made = Run(
                 Transitions(both[moved != 0], asked.accuracy, asked.until), bound, asked.accuracy
             )
-            q, v = states[moved != 0]
+            q, v = states[moved]
             times = clocked(simulation.times, moved)
             return made.go(q, v, times, probe_every=every, progress=progress)
 
@@ -105,7 +104,7 @@ def in_doubles(make: MakeMethod, simulation: Setup, modes: Modes, rounded: float
             with_others=lambda others: prepared(others.by(make), elsewhere(simulation)),
         )
 
-    return prepared(usual, moved_state(simulation, modes))
+    return prepared(usual, moved_states(simulation, modes))
 
 
 def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1.0) -> Outcome:
