@@ -7,6 +7,9 @@ from fractions import Fraction
 import pytest
 
 from lagcli.formatters.grammar import to_grammar
+from lagcli.pipeline import _statements as statements
+from lagcli.pipeline import derive
+from lagcli.reader import read_problem
 from lagcli.record import replace
 from lagcli.rewriting import rewritten
 from lagcli.statements.answers import QuantityUnit
@@ -102,6 +105,31 @@ def test_the_algebra_is_examined(change: dict[str, object]) -> None:
     left = found.sections.get("algebra")
     assert "algebra" in found.absent if left is None else getattr(left, next(iter(change))) is None
     assert not found.complete
+
+
+HORIZONS = {  # Bañados, Teitelboim and Zanelli, Phys. Rev. Lett. 69 (1992) 1849; de Sitter
+    "1 - r^2/l^2": "sl(2,R) + R",
+    "r^2/l^2 - M": "sl(2,R) + R",
+    "M - 4*r^2/l^2": "sl(2,R) + R",
+}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("f", HORIZONS)
+def test_an_algebra_is_examined_on_the_side_of_a_horizon_where_its_charges_are_real(f: str) -> None:
+    """f u'^2 - r'^2/f: the charges hold sqrt(f) of one side, while the equations hold on both."""
+    text = f"""{{coordinates: {{u: {{}}, r: {{assume: positive}}}},
+        parameters: {{M: {{assume: positive}}, l: {{assume: positive}}}},
+        L: "(-({f})*u'^2 + r'^2/({f}))/2"}}"""
+    derivation = derive(read_problem("test.yaml", text.encode()).checked())
+    problem = derivation.problem
+    answers = statements(derivation).answers(("discovered", "algebra"))
+    found = verified(problem, answers)
+    assert not found.warnings
+    assert found.sections["algebra"].name == HORIZONS[f]
+    wrong = replace(answers.sections["algebra"], independent=2)
+    sheet = replace(answers, sections={**answers.sections, "algebra": wrong})
+    assert not verified(problem, sheet).complete
 
 
 LISTED = ("particles/isotropic-oscillator", "central/kepler", "discovery/smorodinsky-winternitz")

@@ -12,7 +12,7 @@ from random import Random
 
 from flint import arb
 
-from lagcli.verification.examination import Examination
+from lagcli.verification.examination import LOOKED_AT, Examination
 from lagcli.verification.linear import Unclear, dot, solve
 from lagcli.verification.phase_points import poisson
 from lagcli.verification.states import State
@@ -53,12 +53,25 @@ class CanonicalSample:
 
 
 def samples(x: Examination, functions: Sequence[int], count: int) -> list[CanonicalSample]:
-    """So many samples, fewer where no more are found."""
-    states = x.states()
+    """So many samples, fewer where no more are found.
+
+    They lie around a state at which the functions have values, on the one side of a horizon.
+    """
+
+    def inside(states: Sequence[State]) -> list[State]:
+        return [s for s in states if all(s.at(f).is_finite() for f in functions)]
+
     found: list[CanonicalSample] = []
-    if not states:
-        return found
-    for state in _nearby(states[0], count * _ATTEMPTS):
+    for first in inside(x.states()) or inside(x.states(LOOKED_AT)) or x.states(1):
+        found = max(found, _around(first, functions, count), key=len)
+        if len(found) == count:
+            break
+    return found
+
+
+def _around(first: State, functions: Sequence[int], count: int) -> list[CanonicalSample]:
+    found: list[CanonicalSample] = []
+    for state in _nearby(first, count * _ATTEMPTS):
         try:
             sample = CanonicalSample(state, functions)
         except Unclear:
