@@ -56,7 +56,6 @@ _ADDED = 2_000_000  # products of terms of two fractions that are added
 def solve_linear(
     A: Matrix,
     b: Sequence[Expr] | Matrix,
-    relations: Relations | None = None,
     budget: int = 1_000_000,
     shapes: Shapes | None = None,
 ) -> LinearSolution | None:
@@ -66,18 +65,16 @@ def solve_linear(
     ----------
     A, b
         n rows of n entries; n right-hand sides, or n rows of them.
-    relations
-        Those that are solved for a symbol shorten the entries from the start.  The others
-        shorten only the result: used while eliminating, they would leave factors below
-        that vanish where det A does not, as x does in x'/x for y y' = -x x'.
     budget
         Products of terms after which None is returned: no time is measured, so that an
         answer is the same on every machine.  None also where a value is too long to be read.
     shapes
-        Where the values are to be written as they were found here; then its relations count.
+        Where the values are to be written as they were found here.  Its relations that are
+        solved for a symbol shorten the entries from the start.  The others shorten only the
+        result: used while eliminating, they would leave factors below that vanish where det A
+        does not, as x does in x'/x for y y' = -x x'.
     """
-    if shapes is not None:
-        relations = shapes.relations
+    relations = None if shapes is None else shapes.relations
     several = bool(b) and isinstance(b[0], (list, tuple))
     columns: list[list[Expr]] = [list(row) if several else [row] for row in b]
     n, width = len(A), len(columns[0]) if columns else 1

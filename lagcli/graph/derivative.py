@@ -10,6 +10,7 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 
 from lagcli.graph.nodes import Call, Graph, Node, Product, Sum, Symbol
+from lagcli.graph.walk import parts_first
 
 _UNIT = Fraction(1)
 
@@ -33,52 +34,37 @@ class Differentiation:
     def __init__(self, graph: Graph, rates: Mapping[Symbol, Node]) -> None:
         self.graph = graph
         self.mask = 0
-        self._by_bit: dict[int, tuple[Symbol, Node]] = {}
+        self._known: dict[Node, Node] = {}
+        #: d/ds and D(s) by the bit of s, where D(s) is not 1.
+        self._single: dict[int, tuple[Differentiation, Node]] = {}
         for symbol, rate in rates.items():
             if rate is not graph.zero:
                 self.mask |= symbol.mask
-                self._by_bit[symbol.mask] = (symbol, rate)
-        self._known: dict[Node, Node] = dict(self._by_bit.values())
-        self._partials: dict[int, Differentiation] = {}
+                self._known[symbol] = rate
+                if rate is not graph.one:
+                    self._single[symbol.mask] = (partial(graph, symbol), rate)
 
     def __call__(self, root: Node) -> Node:
         """D of a node."""
         known = self._known
-        stack = [root]
-        while stack:
-            node = stack[-1]
-            if node in known or not node.mask & self.mask:
-                stack.pop()
-                continue
-            single = self._single(node)
-            if single is not None:
-                known[node] = single
-                stack.pop()
-                continue
-            missing = [p for p in node.parts if p.mask & self.mask and p not in known]
-            if missing:
-                stack.extend(missing)
-                continue
-            stack.pop()
+        if not root.mask & self.mask:
+            return self.graph.zero
+        for node in parts_first(root, known, self._needed):
             known[node] = self._rule(node)
-        return known.get(root, self.graph.zero)
+        return known[root]
 
-    def _single(self, node: Node) -> Node | None:
-        """(d/ds) * D(s) where s alone changes."""
-        changing = node.mask & self.mask
-        found = self._by_bit.get(changing)
-        if found is None or found[1] is self.graph.one:
-            return None
-        symbol, rate = found
-        partial = self._partials.get(changing)
-        if partial is None:
-            partial = self._partials[changing] = Differentiation(
-                self.graph, {symbol: self.graph.one}
-            )
-        return self.graph.product(partial(node), rate)
+    def _needed(self, node: Node) -> list[Node]:
+        """The parts that change, but none where a single symbol does."""
+        if node.mask & self.mask in self._single:
+            return []
+        return [part for part in node.parts if part.mask & self.mask]
 
     def _rule(self, node: Node) -> Node:
         mask, graph = self.mask, self.graph
+        single = self._single.get(node.mask & mask)
+        if single is not None:  # (d/ds) * D(s)
+            by_symbol, rate = single
+            return graph.product(by_symbol(node), rate)
         if isinstance(node, Sum):
             return graph.combination(
                 (self._known[term], coefficient)
@@ -128,11 +114,11 @@ def _named(function: str, sign: int = 1) -> Rule:
     return lambda g, x, _: g.scaled(g.call(function, x), sign)
 
 
-def _algebraic(inner: int, square: int, exponent: Fraction, sign: int = 1) -> Rule:
-    """Sign * (inner + square * x^2)^exponent."""
+def _algebraic(square: int, exponent: Fraction, sign: int = 1) -> Rule:
+    """Sign * (1 + square * x^2)^exponent."""
 
     def rule(g: Graph, x: tuple[Node, ...], _: int) -> Node:
-        radicand = g.sum([g.constant(inner), g.scaled(g.monomial([(x[0], Fraction(2))]), square)])
+        radicand = g.sum([g.one, g.scaled(g.monomial([(x[0], Fraction(2))]), square)])
         return g.scaled(g.monomial([(radicand, exponent)]), sign)
 
     return rule
@@ -179,15 +165,15 @@ _SLOPES: dict[str, Rule] = {
     "cot": _inverse_square("sin", -1),
     "sec": _with_product("sec", "tan", 1),
     "csc": _with_product("csc", "cot", -1),
-    "asin": _algebraic(1, -1, Fraction(-1, 2)),
-    "acos": _algebraic(1, -1, Fraction(-1, 2), -1),
-    "atan": _algebraic(1, 1, Fraction(-1)),
+    "asin": _algebraic(-1, Fraction(-1, 2)),
+    "acos": _algebraic(-1, Fraction(-1, 2), -1),
+    "atan": _algebraic(1, Fraction(-1)),
     "atan2": _atan2,
     "sinh": _named("cosh"),
     "cosh": _named("sinh"),
     "tanh": _inverse_square("cosh"),
-    "asinh": _algebraic(1, 1, Fraction(-1, 2)),
+    "asinh": _algebraic(1, Fraction(-1, 2)),
     "acosh": _acosh,
-    "atanh": _algebraic(1, -1, Fraction(-1)),
+    "atanh": _algebraic(-1, Fraction(-1)),
     "^": _power,
 }

@@ -15,6 +15,7 @@ from itertools import count
 from lagcli import expression as tree
 from lagcli.expression import Expression
 from lagcli.graph.nodes import Call, Constant, Node, Product, Sum, Symbol, split
+from lagcli.graph.walk import parts_first
 from lagcli.record import record
 
 _UNIT = Fraction(1)
@@ -149,19 +150,13 @@ class GraphWriter:
 
     def tree(self, root: Node) -> Expression:
         """The tree of a node."""
-        stack = [root]
-        while stack:
-            node = stack[-1]
-            if node in self._trees or node in self.names:
-                stack.pop()
-                continue
-            missing = [p for p in node.parts if p not in self._trees and p not in self.names]
-            if missing:
-                stack.extend(missing)
-                continue
-            stack.pop()
-            self._trees[node] = self._written(node)
+        if root not in self.names:
+            for node in parts_first(root, self._trees, self._unnamed):
+                self._trees[node] = self._written(node)
         return self._at(root)
+
+    def _unnamed(self, node: Node) -> list[Node]:
+        return [part for part in node.parts if part not in self.names]
 
     def _at(self, node: Node) -> Expression:
         name = self.names.get(node)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from lagcli.graph.nodes import Graph, Node, Symbol, mask_of
+from lagcli.graph.walk import parts_first
 
 
 class Substitution:
@@ -26,16 +27,11 @@ class Substitution:
     def __call__(self, root: Node) -> Node:
         """The node with the formulas put in."""
         known = self._known
-        stack = [root]
-        while stack:
-            node = stack[-1]
-            if node in known or not node.mask & self.mask:
-                stack.pop()
-                continue
-            missing = [p for p in node.parts if p.mask & self.mask and p not in known]
-            if missing:
-                stack.extend(missing)
-                continue
-            stack.pop()
+        if not root.mask & self.mask:
+            return root
+        for node in parts_first(root, known, self._changing):
             known[node] = self.graph.rebuilt(node, known)
-        return known.get(root, root)
+        return known[root]
+
+    def _changing(self, node: Node) -> list[Node]:
+        return [part for part in node.parts if part.mask & self.mask]

@@ -56,11 +56,11 @@ class Formula:
         from lagcli.formatters.latex_math import LatexPrinter
         from lagcli.formatters.latex_names import LatexNames
         from lagcli.formatters.layout import joined
+        from lagcli.notation.given_formulas import symbols_of
 
         names = [one.name for one in self._problem.coordinates]
-        quantities = (*self._problem.coordinates, *self._problem.parameters)
-        symbols = {one.name: one.symbol for one in quantities if one.symbol}
-        return joined(LatexPrinter(LatexNames(names, symbols)).show(self.expression).pieces)
+        printer = LatexPrinter(LatexNames(names, symbols_of(self._problem)))
+        return joined(printer.show(self.expression).pieces)
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.to_latex()}$"

@@ -280,7 +280,7 @@ def _linear_in(
         return None
     at_zero = dict.fromkeys(unknowns, sympy.S.Zero)
     rest = [b - a.xreplace(at_zero) for a, b in zip(left, right, strict=True)]
-    solution = solve_linear(matrix, rest, None)
+    solution = solve_linear(matrix, rest)
     return None if solution is None or solution.singular else tuple(solution.values)
 
 

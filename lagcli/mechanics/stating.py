@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from lagcli.diagnostics import ProblemError
 from lagcli.expression import Expression
-from lagcli.notation.given_formulas import names_of
+from lagcli.notation.given_formulas import names_of, symbols_of
 from lagcli.notation.naming import Names
 from lagcli.platform.effort import OutOfWork
 from lagcli.platform.failures import describe
@@ -83,14 +83,13 @@ class Stating:
             section = self._made(declared)
             if section is not None:
                 made[declared.name] = section
-        quantities = (*problem.coordinates, *problem.parameters)
         return Answers(
             title=problem.title,
             coordinates=tuple(q.name for q in problem.coordinates),
             parameters=tuple(p.name for p in problem.parameters),
             degrees_of_freedom=self.degrees_of_freedom,
             sections=made,
-            symbols={q.name: q.symbol for q in quantities if q.symbol is not None},
+            symbols=symbols_of(problem),
             multipliers={c.multiplier: c.name for c in problem.constraints},
             where=dict(self.where),
             warnings=tuple(dict.fromkeys(self.warnings)),

@@ -122,13 +122,18 @@ def decimals_of(problem: Problem, settings: Iterable[str] = ()) -> list[Fraction
     return [value for value in found if value.denominator != 1]
 
 
+def symbols_of(problem: Problem) -> dict[str, str]:
+    """The LaTeX of the names for which the file gives a `symbol`."""
+    return {q.name: q.symbol for q in (*problem.coordinates, *problem.parameters) if q.symbol}
+
+
 def names_of(problem: Problem) -> Names:
     """Every name that the file gives a meaning."""
     quantities = (*problem.coordinates, *problem.parameters)
     return Names(
         (
             *(q.name for q in quantities),
-            *(q.symbol for q in quantities if q.symbol),
+            *symbols_of(problem).values(),
             *problem.definitions,
             *problem.functions,
             *(c.multiplier for c in problem.constraints),

@@ -16,6 +16,7 @@ from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.layout import joined
 from lagcli.formatters.unicode import AsciiPrinter, UnicodePrinter
 from lagcli.formatters.units import latex_unit, unicode_unit
+from lagcli.notation.given_formulas import symbols_of
 from lagcli.pictures.drawing import Axis, DrawnName, Item, Panel, words
 from lagcli.problem_data import JACOBI_FUNCTION, Problem
 from lagcli.reader.columns import Column
@@ -32,12 +33,8 @@ class Labels:
         self.problem = problem
         quantities = (*problem.coordinates, *problem.parameters)
         self._units = {q.name: q.unit for q in quantities if q.unit}
-        self._latex = LatexPrinter(
-            LatexNames(
-                [c.name for c in problem.coordinates],
-                {q.name: q.symbol for q in quantities if q.symbol},
-            )
-        )
+        names = [c.name for c in problem.coordinates]
+        self._latex = LatexPrinter(LatexNames(names, symbols_of(problem)))
 
     def of(self, expression: Expression | None, name: str = "") -> DrawnName:
         """A column without its unit; None is the time."""

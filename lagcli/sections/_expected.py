@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from importlib import import_module
+from itertools import starmap
 from typing import TYPE_CHECKING, Any
 
 from lagcli.expression import Expression
@@ -28,6 +30,17 @@ def expected_of(
         return shape.read(reader, node, (key,))
 
     return Expected(key=key, schema=shape.schema, read=read, compare=compare, wanted=wanted)
+
+
+def judged(place: str) -> Callable[[Any, Any, Any], Found]:
+    """Compares by the verdicts of `module:name` of `lagcli.studies.check`, imported when called."""
+    module, _, name = place.partition(":")
+
+    def compare(check: Expectations, section: Any, expected: Any) -> Found:
+        verdicts = getattr(import_module(f"lagcli.studies.check.{module}"), name)
+        return starmap(check.judge, verdicts(check, section, expected))
+
+    return compare
 
 
 def expected_by_coordinate(key: str, what: str) -> Expected:

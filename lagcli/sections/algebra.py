@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
@@ -23,14 +22,13 @@ from lagcli.reader.shapes import (
     record_of,
 )
 from lagcli.record import replace
-from lagcli.sections._expected import expected_of
+from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import AlgebraSection, Answers, SpecialValue
 from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.wording import rows_by_name
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
-    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> AlgebraSection | None:
@@ -109,14 +107,6 @@ def json(section: AlgebraSection) -> Object:
     return {"algebra": fields_of(section, names)}
 
 
-def compare(check: Expectations, section: AlgebraSection, expected: ExpectAlgebra) -> Found:
-    """The counts, the name, the verdict, and the special values."""
-    from lagcli.studies.check.algebra import expected_algebra
-
-    judged = expected_algebra(expected, section, check.comparison)
-    yield from itertools.starmap(check.judge, judged)
-
-
 _SPECIAL = record_of(
     ExpectSpecial,
     "a special value",
@@ -143,5 +133,5 @@ SECTION = Declaration(
     blocks=blocks,
     json=json,
     told=Told(title="The algebra of the symmetries", blocks=step("symmetries:algebra"), order=110),
-    expected=(expected_of("algebra", _EXPECTED, compare),),
+    expected=(expected_of("algebra", _EXPECTED, judged("algebra:expected_algebra")),),
 )

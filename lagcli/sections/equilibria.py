@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Formula, Paragraph, vanishing
@@ -11,7 +10,7 @@ from lagcli.expression import Name
 from lagcli.formatters.json_values import Object, list_or_null, place, plain
 from lagcli.problem_data import ExpectEquilibrium
 from lagcli.reader.shapes import PLACE, STABILITY, by_coordinate, equation, list_of, record_of
-from lagcli.sections._expected import expected_of
+from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
 from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.plus_minus import once
@@ -25,7 +24,6 @@ from lagcli.statements.wording import (
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
-    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> EquilibriaSection:
@@ -109,15 +107,6 @@ def _equilibrium(equilibrium: Equilibrium) -> Object:
     return result
 
 
-def compare(
-    check: Expectations, section: EquilibriaSection, expected: Sequence[ExpectEquilibrium]
-) -> Found:
-    """Each is one of those found."""
-    from lagcli.studies.check.reductions import equilibria
-
-    yield from itertools.starmap(check.judge, equilibria(check, section, expected))
-
-
 _EXPECTED = list_of(
     record_of(
         ExpectEquilibrium,
@@ -136,5 +125,5 @@ SECTION = Declaration(
     json=json,
     large=large,
     told=Told(title="Equilibria", blocks=step("further:equilibria"), order=20),
-    expected=(expected_of("equilibria", _EXPECTED, compare),),
+    expected=(expected_of("equilibria", _EXPECTED, judged("reductions:equilibria")),),
 )

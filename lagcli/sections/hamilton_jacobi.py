@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -11,7 +10,7 @@ from lagcli.expression import ZERO, Expression, Name, Negative, Product
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.problem_data import ExpectHamiltonJacobi
 from lagcli.reader.shapes import YES, by_coordinate, record_of, with_constants
-from lagcli.sections._expected import expected_of
+from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.motions import ActionPart, HamiltonJacobiSection
@@ -19,7 +18,6 @@ from lagcli.statements.wording import conditions, listed, not_found
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
-    from lagcli.studies.check.expectations import Expectations, Found
 
 _NAMED = {
     True: "It separates in these coordinates",
@@ -125,15 +123,6 @@ def json(section: HamiltonJacobiSection) -> Object:
     return {"hamilton_jacobi": {**before, "obstacle": section.obstacle or None, **after}}
 
 
-def compare(
-    check: Expectations, section: HamiltonJacobiSection, expected: ExpectHamiltonJacobi
-) -> Found:
-    """Whether it separates, and the parts of S up to sign and constant."""
-    from lagcli.studies.check.reductions import hamilton_jacobi
-
-    yield from itertools.starmap(check.judge, hamilton_jacobi(check, section, expected))
-
-
 _EXPECTED = with_constants(
     record_of(
         ExpectHamiltonJacobi,
@@ -153,5 +142,5 @@ SECTION = Declaration(
     told=Told(
         title="The Hamilton-Jacobi equation", blocks=step("phase_space:hamilton_jacobi"), order=90
     ),
-    expected=(expected_of("hamilton_jacobi", _EXPECTED, compare),),
+    expected=(expected_of("hamilton_jacobi", _EXPECTED, judged("reductions:hamilton_jacobi")),),
 )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
@@ -22,7 +21,7 @@ from lagcli.formatters.json_values import Object, fields_of
 from lagcli.notation.letters import own
 from lagcli.problem_data import ExpectReduction
 from lagcli.reader.shapes import by_coordinate, formula, formulas, record_of, with_constants
-from lagcli.sections._expected import expected_of
+from lagcli.sections._expected import expected_of, judged
 from lagcli.sections.equations import equation_json
 from lagcli.statements.answers import Answers, ReductionSection
 from lagcli.statements.declaration import Declaration, Told, step
@@ -39,7 +38,6 @@ from lagcli.statements.wording import (
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
-    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> ReductionSection:
@@ -176,13 +174,6 @@ def _period_json(period: PeriodSeries) -> Object:
     return place | amplitude | fields_of(period, "order period where")
 
 
-def compare(check: Expectations, section: ReductionSection, expected: ExpectReduction) -> Found:
-    """The Routhian, the effective potential and the quadrature."""
-    from lagcli.studies.check.reductions import reduction
-
-    yield from itertools.starmap(check.judge, reduction(check, section, expected))
-
-
 _EXPECTED = with_constants(
     record_of(
         ExpectReduction,
@@ -203,5 +194,5 @@ SECTION = Declaration(
     json=json,
     told=Told(title="The reduction", blocks=step("reduction:reduction"), order=40),
     abbreviated=True,
-    expected=(expected_of("reduction", _EXPECTED, compare),),
+    expected=(expected_of("reduction", _EXPECTED, judged("reductions:reduction")),),
 )

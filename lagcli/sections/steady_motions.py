@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -29,7 +28,7 @@ from lagcli.reader.shapes import (
     record_of,
     with_constants,
 )
-from lagcli.sections._expected import expected_of
+from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.motions import SteadyMotion, SteadySection
@@ -46,7 +45,6 @@ from lagcli.statements.wording import (
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
-    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> SteadySection:
@@ -140,13 +138,6 @@ def _motion_json(motion: SteadyMotion) -> Object:
     )
 
 
-def compare(check: Expectations, section: SteadySection, expected: Sequence[ExpectSteady]) -> Found:
-    """Each is one of those found."""
-    from lagcli.studies.check.reductions import steady_motions
-
-    yield from itertools.starmap(check.judge, steady_motions(check, section, expected))
-
-
 _EXPECTED = with_constants(
     list_of(
         record_of(
@@ -170,5 +161,5 @@ SECTION = Declaration(
     told=Told(title="Steady motions", blocks=step("steady:steady"), order=50),
     content="motions",
     abbreviated=True,
-    expected=(expected_of("steady_motions", _EXPECTED, compare),),
+    expected=(expected_of("steady_motions", _EXPECTED, judged("reductions:steady_motions")),),
 )

@@ -13,6 +13,7 @@ from lagcli.mechanics.explaining.lagrangian import lagrangian
 from lagcli.mechanics.explaining.large import UNSOLVED
 from lagcli.mechanics.explaining.scene import scene
 from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.words import explained
 from lagcli.statements.explanation import Explanation, ExplanationStep
 
 
@@ -32,7 +33,7 @@ def explanation(derivation: Derivation, also: Sequence[str] = ()) -> Explanation
         When the constraints cannot be used.
     """
     teller = Teller(derivation)
-    dynamics, problem = teller.dynamics, teller.problem
+    dynamics = teller.dynamics
     motion = dynamics.motion
     constrained = bool(dynamics.constraints.equations)
     steps = [
@@ -61,17 +62,7 @@ def explanation(derivation: Derivation, also: Sequence[str] = ()) -> Explanation
         more, unfound = further(teller, also)
         steps += more
         missing = (*missing, *unfound)
-    quantities = (*problem.coordinates, *problem.parameters)
-    return Explanation(
-        title=problem.title,
-        coordinates=teller.system.names,
-        parameters=tuple(p.name for p in problem.parameters),
-        degrees_of_freedom=dynamics.degrees_of_freedom,
-        steps=tuple(steps),
-        symbols={q.name: q.symbol for q in quantities if q.symbol is not None},
-        warnings=missing,
-        complete=not missing,
-    )
+    return explained(teller.problem, dynamics.degrees_of_freedom, steps, missing)
 
 
 def _missing(teller: Teller) -> Iterator[str]:

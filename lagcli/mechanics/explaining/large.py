@@ -13,6 +13,7 @@ from lagcli.mechanics.explaining.words import (
     Part,
     counted,
     difference,
+    explained,
     matrix_law,
     names,
     says,
@@ -27,32 +28,18 @@ UNSOLVED = "the accelerations and multipliers were not solved in closed form"
 
 def explanation_of_large(form: MatrixForm) -> Explanation:
     """What follows for a large system from its structure."""
-    problem = form.problem
     charges = LargeCharges(form)
-    solution = ClosedForm(form, names_of(problem)).motion
-    steps = [
-        ExplanationStep("The system", tuple(_system(form))),
-        ExplanationStep(
-            "Lagrange's equations", tuple(_equations(form, solved=solution is not None))
-        ),
-        *(
-            []
-            if solution is None
-            else [ExplanationStep("The accelerations", tuple(_solved(form, solution)))]
-        ),
-        ExplanationStep("The energy", tuple(_energy(form, charges))),
-    ]
-    quantities = (*problem.coordinates, *problem.parameters)
-    return Explanation(
-        title=problem.title,
-        coordinates=tuple(q.name for q in problem.coordinates),
-        parameters=tuple(p.name for p in problem.parameters),
-        degrees_of_freedom=form.degrees_of_freedom,
-        steps=tuple(steps),
-        symbols={q.name: q.symbol for q in quantities if q.symbol is not None},
-        warnings=(UNSOLVED,) if solution is None else (),
-        complete=solution is not None,
-    )
+    solution = ClosedForm(form, names_of(form.problem)).motion
+    told = {
+        "The system": _system(form),
+        "Lagrange's equations": _equations(form, solved=solution is not None),
+    }
+    if solution is not None:
+        told["The accelerations"] = _solved(form, solution)
+    told["The energy"] = _energy(form, charges)
+    steps = [ExplanationStep(title, tuple(blocks)) for title, blocks in told.items()]
+    missing = (UNSOLVED,) if solution is None else ()
+    return explained(form.problem, form.degrees_of_freedom, steps, missing)
 
 
 def _system(form: MatrixForm) -> Iterator[Block]:

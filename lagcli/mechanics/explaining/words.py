@@ -6,9 +6,10 @@ from collections.abc import Iterable, Sequence
 
 from lagcli.document import Equations, Formula, Label, Paragraph, Row
 from lagcli.expression import Expression, Name, Negative, Sum
-from lagcli.notation.given_formulas import names_of
+from lagcli.notation.given_formulas import names_of, symbols_of
 from lagcli.notation.naming import free
 from lagcli.problem_data import Problem
+from lagcli.statements.explanation import Explanation, ExplanationStep
 
 Part = str | Formula
 
@@ -102,3 +103,22 @@ class Letters:
     def f(self, constraint: str) -> Name:
         """Left side minus right side of a constraint."""
         return self.free(f"f_{constraint}")
+
+
+def explained(
+    problem: Problem,
+    degrees_of_freedom: int,
+    steps: Sequence[ExplanationStep],
+    missing: tuple[str, ...],
+) -> Explanation:
+    """The steps for a problem, with a warning for each part that is missing."""
+    return Explanation(
+        title=problem.title,
+        coordinates=tuple(q.name for q in problem.coordinates),
+        parameters=tuple(p.name for p in problem.parameters),
+        degrees_of_freedom=degrees_of_freedom,
+        steps=tuple(steps),
+        symbols=symbols_of(problem),
+        warnings=missing,
+        complete=not missing,
+    )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING
 
 from lagcli.expression import Equation
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
@@ -13,16 +14,19 @@ from lagcli.studies.check.comparison import Comparison
 from lagcli.studies.check.findings import Judged
 from lagcli.values import Values, substituted
 
+if TYPE_CHECKING:
+    from lagcli.studies.check.expectations import Expectations
+
 _PATH = ["algebra"]
 
 
 def expected_algebra(
-    wanted: ExpectAlgebra, found: AlgebraSection, comparison: Comparison
+    check: Expectations, found: AlgebraSection, wanted: ExpectAlgebra
 ) -> Iterator[Judged]:
     """Every expectation of the section with its verdict."""
     yield from _plain(wanted, found)
     if wanted.special is not None:
-        yield from _special(wanted.special, found, comparison)
+        yield from _special(wanted.special, found, check.comparison)
 
 
 def _plain(wanted: ExpectAlgebra, found: AlgebraSection) -> Iterator[Judged]:
