@@ -78,6 +78,8 @@ class UnicodePrinter(GrammarPrinter):
         return (*self.at(base, Level.ATOM), *raised)
 
     def call(self, node: Call) -> Layout:
+        if _is_root_of_whole(node):
+            return (*text("√"), *self.show(node.arguments[0]))
         if node.function in _NAMES:
             return (*text(_NAMES[node.function]), *self.arguments(node.arguments))
         if node.function == "integral":
@@ -129,6 +131,8 @@ class UnicodePrinter(GrammarPrinter):
             return Level.PRODUCT
         if isinstance(node, Call) and node.function == "integral":
             return Level.QUOTIENT
+        if _is_root_of_whole(node):
+            return Level.POWER  # (√5)³
         return Level.QUOTIENT if isinstance(node, Diff) else super().level(node)
 
     def label(self, label: Label) -> Layout:
@@ -204,3 +208,11 @@ def _begins_with_digit(node: Expression) -> bool:
     while isinstance(node, Power):
         node = node.base
     return isinstance(node, Number) and (node.decimal or node.value.denominator == 1)
+
+
+def _is_root_of_whole(node: Expression) -> bool:
+    """Whether it is printed as √5."""
+    if not isinstance(node, Call) or node.function != "sqrt":
+        return False
+    inner = node.arguments[0]
+    return isinstance(inner, Number) and not inner.decimal and inner.value.denominator == 1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 from fractions import Fraction
 
 from lagcli.expression import (
@@ -88,6 +88,37 @@ def with_whole_powers(node: Expression) -> Expression:
     below = _with_one_modulus([part for factor in below for part in _whole(factor)])
     whole = quotient_of(above or [ONE], below)
     return Negative(whole) if minus else whole
+
+
+def with_one_root(node: Expression, positive: Container[str], ordering: Ordering) -> Expression:
+    """sqrt((m g l + k a²)/(m l²)) for sqrt((m g l + k a²)/m)/l, where l > 0.
+
+    Numbers stay before the root.
+    """
+    minus, above, below = parts_of(node)
+    match [f for f in above if not isinstance(f, Number)]:
+        case [Call(function="sqrt", arguments=(Quotient() as inner,)) as root]:
+            negative, under, over = parts_of(inner.denominator)
+        case _:
+            return node
+    left = [f for f in below if isinstance(f, Number)]
+    taken = [whole_power(f) for f in below if not isinstance(f, Number)]
+    letters = all(isinstance(b, Name) and not b.primes and b.name in positive for b, _ in taken)
+    sums = any(isinstance(f, Sum) for f in factors_of(inner.numerator))
+    if not taken or not letters or not sums or negative or over:
+        return node
+    number, inside = Fraction(1), dict[Expression, int]()
+    for base, exponent in (*map(whole_power, under), *((b, 2 * e) for b, e in taken)):
+        if isinstance(base, Number):
+            number /= base.value**exponent
+        else:
+            inside[base] = inside.get(base, 0) - exponent
+    shown = product_of_powers(number, inside, ordering)
+    assert isinstance(shown, Quotient)
+    before = [f for f in (shown.numerator,) if f != ONE]
+    whole = Call("sqrt", (quotient_of([*before, inner.numerator], [shown.denominator]),))
+    found = quotient_of([whole if f is root else f for f in above], left)
+    return Negative(found) if minus else found
 
 
 def _with_one_modulus(factors: list[Expression]) -> list[Expression]:

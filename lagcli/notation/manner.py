@@ -40,6 +40,7 @@ from lagcli.notation.factors import (
     whole_power,
     with_base,
     with_last,
+    with_one_root,
     with_whole_powers,
 )
 from lagcli.notation.given_formulas import given, order_of_names
@@ -107,7 +108,7 @@ class Manner:
                 before = quotient_of(list(node.factors[:-1]), [])
                 return with_last(self._written(before, inside=inside), series)
             case Product() | Quotient():
-                node = with_whole_powers(node)
+                node = with_one_root(with_whole_powers(node), self._positive, self._ordering)
                 if self._momenta.occur(node):
                     node = self._momenta.product(node)
                 return self._signed(node, inside=inside)
@@ -128,9 +129,8 @@ class Manner:
             case Sum():
                 like = self._sums.like(node)
                 return self._sum(node) if like is None or like[0] != 1 else like[1]
-            case Call(function="sqrt", arguments=(Quotient(numerator=above) as inner,)):
-                # sqrt(1/x) = 1/sqrt(x)
-                return node if above != ONE else Quotient(ONE, Call("sqrt", (inner.denominator,)))
+            case Call(function="sqrt", arguments=(Quotient(numerator=Number(value=1)) as inner,)):
+                return Quotient(ONE, Call("sqrt", (inner.denominator,)))  # sqrt(1/x) = 1/sqrt(x)
             case _:
                 return node
 

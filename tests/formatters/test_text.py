@@ -66,6 +66,10 @@ def test_names_are_read_as_on_paper(name, primes, text):
         (square(sin(x)), "sin²(x)"),
         (times(M, plus(g, R)), "M (g + R)"),
         (square(square(x)), "(x²)²"),
+        (times(TWO, Call("sqrt", (number(5),)), x), "2 √5 x"),
+        (square(Call("sqrt", (number(5),))), "(√5)²"),
+        (Call("sqrt", (number(1, 2),)), "√(1/2)"),
+        (times(TWO, Call("sqrt", (x,))), "2 √(x)"),
     ],
 )
 def test_formulas_are_read_without_doubt(node, text):

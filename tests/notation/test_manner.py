@@ -52,6 +52,14 @@ def manner():
         ("-2*r*g/tan(theta)", "-2*r*g*cot(theta)"),
         ("g/tan(theta)^2", "g*cot(theta)^2"),
         ("m*sqrt(1/(g + r))", "m/sqrt(g + r)"),
+        # positive letters below a root of a sum over something go under it, others do not
+        ("sqrt((m*g + a)/m)/r", "sqrt((m*g + a)/(m*r^2))"),
+        ("-a*sqrt((m*g + a)/m)/r", "-a*sqrt((m*g + a)/m)/r"),
+        ("sqrt((m*g + a)/(2*m*r))/(3*r)", "sqrt((m*g + a)/(2*m*r^3))/3"),
+        ("sqrt((m*g + a)/m)/(g*r)", "sqrt((m*g + a)/m)/(g*r)"),
+        ("sqrt((m*g + a)/m)/g", "sqrt((m*g + a)/m)/g"),
+        ("sqrt((m*g + a)/m)/r'", "sqrt((m*g + a)/m)/r'"),
+        ("sqrt(g*R/m)/r", "sqrt(g*R/m)/r"),
         # a period keeps its series apart
         ("2*pi*sqrt(r/g)*(1 + a^2/16)", "2*pi*sqrt(r/g)*(1 + a^2/16)"),
         # a positive term first
@@ -60,6 +68,21 @@ def manner():
 )
 def test_a_formula_is_written_as_its_file_writes(formula, written):
     assert to_grammar(manner()(parse_text(formula))) == written
+
+
+@pytest.mark.long
+@given(
+    st.lists(st.sampled_from(["m", "R", "a", "r", "r^2", "3", "(1/2)", "g"]), max_size=4),
+    st.lists(st.sampled_from(["m", "R^2", "a", "r", "2", "g", "r'"]), max_size=3),
+)
+def test_letters_put_under_a_root_keep_the_value(inside, outside):
+    formula = f"sqrt((m*R + a*r)/({'*'.join(['1', *inside])}))/({'*'.join(['1', *outside])})"
+    values = {name: 0.7 + 0.2 * k for k, name in enumerate(("r", "r'", "m", "g", "R", "a"))}
+    graph = Graph()
+    read_node = GraphReader(graph, ("r", "theta", "phi"), {})
+    nodes = [read_node(tree) for tree in (parse_text(formula), manner()(parse_text(formula)))]
+    before, after = Program(nodes, Floats())(values)
+    assert after == pytest.approx(before, rel=1e-12)
 
 
 def test_rows_of_one_answer_have_one_denominator():
