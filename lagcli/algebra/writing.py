@@ -25,7 +25,7 @@ from lagcli.expression import (
     product_of,
     terms_of,
 )
-from lagcli.notation.ordering import Factor, Ordering, bases, positive_first
+from lagcli.notation.ordering import Factor, Ordering, positive_first
 
 
 class Writer:
@@ -50,7 +50,7 @@ class Writer:
             return ZERO
         coefficient, pairs = upright(*_flattened(coefficient, factors))
         coefficient, pairs = single_angles(coefficient, _merged(pairs))
-        pairs = self._joined_exponentials(self._into_exponentials(tangents(pairs)))
+        pairs = self._joined_exponentials(self._into_brackets(tangents(pairs)))
         pairs = _powers_of_moduli(self._into_roots(_without_moduli(pairs)))
         coefficient, pairs = self._joined_roots(coefficient, pairs)
         if coefficient < 0:
@@ -59,18 +59,18 @@ class Writer:
         below = self._factors(pairs, -1)
         return multiple_of(coefficient, above, below)
 
-    def _into_exponentials(self, pairs: list[Factor]) -> list[Factor]:
-        """exp(-2 x) - exp(-x) for (1 - exp(x)) exp(-2 x)."""
-        outside = [pair for pair in pairs if _is_exponential(pair[0])]
-        for place, (base, exponent) in enumerate(pairs if outside else ()):
-            if exponent != 1 or not isinstance(base, Sum) or not any(map(_grows, base.terms)):
-                continue
-            inside = self.sum(
-                self.product(Fraction(1), [(term, Fraction(1)), *outside]) for term in base.terms
-            )
-            if operation_count(inside) <= operation_count(base) + 3:
-                rest = [p for p in (*pairs[:place], *pairs[place + 1 :]) if p not in outside]
-                return [*rest, (inside, Fraction(1))]
+    def _into_brackets(self, pairs: list[Factor]) -> list[Factor]:
+        """exp(-2 x) - exp(-x) for (1 - exp(x)) exp(-2 x), m a - sqrt(k m) for its sqrt(m)."""
+        for goes, most in ((_is_exponential, 3), (_is_root, 0)):
+            outside = [pair for pair in pairs if goes(*pair)]
+            for base in [b for b, e in pairs if outside and e == 1 and isinstance(b, Sum)]:
+                parts = [_flattened(Fraction(1), [(term, Fraction(1))]) for term in base.terms]
+                if any(e > 0 and goes(b, e) for _, part in parts for b, e in part):
+                    inside = self.sum(self.product(c, [*part, *outside]) for c, part in parts)
+                    if operation_count(inside) <= operation_count(base) + most:
+                        rest = [p for p in pairs if p not in outside and p[0] != base]
+                        pairs = [*rest, (inside, Fraction(1))]
+                        break
         return pairs
 
     def _joined_exponentials(self, pairs: list[Factor]) -> list[Factor]:
@@ -279,13 +279,12 @@ def _raised(base: Expression, exponent: Fraction) -> Factor:
     return (base.arguments[0], exponent) if even else (base, exponent)  # type: ignore[attr-defined]
 
 
-def _is_exponential(node: Expression) -> bool:
-    return isinstance(node, Call) and node.function == "exp"
+def _is_exponential(base: Expression, _: Fraction) -> bool:
+    return isinstance(base, Call) and base.function == "exp"
 
 
-def _grows(node: Expression) -> bool:
-    """Whether an exponential is among the factors of a term."""
-    return any(map(_is_exponential, bases(node)))
+def _is_root(base: Expression, exponent: Fraction) -> bool:
+    return isinstance(base, Name) and exponent == Fraction(1, 2)
 
 
 def _merged(pairs: Iterable[Factor]) -> list[Factor]:

@@ -48,6 +48,11 @@ TEXTBOOK: list[tuple[Expr, str]] = [
     (sqrt(2) * sqrt(k) / sqrt(m) / 2, "sqrt(k/(2*m))"),
     (m * c**2 / sqrt(1 - dx**2 / c**2), "m*c^2/sqrt(1 - x'^2/c^2)"),
     (1 / (sqrt(r) + 1) - (sqrt(r) - 1) / (r - 1), "0"),
+    (
+        sqrt(m) * (sqrt(m) * alpha * x - sqrt(35 * k) * y) * dx,
+        "(m*alpha*x - sqrt(35*m*k)*y)*x'",
+    ),  # Q of an oscillator in a turning frame
+    (sqrt(m) * (sqrt(m) * alpha + sqrt(k)) * (x + dx), "(m*alpha + sqrt(m*k))*(x' + x)"),
     (exp(x - y) * exp(y), "exp(x)"),
     (M**x / M ** (x - 1), "M"),
     (tan(theta) * cos(theta), "sin(theta)"),
