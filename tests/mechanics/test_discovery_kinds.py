@@ -120,6 +120,21 @@ def test_charges_are_named_by_what_they_are(case):
         assert ratio.is_number or not ratio.free_symbols & {system.t, *system.q, *system.qdot}
 
 
+@pytest.mark.parametrize("letters", ["x", "xy"])
+def test_the_energy_of_a_damped_oscillator_is_named(letters):
+    """Caldirola, Nuovo Cimento 18 (1941) 393: exp(a t) (x'^2 + a x x' + B x^2)."""
+    r2 = " + ".join(f"{x}^2" for x in letters)
+    derivation = derive(text_of(letters, f"exp(a*t)*({kinetic(letters)} - B*({r2})/2)", "a B"))
+    found = {c.name: c.charge for c in derivation.discovery.charges}["damped_energy"]
+    system = derivation.system
+    a, B = system.parameters
+    terms = (v**2 + a * x * v + B * x**2 for x, v in zip(system.q, system.qdot, strict=True))
+    ratio = sympy.simplify(found / sympy.exp(a * system.t) / sympy.Add(*terms))
+    assert ratio.is_number
+    assert ratio > 0
+    assert min(digits_of(derivation).values()) > 20
+
+
 SURFACES = {
     "elliptic paraboloid": ("z - a*x^2 - b*y^2", "", {"b = a": "L_z"}),
     "Neumann": ("x^2 + y^2 + z^2 - 1", " - (a*x^2 + b*y^2 + c*z^2)/2",

@@ -49,6 +49,11 @@ class Naming:
         """Whether all lengths grow alike: an isometry of hyperbolic space."""
         return set(moved) == set(self.kinds.lengths) and all(e == x for x, e in moved.items())
 
+    def _shrinks(self, moved: Mapping[Symbol, Expr]) -> bool:
+        """Whether all lengths that move do so at one rate: exp(2 c t) (p^2/2m + c x p + V)."""
+        rates = {sympy.cancel(e / x) for x, e in moved.items()}
+        return len(rates) == 1 and rates.pop().free_symbols.isdisjoint({self.t, *self.q})
+
     def _of_time(self, tau: Expr, moved: Mapping[Symbol, Expr]) -> str:
         inside = tau.free_symbols & set(self.q)
         if inside:
@@ -59,7 +64,8 @@ class Naming:
             return f"boost_{x}" if slope != 0 and not slope.free_symbols & {self.t, x} else ""
         if self.t not in tau.free_symbols:
             steady = set(self.q).isdisjoint(sympy.Tuple(*moved.values()).free_symbols)
-            return ("moving_energy" if steady else "") if moved else "energy"
+            named = "moving_energy" if steady else "damped_energy" if self._shrinks(moved) else ""
+            return named if moved else "energy"
         if self._grows(tau):
             return "conformal_exp"
         turns = self._turning(tau)
@@ -193,7 +199,7 @@ class Naming:
             slope = moved[other].diff(one)  # of y_2 by x_1: the other particle's is opposite
             backward = not slope.could_extract_minus_sign()
             return sympy.S.NegativeOne if backward != (name[2] == "y") else sympy.S.One
-        if name == "moving_energy" and any(moved.values()):
+        if name in ("moving_energy", "damped_energy") and any(moved.values()):
             return sympy.S.NegativeOne  # p.xi - h tau: the textbook's is h
         name = name.removesuffix(MOVING)
         if name not in ("L_x", "L_y", "L_z"):
