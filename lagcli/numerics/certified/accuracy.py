@@ -149,7 +149,7 @@ class Controller:
             fine, fine_rows = self._run(finer, level, coarse)
             found = self._compared(coarse, rows, fine, fine_rows, (tolerance, finer))
             third = None
-            if found.reached and is_enlarged(fine, max(found.errors) / self.chance, self.rounded):
+            if found.reached and (fine.shortened or max(found.errors) >= self.accuracy):
                 third = self._run(tolerance / _THIRD, level, fine, slow=True)
                 found = self._worse(found, third)
             self._furthest = self.furthest(found)
@@ -198,8 +198,8 @@ class Controller:
             return NARROW
         if tolerance <= self.finest:
             return CHANCE
-        met = len(fine.events) > (fine.event is not None)
-        return self.chance if tolerance <= self.rounded or met else USUAL
+        met = tolerance <= self.rounded or len(fine.events) > (fine.event is not None)
+        return self.chance if met else USUAL
 
     def _tightened(self, tolerance: float, finer: float, bound: float) -> float:
         """The coarser tolerance of the next pair: the global error is in proportion to it."""
@@ -211,8 +211,7 @@ class Controller:
     def _worse(self, found: Outcome, third: tuple[Run, list[list[Any]]]) -> Outcome:
         """Of two comparisons with the finer run the one that says less.
 
-        What a motion feels of its initial values may cancel what it feels of a fast clock, but
-        then not what it feels of a slow one.
+        A fast clock may cancel what a motion feels of its initial values: a slow one then does not.
         """
         again = self._compared(*third, found.run, found.rows, found.tolerances)
         return max(found, again, key=lambda each: (-each.good_rows, not each.reached, *each.held))
@@ -256,9 +255,10 @@ class Controller:
 
         scales = scaled(len(fine_rows))
         good, held, held_scales = self._held(differences, len(places), scaled)
-        most = USUAL * tolerances[0] if factor == USUAL else math.inf
-        found = [*map(relative, bounds, scales)], held
-        errors, held = (at_rounding(each, self.chance / factor, most) for each in found)
+        most = USUAL * tolerances[0] if factor == USUAL else self.accuracy
+        found = [*map(relative, bounds, scales)]
+        gain = (NARROW if is_enlarged(fine, found, factor * self.rounded) else self.chance) / factor
+        errors, held = at_rounding(found, gain, most), at_rounding(held, gain, most)
         lost = _first_beyond(differences, [SATURATED * scale for scale in [*scales, 1.0]])
         lost_at = math.inf if lost is None else fine.marks[lost].t
         same_end = (coarse.event is None) == (fine.event is None) and partner.agree

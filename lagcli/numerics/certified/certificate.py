@@ -6,11 +6,11 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from lagcli.numerics.certified.accuracy import USUAL, Outcome
+from lagcli.numerics.certified.accuracy import NARROW, USUAL, Outcome
 from lagcli.numerics.certified.drift import changes
 from lagcli.numerics.certified.exact_columns import with_digits
 from lagcli.numerics.certified.methods import METHODS
-from lagcli.numerics.certified.scales import is_enlarged, relative
+from lagcli.numerics.certified.scales import relative
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import told
 from lagcli.numerics.hybrid.events import Event
@@ -137,11 +137,9 @@ def _estimated_by(outcome: Outcome) -> str:
     coarse, fine = outcome.tolerances
     factor = outcome.controller.factor(fine, outcome.run)
     times = "twice" if factor == USUAL else f"{factor:g} times"
-    if factor == USUAL and not max(outcome.held) > USUAL * coarse:
-        times = f"up to {outcome.controller.chance:g} times"
-    apart = max(outcome.errors) / outcome.controller.chance
-    three = outcome.reached and is_enlarged(outcome.run, apart, outcome.controller.rounded)
-    runs = "three" if three else "two"
+    if USUAL < factor < NARROW or max(outcome.held) <= USUAL * coarse:
+        times = f"up to {NARROW:g} times"
+    runs = "three" if outcome.run.shortened and outcome.reached else "two"
     return (
         f"{times} the difference of {runs} runs with local tolerances {coarse:.0e} and {fine:.0e}; "
         "the finer one is shown (a cross-check, no proof)"
