@@ -120,6 +120,13 @@ class Evaluator:
                 slots[slot] = operation([slots[i] for i in sources])
             return [slots[i] for i in self._results]
 
+    def where_defined(self, values: Mapping[Symbol, Any]) -> list[Any] | None:
+        """The values at a point; None where an expression has none."""
+        try:
+            return self(values)
+        except (ArithmeticError, ValueError):
+            return None
+
     def _slot(self, root: Expr) -> int:
         """The slot of an expression, with all that it needs planned before it."""
         stack = [(root, False)]

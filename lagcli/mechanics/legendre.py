@@ -236,11 +236,8 @@ class Inversion:
             for state in states:
                 full = dict(state)
                 full.update(zip(images, gradient(state), strict=True))
-                try:
-                    values = inverse(full)
-                except (ArithmeticError, ValueError):
-                    return False
-                if any(
+                values = inverse.where_defined(full)
+                if values is None or any(
                     abs(value - state[self.variables[j]]) > mpf(10) ** -(DIGITS - 15)
                     for j, value in zip(block, values, strict=True)
                 ):

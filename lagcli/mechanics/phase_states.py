@@ -48,11 +48,8 @@ class PhaseStates:
         for _ in range(_ATTEMPTS):
             with mpmath.workdps(DIGITS + 10):
                 state = self._drawn(source)
-                try:
-                    good = all(map(is_real, self._needed(state)))
-                except (ArithmeticError, ValueError):
-                    continue
-            found += [state] if good else []
+                values = self._needed.where_defined(state)
+            found += [state] if values is not None and all(map(is_real, values)) else []
             if len(found) == count:
                 return found
         raise Contradiction(-1)

@@ -140,11 +140,8 @@ class Verifier:
         tested = 0
         with mpmath.workdps(DIGITS + 10):
             for state in states:
-                try:
-                    values = evaluate(state)
-                except (ArithmeticError, ValueError):
-                    continue
-                if not all(mpmath.isfinite(v) for v in values):
+                values = evaluate.where_defined(state)
+                if values is None or not all(mpmath.isfinite(v) for v in values):
                     continue
                 verdict = _vanish(terms, values)
                 if verdict is not True:

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from functools import partial
 from typing import TYPE_CHECKING
 
-from lagcli.expression import Expression
 from lagcli.formatters.json_values import Object
 from lagcli.reader.shapes import by_name
 from lagcli.record import replace
 from lagcli.sections._expected import expected_of
-from lagcli.sections.charges import CHARGES, EXPECTED_CHARGE, blocks, charges_json, stated_charge
-from lagcli.sections.charges import compare as compare_charges
+from lagcli.sections.charges import (
+    CHARGES,
+    EXPECTED_CHARGE,
+    blocks,
+    charges_json,
+    compare,
+    stated_charge,
+)
 from lagcli.statements.answers import ChargesSection
 from lagcli.statements.declaration import Declaration, Told, step
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
-    from lagcli.studies.check.expectations import Expectations, Found
 
 
 def derive(statements: Statements) -> ChargesSection:
@@ -43,13 +47,6 @@ def json(section: ChargesSection) -> Object:
     return {"discovered": charges_json(section)}
 
 
-def compare(
-    check: Expectations, section: ChargesSection, expected: Mapping[str, Expression | str]
-) -> Found:
-    """Each charge is that of some symmetry; names are compared where there are."""
-    return compare_charges(check, section, expected, "discovered")
-
-
 SECTION = Declaration(
     name="discovered",
     abbreviated=True,
@@ -61,5 +58,7 @@ SECTION = Declaration(
     schema=CHARGES,
     told=Told(title="Discovered symmetries", blocks=step("symmetries:discovered"), order=100),
     content="charges",
-    expected=(expected_of("discovered", by_name(EXPECTED_CHARGE), compare),),
+    expected=(
+        expected_of("discovered", by_name(EXPECTED_CHARGE), partial(compare, key="discovered")),
+    ),
 )

@@ -177,11 +177,8 @@ class AlongTheMotion:
             return is_zero(divisor) is not True
         plan = Evaluator([divisor.xreplace(self._named)], 60)
         for state in self.states or self.dynamics.states.take(2):
-            try:
-                [value] = plan(state)
-            except (ArithmeticError, ValueError):
-                return False
-            if not abs(value) > _NONZERO:
+            values = plan.where_defined(state)
+            if values is None or not abs(values[0]) > _NONZERO:
                 return False
         return True
 
@@ -196,9 +193,8 @@ class AlongTheMotion:
         plan = Evaluator([*_terms(difference)], 60)
         for state in self.states:
             with mpmath.workdps(60):
-                try:
-                    values = plan(state)
-                except (ArithmeticError, ValueError):
+                values = plan.where_defined(state)
+                if values is None:
                     return False
                 size = max(mpf(1), *map(abs, values))
                 if not abs(sum(values)) < _ZERO * size:

@@ -137,10 +137,7 @@ class LastingAnswer:
         plan = Evaluator([margin], DIGITS)
 
         def verdict(numbers: Values) -> bool | None:
-            try:
-                [value] = plan(numbers)
-            except (ArithmeticError, ValueError):
-                return None
+            [value] = plan.where_defined(numbers) or [None]
             if not isinstance(value, mpf) or not mpmath.isfinite(value):
                 return None
             return bool(value > _SMALL or (not strict and value >= -_SMALL))

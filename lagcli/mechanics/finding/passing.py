@@ -165,11 +165,10 @@ class Passing:
             place = real_value(passage.place, values)
             if place is None or not admissible(self.u, place):
                 continue
-            try:
-                numbers = self._possible({**values, self.u: place})
-            except (ArithmeticError, ValueError):
-                continue
-            if all(isinstance(x, mpf) and x > -_SMALL * (1 + abs(place)) for x in numbers):
+            numbers = self._possible.where_defined({**values, self.u: place})
+            if numbers is not None and all(
+                isinstance(x, mpf) and x > -_SMALL * (1 + abs(place)) for x in numbers
+            ):
                 found.append(index)
             if len(found) == _TESTED:
                 break

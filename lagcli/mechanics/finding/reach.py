@@ -103,12 +103,10 @@ class Reach:
         return all(self._state(self.start + way * k / _SAMPLES) == FREE for k in range(1, _SAMPLES))
 
     def _state(self, u: mpf) -> str:
-        try:
-            w, *margins = self._plan({**self.values, self.line.coordinate: u})
-        except (ArithmeticError, ValueError):
+        found = self._plan.where_defined({**self.values, self.line.coordinate: u})
+        if found is None or not all(isinstance(x, mpf) for x in found):
             return TURNS
-        if not all(isinstance(x, mpf) for x in (w, *margins)):
-            return TURNS
+        w, *margins = found
         if any(margin < -_SMALL for margin in margins):
             return LOST
         return TURNS if w < -_SMALL else FREE
@@ -145,10 +143,10 @@ class Reach:
 
 def real_value(expression: Expr, values: Mapping[Symbol, mpf], digits: int = DIGITS) -> mpf | None:
     """The value of a formula, None where it is not a finite real number."""
-    try:
-        [value] = Evaluator([expression], digits)(values)
-    except (ArithmeticError, ValueError):
+    found = Evaluator([expression], digits).where_defined(values)
+    if found is None:
         return None
+    [value] = found
     if isinstance(value, mpmath.mpc):
         return value.real if abs(value.imag) < _SMALL * abs(value) else None
     return value if mpmath.isfinite(value) else None

@@ -80,10 +80,10 @@ class SpecialValues:
         found = []
         with mpmath.workdps(DIGITS):
             for index, root in enumerate(self.roots):
-                try:
-                    [value] = Evaluator([root], DIGITS)(values)
-                except (ArithmeticError, ValueError):
+                numbers = Evaluator([root], DIGITS).where_defined(values)
+                if numbers is None:
                     continue
+                [value] = numbers
                 if isinstance(value, mpmath.mpc):
                     if abs(value.imag) > _REAL * (1 + abs(value)):
                         continue

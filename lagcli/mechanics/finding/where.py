@@ -260,11 +260,9 @@ class WhereSearch:
             if value is None or not admissible(unknown, value):
                 continue
             with mpmath.workdps(60):
-                try:
-                    parts = Evaluator([equation, *sympy.Add.make_args(equation.expand())], 60)(
-                        {**values, unknown: value}
-                    )
-                except (ArithmeticError, ValueError):
+                plan = Evaluator([equation, *sympy.Add.make_args(equation.expand())], 60)
+                parts = plan.where_defined({**values, unknown: value})
+                if parts is None:
                     continue  # the root of a denominator
                 if not abs(parts[0]) < limit * max(mpf(1), *map(abs, parts[1:])):
                     return False

@@ -227,9 +227,9 @@ def _annihilates(
 ) -> bool:
     n = len(vector)
     with mpmath.workdps(_DIGITS):
-        try:
-            numbers = Evaluator([*vector, *(x for row in matrix for x in row)], _DIGITS)(values)
-        except (ArithmeticError, ValueError):
+        plan = Evaluator([*vector, *(x for row in matrix for x in row)], _DIGITS)
+        numbers = plan.where_defined(values)
+        if numbers is None:
             return False
         v, flat = numbers[:n], numbers[n:]
         for i in range(n):

@@ -137,13 +137,10 @@ class ReducedFreedom:
         evaluate = Evaluator([residual, root], DIGITS)
         tested = 0
         for values in admissible_values(self.system, _TRIED):
-            try:
-                rest, place = evaluate({**values, self.E: mpf(7) / 11})
-            except (ArithmeticError, ValueError):
-                continue
-            if isinstance(place, mpf):
+            found = evaluate.where_defined({**values, self.E: mpf(7) / 11})
+            if found is not None and isinstance(found[1], mpf):
                 tested += 1
-                if abs(rest) > _ZERO:
+                if abs(found[0]) > _ZERO:
                     return False
         return tested > 0
 
