@@ -69,6 +69,16 @@ def test_the_bead_oscillates_about_the_tilted_equilibrium():
     assert frequencies(HOOP)[0] == formula("sqrt(w^2 - g^2/(R^2*w^2))")
 
 
+def test_a_turning_frame_shifts_the_frequency():
+    """Landau and Lifshitz, section 39: at rest both are sqrt(k/m)."""
+    text = """
+coordinates: [x, y]
+parameters: {m: POSITIVE, k: POSITIVE, W: POSITIVE}
+L: m*((x' - W*y)^2 + (y' + W*x)^2)/2 - k*(x^2 + y^2)/2
+"""
+    assert set(frequencies(text)) == {*formulas("abs(W - sqrt(k/m))", "W + sqrt(k/m)")}
+
+
 @pytest.mark.long
 def test_the_double_pendulum():
     """Landau and Lifshitz, section 23, problem 2, with equal masses and lengths."""

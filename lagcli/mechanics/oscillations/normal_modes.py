@@ -97,8 +97,16 @@ def _frequency(
         return None
     if is_decimal(square):
         return decimal(sympy.sqrt(square).evalf(30))
-    root = sympy.sqrt(shorter(simplify(square), square))
+    root = _with_whole_modulus(sympy.sqrt(shorter(simplify(square), square)))
     return root if known is None else shorter(simplify(sympy.sqrt(square)), root)
+
+
+def _with_whole_modulus(root: Expr) -> Expr:
+    """|Omega - sqrt(k/m)| for |sqrt(m) Omega - sqrt(k)|/sqrt(m)."""
+    outside, moduli = root.as_independent(sympy.Abs, as_Add=False)
+    if not isinstance(moduli, sympy.Abs) or not outside.is_positive:
+        return root
+    return shorter(root, sympy.Abs(sympy.expand(outside * moduli.args[0])))
 
 
 def beats(squares: Sequence[Expr], values: Mapping[Symbol, mpf]) -> list[Expr] | None:
