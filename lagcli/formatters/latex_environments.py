@@ -45,7 +45,8 @@ class Environments:
         """Display equations that may go on on the next page."""
         labelled = bool(self.options.labels)
         name = "align" if labelled else "align*"
-        yield r"{\allowdisplaybreaks"
+        tall = len(display) > 1 and any(r"\frac" in line for each in display for line in each.lines)
+        yield r"{\allowdisplaybreaks" + (r"\jot=1.6ex" if tall else "")  # fractions do not touch
         yield rf"\begin{{{name}}}"
         yield " \\\\\n".join(_on_one_page(self._numbered(each)) for each in display)
         yield rf"\end{{{name}}}}}%"
