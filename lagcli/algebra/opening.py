@@ -6,6 +6,8 @@
   forces of two centres give the two distances.  Where the determinant vanishes is a branch
   of its own.
 - |f| is f, -f or 0, and the sign of f is 1, -1 or 0.
+- sin u = ± sin v and cos u = ± cos v, among the equations and the sums and differences of two,
+  relate the angles linearly.
 """
 
 from __future__ import annotations
@@ -16,13 +18,14 @@ from itertools import combinations
 import sympy
 from sympy import Dummy, Expr, Symbol
 
-from lagcli.algebra.build import free_of
+from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.linear import solve_linear
 from lagcli.algebra.simplification import is_zero, simplify
 from lagcli.record import record
 
 _MOST_ROOTS = 3
+_WAVES = (sympy.sin, sympy.cos)
 _POWERS = (0, 1, -1, 2, -2, 3, -3)
 
 
@@ -36,7 +39,77 @@ class Opened:
 
 def opened(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened]:
     """The branches that together have the same solutions; none where no form is better."""
-    return _without_moduli(equations, unknowns) or _lowered(equations, unknowns)
+    return (
+        _without_moduli(equations, unknowns)
+        or _by_equal_angles(equations, unknowns)
+        or _lowered(equations, unknowns)
+    )
+
+
+def whole_angles(equation: Expr, unknowns: Sequence[Symbol]) -> Expr:
+    """With sin x in place of 2 sin(x/2) cos(x/2), where no function of x/2 is left then."""
+
+    def halves(e: Expr) -> bool:
+        angles = (f.args[0] for f in e.atoms(sympy.sin, sympy.cos))
+        return any(angle.coeff(x).is_Rational and angle.coeff(x).q == 2
+                   for angle in map(sympy.expand, angles) for x in unknowns)  # fmt: skip
+
+    if not halves(equation):
+        return equation
+    found = sympy.expand(equation).replace(lambda e: e.is_Mul or e.is_Pow, _doubled)
+    return equation if halves(found) else found
+
+
+def _doubled(product: Expr) -> Expr:
+    """sin x cos x, sin² x and cos² x by the sine and the cosine of 2 x."""
+    powers = product.as_powers_dict()
+    for f in product.atoms(sympy.sin):
+        x = f.args[0]
+        own = int(powers[f]), int(powers[sympy.cos(x)])
+        if sum(own) == 2 and min(own) >= 0:
+            c, s = sympy.cos(2 * x), sympy.sin(2 * x)
+            image = s if own == (1, 1) else 1 - c if own == (2, 0) else 1 + c
+            return product / (f ** own[0] * sympy.cos(x) ** own[1]) * image / 2
+    return product
+
+
+def _by_equal_angles(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened]:
+    """sin u + sin v = 2 sin((u + v)/2) cos((u - v)/2) and its like, where an unknown turns once."""
+    turning = [x for x in unknowns if turns(equations, x)]
+    sums = ((e, (e,)) for e in equations)
+    pairs = ((f + sign * g, (f,)) for f, g in combinations(equations, 2) for sign in (1, -1))
+    for whole, replaced in (*sums, *pairs):
+        found = _equal_angles(sympy.expand(whole))
+        if found is None:
+            continue
+        rest = [e for e in equations if e not in replaced]
+        if all(any(abs(branch.coeff(x)) == 1 for x in turning) for branch in found):
+            return [Opened((branch, *rest)) for branch in found]
+    return []
+
+
+def turns(equations: Sequence[Expr], x: Symbol) -> bool:
+    """Whether all is periodic in x with the period 2 pi: sines and cosines of whole multiples."""
+
+    def is_wave(f: Expr) -> bool:
+        return isinstance(f, CIRCULAR) and bool(f.args[0].diff(x).is_Integer)
+
+    return all(free_of(e.replace(is_wave, lambda _: Dummy()), [x]) for e in equations)
+
+
+def _equal_angles(whole: Expr) -> tuple[Expr, Expr] | None:
+    """What vanishes where c (sin u ± sin v) or c (cos u ± cos v) does, up to whole turns."""
+    terms = sympy.Add.make_args(whole)
+    waves = [f for term in terms for f in sympy.Mul.make_args(term) if isinstance(f, _WAVES)]
+    if len(terms) != 2 or len(waves) != 2 or waves[0].func is not waves[1].func:
+        return None
+    ratio = (terms[0] * waves[1]) / (terms[1] * waves[0])
+    if ratio not in (1, -1):
+        return None
+    (u,), (v,) = waves[0].args, waves[1].args
+    if isinstance(waves[0], sympy.sin):
+        return (u + v, u - v - sympy.pi) if ratio == 1 else (u - v, u + v - sympy.pi)
+    return (u + v - sympy.pi, u - v - sympy.pi) if ratio == 1 else (u - v, u + v)
 
 
 def _without_moduli(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened]:

@@ -18,7 +18,7 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients, solve_for
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.numeric import vanishes_at_random
-from lagcli.algebra.opening import by_distances, opened
+from lagcli.algebra.opening import by_distances, opened, turns, whole_angles
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.resultants import without
 from lagcli.algebra.ring import factorization
@@ -65,8 +65,9 @@ def solve_system(
     With `families`, those that one relation between unknowns gives are among them, and no
     solution that lies on another.
     """
+    equations = [whole_angles(equation, unknowns) for equation in equations]
     solver = _Solver(equations, unknowns, Work(_UNITS), families=families)
-    solver.branch(list(equations), {}, ())
+    solver.branch(equations, {}, ())
     found = solver.found
     found.solutions = [
         each for each in found.solutions
@@ -87,6 +88,7 @@ class _Solver:
         self.unknowns = tuple(unknowns)
         self.found = SolvedSystem()
         self._given = given
+        self._turning = [x for x in unknowns if turns(given, x)]
         self._allowed = allowed
         self._families = families
         self._branches = 0
@@ -306,7 +308,11 @@ class _Solver:
         relation: Expr | None = None,
     ) -> None:
         plain = {s: simplify(v) for s, v in values.items()}
-        ordered = {u: plain[u] for u in self.unknowns if u in plain}
+        ordered = {
+            u: _within_a_turn(plain[u]) if u in self._turning else plain[u]
+            for u in self.unknowns
+            if u in plain
+        }
         same = [
             other
             for other in self.found.solutions
@@ -325,6 +331,14 @@ class _Solver:
         if not any({*other.positive} <= {*conditions} for other in same):
             kept = SystemSolution(ordered, tuple(dict.fromkeys(conditions)), relation)
             self.found.solutions.append(kept)
+
+
+def _within_a_turn(angle: Expr) -> Expr:
+    """A rational multiple of pi between -pi and pi, pi itself among them."""
+    turns = angle / (2 * sympy.pi)
+    if not turns.is_Rational:
+        return angle
+    return (turns - sympy.ceiling(turns - sympy.S.Half)) * 2 * sympy.pi
 
 
 def divisors(product: Expr) -> set[Expr]:
