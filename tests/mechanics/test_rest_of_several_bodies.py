@@ -1,8 +1,11 @@
 """Rest where bodies push each other, in bowls, and under a common factor that grows with time."""
 
+import math
 import random
+from itertools import product
 
 import pytest
+import sympy
 
 from lagcli.formatters.built_in.json import to_object
 from lagcli.reader import read_problem
@@ -66,6 +69,57 @@ constraints: {{bowl: "{source.choice(("2*z", "z + z"))} = {p}*x^2 + {r}*y^2"}}
     )
     assert [each["at"] for each in found["equilibria"]] == [{"x": "0", "y": "0", "z": "0"}]
     assert not found["warnings"]
+
+
+def within_a_turn(angle):
+    return round(angle - 2 * math.pi * round(angle / (2 * math.pi) - 1e-9), 6) + 0.0
+
+
+@pytest.mark.parametrize(
+    ("outer", "inner"),
+    [
+        ("-cos(a) - cos(b)", "2*sin((a - b)/2)^2"),  # beads on a hoop, joined by a spring
+        ("-cos(a) - cos(b)", "-cos(a + b)"),
+        ("cos(a) - cos(b)", "sin((a + b)/2)^2*2"),
+        ("sin(a) + sin(b)", "-cos(a - b)"),
+    ],
+)
+def test_two_bodies_on_a_ring_rest_where_each_force_vanishes(outer, inner):
+    """All critical points of V on the torus, by Newton's method from a grid."""
+    text = "coordinates: [a, b]\nT: (a'^2 + b'^2)/2\nV: {}".format
+    found = answer(text(f"{outer} + 3*({inner})"))
+    a, b = sympy.symbols("a b", real=True)
+    V = sympy.sympify(f"{outer} + 3*({inner})".replace("^", "**"), {"a": a, "b": b})
+    gradient = [V.diff(x) for x in (a, b)]
+    slopes = sympy.lambdify((a, b), gradient, "math")
+    hessian = sympy.lambdify((a, b), sympy.hessian(V, (a, b)).tolist(), "math")
+    places = set()
+    for start in product(range(-9, 10), repeat=2):
+        x, y = (s * math.pi / 9 + 0.02 for s in start)
+        for _ in range(40):
+            (p, q), ((d, e), (_, h)) = slopes(x, y), hessian(x, y)
+            whole = d * h - e * e or 1e-9
+            x, y = x - (h * p - e * q) / whole, y - (d * q - e * p) / whole
+        if math.hypot(*slopes(x, y)) < 1e-9:
+            places.add(tuple(map(within_a_turn, (x, y))))
+    named = {
+        tuple(within_a_turn(float(sympy.sympify(each["at"][name]))) for name in "ab")
+        for each in found["equilibria"]
+    }
+    assert not found["warnings"]
+    assert named == places
+
+
+@pytest.mark.parametrize("wave", ["cos(2*pi*x/h)", "sin(4*pi*x/h)", "cos(2*k*x)"])
+def test_a_wave_along_a_line_is_at_rest_twice_in_its_length(wave):
+    """One maximum and one minimum, of which one is stable."""
+    found = equilibria(f"""
+coordinates: [x]
+parameters: {{m: {{assume: positive}}, h: {{assume: positive}}, k: {{assume: positive}}}}
+T: m*x'^2/2
+V: {wave}
+""")
+    assert sorted(each["stable"] for each in found) == [False, True]
 
 
 @pytest.mark.parametrize("growth", ["exp(c*t)", "exp(2*c*t)"])
