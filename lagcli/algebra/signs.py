@@ -252,7 +252,7 @@ def _of_factor(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | No
 
 
 def _beside_root(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | None:
-    """The sign of a + b sqrt(c), a and b of opposite signs: that of a where a² > b² c."""
+    """The sign of a + b sqrt(c): that of a where a² > b² c, or where b has it, too."""
     given = [field.polynomial_to_sympy(each) for each in positive]
     for g in field.ring.used(factor):
         parts = field.ring.coefficients(factor, g)
@@ -261,12 +261,13 @@ def _beside_root(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | 
         a, b = (field.polynomial_to_sympy(parts[k]) for k in (0, 1))
         root = field.generators[g].expression
         first, second = sign(a, given), sign(b, given)
-        if first and second and (root.is_real or sign(root**2, given) == 1):
+        if first and (root.is_real or sign(root**2, given) == 1):
             rest = sympy.expand(a**2 - b**2 * root**2)
             if first != second and _roots(rest) >= _roots(field.polynomial_to_sympy(factor)):
                 continue  # no simpler
             larger = 1 if first == second else sign(rest, given)
-            return None if larger is None else first * larger
+            if larger and (second or larger == 1):
+                return first * larger
     return None
 
 

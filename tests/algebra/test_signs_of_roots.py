@@ -104,3 +104,17 @@ def test_between_two_roots_of_a_square_root_the_sign_is_known(seed):
     assert sign_of(whole, given) == 1
     assert sign_of(-whole, given) == -1
     assert sign_of(whole, given[:1]) is None
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_root_with_a_factor_of_either_sign_is_outweighed_or_not(seed):
+    """Of a x² + b p ± c x √(x² + d p) at 401 places; squared, all terms have one sign or not."""
+    rng = Random(seed)
+    a, b, c, d = (sympy.Rational(rng.randint(1, 6), rng.randint(1, 2)) for _ in range(4))
+    formula = a * k**2 + b * p + rng.choice((1, -1)) * c * k * root(k**2 + d * p)
+    values = sympy.lambdify(k, formula.subs(p, 1), "math")
+    least = min(values(x * (1 + abs(x) / 20) / 20) for x in range(-200, 201))
+    known = sign(formula)
+    assert known in (None, 1)
+    assert known is None or least > 0
+    assert known == 1 or a**2 < c**2 or 2 * a * b < c**2 * d
