@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from functools import cached_property, reduce
-from math import gcd, lcm
+from math import lcm
 from typing import TYPE_CHECKING
 
 import sympy
@@ -50,12 +50,6 @@ def split(field: Field, argument: Expr) -> list[tuple[Fraction, Expr]]:
     return parts
 
 
-def _common(a: Fraction, b: Fraction) -> Fraction:
-    """The greatest fraction that both are whole multiples of."""
-    below = lcm(a.denominator, b.denominator)
-    return Fraction(gcd(int(a * below), int(b * below)), below)
-
-
 class Multiples:
     """The base arguments of one kind of function and the fraction each comes in.
 
@@ -69,8 +63,8 @@ class Multiples:
         self.field = field
         self.kind = kind
         self.base = base  # of a power
-        self._unit: dict[Expr, Fraction] = {}  # base argument -> the part the generator is of
-        self._generators: dict[tuple[Expr, Fraction], int] = {}
+        self._unit: dict[Expr, int] = {}  # base argument -> N: the generator is of argument/N
+        self._generators: dict[tuple[Expr, int], int] = {}
         self._prepared: list[dict[Expr, Fraction]] = []  # multiples by base argument
 
     def prepare(self, argument: Expr) -> None:
@@ -78,11 +72,8 @@ class Multiples:
         parts = split(self.field, argument)
         self._prepared.append({base: multiple for multiple, base in parts})
         for multiple, base in parts:
-            self._unit[base] = _common(self._unit.get(base, self._whole(base)), multiple)
-
-    def _whole(self, base: Expr) -> Fraction:
-        """What the unit divides: one for an angle, whose whole turn is wanted; not for x in k x."""
-        return Fraction(int(self.kind != "circular" or base.is_Symbol or base.is_number))
+            unit = self._unit.get(base, 1)
+            self._unit[base] = lcm(unit, multiple.denominator)
 
     @cached_property
     def _together(self) -> list[tuple[Expr, dict[Expr, Fraction]]]:
@@ -128,23 +119,26 @@ class Multiples:
     def parts(self, parts: Iterable[tuple[Fraction, Expr]]) -> Iterator[tuple[int, int]]:
         """(k, g) for each part: it is k times the argument of generator g."""
         for multiple, base in self._joined(parts):
-            unit = self._unit.get(base) or _common(self._whole(base), multiple)
-            if (multiple / unit).denominator != 1:
-                unit = _common(unit, multiple)
+            unit = self._unit.setdefault(base, multiple.denominator)
+            scaled = multiple * unit
+            if scaled.denominator != 1:
+                unit = lcm(unit, multiple.denominator)
+                scaled = multiple * unit
                 self.field.doubtful = True
-            self._unit[base] = unit
-            multiplier = (multiple / unit).numerator
+                self._unit[base] = unit
+            multiplier = scaled.numerator
+            part = base / unit
             if abs(multiplier) > MAX_MULTIPLE:
                 self.field.doubtful = True
-                part, multiplier = abs(multiplier) * unit * base, 1 if multiplier > 0 else -1
-                yield multiplier, self._generator(part, Fraction(1))
+                part, multiplier = abs(multiplier) * part, 1 if multiplier > 0 else -1
+                yield multiplier, self._generator(part, 1)
             else:
                 yield multiplier, self._generator(base, unit)
 
-    def _generator(self, base: Expr, unit: Fraction) -> int:
+    def _generator(self, base: Expr, unit: int) -> int:
         key = (base, unit)
         if key not in self._generators:
-            argument = unit * base
+            argument = base / unit
             if not argument.free_symbols or argument.has(*_INVERSE):
                 self.field.doubtful = True
             self._generators[key] = self._create(argument)

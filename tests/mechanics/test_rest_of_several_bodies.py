@@ -110,18 +110,6 @@ def test_two_bodies_on_a_ring_rest_where_each_force_vanishes(outer, inner):
     assert named == places
 
 
-@pytest.mark.parametrize("wave", ["cos(2*pi*x/h)", "sin(4*pi*x/h)", "cos(2*k*x)"])
-def test_a_wave_along_a_line_is_at_rest_twice_in_its_length(wave):
-    """One maximum and one minimum, of which one is stable."""
-    found = equilibria(f"""
-coordinates: [x]
-parameters: {{m: {{assume: positive}}, h: {{assume: positive}}, k: {{assume: positive}}}}
-T: m*x'^2/2
-V: {wave}
-""")
-    assert sorted(each["stable"] for each in found) == [False, True]
-
-
 @pytest.mark.parametrize("growth", ["exp(c*t)", "exp(2*c*t)"])
 def test_a_factor_that_grows_is_linear_friction(growth):
     """L = exp(c t) (T - V) is T - V with the friction c dT/dq' (Caldirola 1941, Kanai 1948)."""

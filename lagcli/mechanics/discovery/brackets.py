@@ -26,6 +26,7 @@ from mpmath import mpf
 from sympy import Expr
 
 from lagcli.algebra import derivative
+from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.dynamics import Dynamics
@@ -87,7 +88,11 @@ class Brackets:
         self._constraints = len(surface)
         q, v = system.q, system.qdot
         # without the s of p_phi + s: {A_x, A_y} = -2 E p_phi has no E s
-        moving = [Q - Q.as_independent(system.t, *q, *v, as_Add=True)[0] for Q in charges]
+        linear = [all(free_of(derivative(Q, x), v) for x in v) for Q in charges]
+        moving = [
+            Q - Q.as_independent(system.t, *q, *v, as_Add=True)[0] if is_momentum else Q
+            for Q, is_momentum in zip(charges, linear, strict=True)
+        ]
         self.charges = (*moving, *surface)
         self.dynamics, self.allowed = dynamics, allowed
         expressions: list[Expr] = list(self.charges)
