@@ -50,7 +50,7 @@ def whole_angles(equation: Expr, unknowns: Sequence[Symbol]) -> Expr:
     """With sin x in place of 2 sin(x/2) cos(x/2), where no function of x/2 is left then."""
 
     def halves(e: Expr) -> bool:
-        angles = (f.args[0] for f in e.atoms(sympy.sin, sympy.cos))
+        angles = (f.args[0] for f in e.atoms(*_WAVES))
         return any(angle.coeff(x).is_Rational and angle.coeff(x).q == 2
                    for angle in map(sympy.expand, angles) for x in unknowns)  # fmt: skip
 
@@ -63,13 +63,12 @@ def whole_angles(equation: Expr, unknowns: Sequence[Symbol]) -> Expr:
 def _doubled(product: Expr) -> Expr:
     """sin x cos x, sin² x and cos² x by the sine and the cosine of 2 x."""
     powers = product.as_powers_dict()
-    for f in product.atoms(sympy.sin):
-        x = f.args[0]
-        own = int(powers[f]), int(powers[sympy.cos(x)])
-        if sum(own) == 2 and min(own) >= 0:
-            c, s = sympy.cos(2 * x), sympy.sin(2 * x)
-            image = s if own == (1, 1) else 1 - c if own == (2, 0) else 1 + c
-            return product / (f ** own[0] * sympy.cos(x) ** own[1]) * image / 2
+    for x in {f.args[0] for f in product.atoms(*_WAVES)}:
+        s, c = sympy.sin(2 * x), sympy.cos(2 * x)
+        own = powers[sympy.sin(x)], powers[sympy.cos(x)]
+        image = {(1, 1): s, (2, 0): 1 - c, (0, 2): 1 + c}.get(own)
+        if image is not None:
+            product *= image / (2 * sympy.sin(x) ** own[0] * sympy.cos(x) ** own[1])
     return product
 
 

@@ -110,6 +110,18 @@ def test_two_bodies_on_a_ring_rest_where_each_force_vanishes(outer, inner):
     assert named == places
 
 
+@pytest.mark.parametrize("power", ["n", "2*n", "n/2"])
+def test_half_an_angle_below_an_open_exponent_is_not_doubled(power):
+    """V = k sin(x/2)^p has p sin(x/2)^(p - 1) cos(x/2): a maximum at pi, whatever p > 0."""
+    found = equilibria(f"""
+coordinates: [x]
+parameters: {{m: {{assume: positive}}, k: {{assume: positive}}, n: {{assume: positive}}}}
+T: m*x'^2/2
+V: k*sin(x/2)^({power})
+""")
+    assert [each["stable"] for each in found if each["at"]["x"] == "pi"] == [False]
+
+
 @pytest.mark.parametrize("growth", ["exp(c*t)", "exp(2*c*t)"])
 def test_a_factor_that_grows_is_linear_friction(growth):
     """L = exp(c t) (T - V) is T - V with the friction c dT/dq' (Caldirola 1941, Kanai 1948)."""
