@@ -92,11 +92,10 @@ def drawn(problem: Problem, work: Callable[[], tuple[bytes, str]], output: Path 
 
 def _asked(problem: Problem, wish: PlotWish) -> Asked | None:
     """The options of the run; of a picture over time the coordinates, unless others are given."""
-    run = wish
-    if not run.show and wish.kind in {None, "series"}:
-        run = replace(wish, show=("coordinates",))
     needs_no_end = wish.kind in {*_WITHOUT_MOTION, None} and not wish.show
-    return asked_of(problem, run, without_end=_NO_END if needs_no_end else None)
+    if not wish.show and wish.kind in {None, "series"}:
+        wish = replace(wish, show=("coordinates",))
+    return asked_of(problem, wish, without_end=_NO_END if needs_no_end else None)
 
 
 def _kind(asked: Asked, wish: PlotWish) -> str:

@@ -34,7 +34,7 @@ def problem_of(file: str, request: Request | None = None) -> Problem | None:
 
 
 class OfFile(Protocol):
-    """What every command that runs motions is told: a file, its parameters and its state."""
+    """The options of every command that runs motions: a file, its parameters and its state."""
 
     @property
     def file(self) -> str:

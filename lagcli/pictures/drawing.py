@@ -151,7 +151,7 @@ class CannotDraw(Exception):
 
 
 def unbroken(points: Iterable[Point | None]) -> tuple[Piece, ...]:
-    """A line in pieces, between the places where there is no point."""
+    """The pieces of a line that is broken where a point is missing."""
     parts = groupby(points, key=lambda point: point is not None)
     return tuple(tuple(p for p in part if p is not None) for is_point, part in parts if is_point)
 

@@ -20,6 +20,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import mpmath
 from mpmath import mpf
@@ -87,16 +88,17 @@ class Brackets:
         surface += [equations[k].f for k in kept if equations[k].holonomic]
         self._constraints = len(surface)
         q, v = system.q, system.qdot
+        slopes = [[derivative(Q, x) for x in (*q, *v)] for Q in (*charges, *surface)]
         # without the s of p_phi + s: {A_x, A_y} = -2 E p_phi has no E s
-        linear = [all(free_of(derivative(Q, x), v) for x in v) for Q in charges]
         moving = [
-            Q - Q.as_independent(system.t, *q, *v, as_Add=True)[0] if is_momentum else Q
-            for Q, is_momentum in zip(charges, linear, strict=True)
+            Q - Q.as_independent(system.t, *q, *v, as_Add=True)[0]
+            if all(free_of(slope, v) for slope in by_state[len(q) :])
+            else Q
+            for Q, by_state in zip(charges, slopes, strict=False)
         ]
         self.charges = (*moving, *surface)
         self.dynamics, self.allowed = dynamics, allowed
-        expressions: list[Expr] = list(self.charges)
-        expressions += [derivative(Q, x) for Q in self.charges for x in (*q, *v)]
+        expressions: list[Expr] = [*self.charges, *chain.from_iterable(slopes)]
         expressions += [m for row in dynamics.lagrange.mass_matrix for m in row]
         expressions += [derivative(p, x) for p in dynamics.lagrange.momenta for x in q]
         self._evaluate = Evaluator(expressions, _DIGITS)

@@ -72,9 +72,8 @@ class HiddenNames:
     def _known_tensors(self, kinds: Kinds) -> Iterator[tuple[str, Expr]]:
         """Products of momenta and angular momenta, in Cartesian coordinates of one mass."""
         n, names = range(len(self.q)), [x.name for x in self.q]
-        if len(kinds.lengths) != len(self.q) or not set(names) <= set("xyz"):
-            return
-        if not self._has_one_mass:
+        cartesian = len(kinds.lengths) == len(self.q) and set(names) <= set("xyz")
+        if not (cartesian and self._has_one_mass):
             return
         L = {(i, k): self.q[i] * self.v[k] - self.q[k] * self.v[i] for i in n for k in n}
         for i, k in combinations(n, 2):
