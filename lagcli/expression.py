@@ -218,6 +218,13 @@ def sum_of(terms: Iterable[Expression]) -> Expression:
     return Sum(kept) if len(kept) > 1 else (*kept, ZERO)[0]
 
 
+def added_and_subtracted(difference: Expression) -> tuple[Expression, Expression]:
+    """The sum of the terms that are added, and of those that are subtracted."""
+    terms = difference.terms if isinstance(difference, Sum) else (difference,)
+    minus = [term.operand for term in terms if isinstance(term, Negative)]
+    return sum_of(t for t in terms if not isinstance(t, Negative)), sum_of(minus)
+
+
 def product_of(factors: Iterable[Expression]) -> Expression:
     """The product of some factors; a single one is its own, none are 1."""
     kept = tuple(factors)

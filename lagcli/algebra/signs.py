@@ -261,7 +261,7 @@ def _beside_root(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | 
         a, b = (field.polynomial_to_sympy(parts[k]) for k in (0, 1))
         root = field.generators[g].expression
         first, second = sign(a, given), sign(b, given)
-        if first and (root.is_real or sign(root**2, given) == 1):
+        if first and (root.is_real or 1 in (sign(root**2, given), sign_beside_zero(root**2))):
             rest = sympy.expand(a**2 - b**2 * root**2)
             if first != second and _roots(rest) >= _roots(field.polynomial_to_sympy(factor)):
                 continue  # no simpler

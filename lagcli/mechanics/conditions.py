@@ -12,7 +12,7 @@ from lagcli.algebra.factors import factors_of
 from lagcli.algebra.one_ratio import in_one_ratio
 from lagcli.algebra.positivity import deciding, sign_of, weak_sign, with_sines
 from lagcli.algebra.signs import sign
-from lagcli.expression import ZERO, operation_count
+from lagcli.expression import ZERO, added_and_subtracted, operation_count
 from lagcli.mechanics.inequalities import shorter_sums
 from lagcli.statements.motions import Above
 
@@ -137,6 +137,9 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
     right = -sympy.Add(*(n * m for m, n in by_monomial.items() if n.is_negative))
     left = sympy.Add(*(n * m for m, n in by_monomial.items() if not n.is_negative))
     found = Above(shape(left, order), shape(right, order))
+    if rest.has(sympy.sin, sympy.cos):  # k - m a² sin² is not k + m a² cos² - m a²
+        whole = Above(*added_and_subtracted(shape(rest, order)))
+        found = min(found, whole, key=_operations)
     constant, others = left.as_coeff_Add()
     if constant > 0 and others != 0:  # 1 > 27 mu (1 - mu)
         other = Above(shape(constant, order), shape(simplify(right - others), order))

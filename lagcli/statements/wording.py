@@ -15,8 +15,8 @@ from lagcli.expression import (
     Power,
     Product,
     Sum,
+    added_and_subtracted,
     operation_count,
-    sum_of,
 )
 from lagcli.statements.answers import QuantityUnit, Verification
 from lagcli.statements.motions import (
@@ -153,11 +153,9 @@ def _sides(each: Above) -> list[Part]:
 
 def _compared(difference: Expression, sign: str) -> list[Part]:
     """a = b + c of a - b - c, else that it is 0; or another sign than =."""
-    terms = difference.terms if isinstance(difference, Sum) else ()
-    minus = [term.operand for term in terms if isinstance(term, Negative)]
-    plus = [term for term in terms if not isinstance(term, Negative)]
-    if minus and plus:
-        return [sum_of(plus), sign, sum_of(minus)]
+    plus, minus = added_and_subtracted(difference)
+    if ZERO not in (plus, minus):
+        return [plus, sign, minus]
     return [difference, f"{sign}0"]
 
 

@@ -118,3 +118,15 @@ def test_a_root_with_a_factor_of_either_sign_is_outweighed_or_not(seed):
     assert known in (None, 1)
     assert known is None or least > 0
     assert known == 1 or a**2 < c**2 or 2 * a * b < c**2 * d
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_root_of_a_sum_of_squares_is_not_negative(seed):
+    """a + b and a root of (a - b)² + c x², expanded: of two coupled circuits."""
+    rng = Random(seed)
+    a, b, c = sympy.symbols("a b c", positive=True)
+    x = sympy.Symbol("x", real=True)
+    i, j, n = (rng.randint(1, 9) for _ in range(3))
+    inside = sympy.expand((i * a * b - j * c) ** 2 + n * b * c * x**2)
+    assert sign(a * c + j * b + root(inside)) == 1
+    assert sign(a * c - j * b + root(inside)) is None

@@ -98,3 +98,16 @@ def test_what_existence_implies_is_no_condition(seed):
     assert conditions([d], order, [k / d]) == ()
     assert opposites([d * s**2, d], order, [k / d]) == ()
     assert opposites([-d], order, [k]) != ()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_square_of_a_sine_is_compared_as_it_stands(seed):
+    """k > n m w² sin², not k + n m w² cos² > n m w²: every symbol once in what is printed."""
+    m, k, w = sympy.symbols("m k w", positive=True)
+    a = sympy.Symbol("a", real=True)
+    source = random.Random(seed)
+    circular = source.choice([sympy.sin, sympy.cos])
+    positive = k - source.randint(1, 9) * m * w**2 * circular(a) ** 2
+    [found] = conditions([positive], ["k", "m", "w", "a"])
+    printed = to_grammar(found.left) + to_grammar(found.right)
+    assert all(printed.count(each) == 1 for each in ("k", "m", "w", circular.__name__))

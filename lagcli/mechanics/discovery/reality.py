@@ -5,6 +5,7 @@ from __future__ import annotations
 import sympy
 from sympy import Expr
 
+from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.noether import NoetherCharge
@@ -18,7 +19,7 @@ def real_where(charge: NoetherCharge, system: System) -> tuple[Above, ...]:
     formulas = [*given.changes, given.time, charge.charge, charge.gauge or sympy.S.Zero]
     moving = {system.t, *system.q, *system.qdot}
     bounds = {bound for formula in formulas for bound in not_negative_where_real(formula)}
-    constant = (bound for bound in bounds if not bound.free_symbols & moving)
+    constant = (b for b in bounds if not b.free_symbols & moving and weak_sign(b) != 1)
     return conditions(sorted(constant, key=_by_length), system.order)
 
 

@@ -207,9 +207,9 @@ def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
     """lambda^4 + b lambda^2 + c = 0: i (sqrt(b + 2s) +- sqrt(b - 2s))/2 where c = s^2."""
     s = _root(c)
     if s.has(sympy.Pow) and any(p.exp.is_Rational and p.exp.q > 1 for p in s.atoms(sympy.Pow)):
-        inside = simplify(sympy.sqrt(simplify(b**2 / 4 - c)))
+        inside = _root(simplify(b**2 / 4 - c))
         squares = [simplify(b / 2 + inside), simplify(b / 2 - inside)]
-        return [Exponent(sympy.S.Zero, simplify(sympy.sqrt(x))) for x in squares]
+        return [Exponent(sympy.S.Zero, _root(x)) for x in squares]
     one, inside = _root(simplify(b + 2 * s)), simplify(b - 2 * s)
     if inside.is_negative:
         growth, frequency = _root(-inside) / 2, simplify(one / 2)
