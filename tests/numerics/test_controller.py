@@ -108,3 +108,15 @@ def test_the_bound_holds_for_rounding_that_an_unstable_motion_enlarges(angle, ac
             for row in result.rows:
                 error = abs(row[j] * scale - mpmath.cos(root * mpmath.mpf(row[0]) + first))
                 assert error <= result.certificate.global_error[name] + 2.0**-52
+
+
+@pytest.mark.parametrize(
+    "error", [lambda t: 3e-15 if t < 1e-12 else 0.0, lambda t: 1e-2 * t, lambda t: 1e6 * t]
+)
+def test_the_multiple_that_is_stated_is_that_of_the_bound(error):
+    """The bound of a single column beside the difference of the two runs it is made of."""
+    _, found = tolerances(error)
+    coarse, fine = found.tolerances
+    assert found.held[0] == pytest.approx(
+        found.multiples[1] * abs(error(coarse) - error(fine)), rel=0.2
+    )

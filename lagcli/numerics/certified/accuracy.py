@@ -34,7 +34,13 @@ from lagcli.numerics.certified.clock import clock_errors, column_changes
 from lagcli.numerics.certified.drift import changes
 from lagcli.numerics.certified.partners import Partners, both_stop, why_apart
 from lagcli.numerics.certified.rank import RankPlace, places
-from lagcli.numerics.certified.scales import Scales, at_rounding, is_enlarged, relative
+from lagcli.numerics.certified.scales import (
+    Scales,
+    at_rounding,
+    first_beyond,
+    is_enlarged,
+    relative,
+)
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.integrators.steps import DEPENDENT, Explained, component_scales
 from lagcli.record import record, replace
@@ -90,6 +96,8 @@ class Outcome:
     runs: int
     evaluations: int
     tolerances: tuple[float, float]
+    multiples: tuple[float, float]  # of the differences, the least and the largest in `held`
+    is_against_two: bool  # the finer run was compared with two others
     controller: Controller  # what can look more closely at where it fails
 
 
@@ -214,7 +222,8 @@ class Controller:
         A fast clock may cancel what a motion feels of its initial values: a slow one then does not.
         """
         again = self._compared(*third, found.run, found.rows, found.tolerances)
-        return max(found, again, key=lambda each: (-each.good_rows, not each.reached, *each.held))
+        worse = max(found, again, key=lambda each: (-each.good_rows, not each.reached, *each.held))
+        return replace(worse, is_against_two=True)
 
     def _run(
         self, tolerance: float, level: int, before: Run | None, *, slow: bool = False
@@ -258,8 +267,9 @@ class Controller:
         most = USUAL * tolerances[0] if factor == USUAL else self.accuracy
         found = [*map(relative, bounds, scales)]
         gain = (NARROW if is_enlarged(fine, found, factor * self.rounded) else self.chance) / factor
+        largest = factor * (max(1.0, gain) if any(0 < x < most for x in held) else 1.0)
         errors, held = at_rounding(found, gain, most), at_rounding(held, gain, most)
-        lost = _first_beyond(differences, [SATURATED * scale for scale in [*scales, 1.0]])
+        lost = first_beyond(differences, [SATURATED * scale for scale in [*scales, 1.0]])
         lost_at = math.inf if lost is None else fine.marks[lost].t
         same_end = (coarse.event is None) == (fine.event is None) and partner.agree
         reached = good == len(fine_rows) and same_end and fine.stop is None
@@ -278,6 +288,8 @@ class Controller:
             self.runs,
             self.evaluations,
             tolerances,
+            (factor, largest),
+            False,
             self,
         )
 
@@ -298,7 +310,7 @@ class Controller:
         while True:
             scales = [*scaled(good), 1.0]
             kept = [column[:good] for column in differences]
-            beyond = _first_beyond(kept, [self.accuracy * scale for scale in scales])
+            beyond = first_beyond(kept, [self.accuracy * scale for scale in scales])
             if beyond is None:
                 break
             good = beyond
@@ -362,18 +374,6 @@ def _distances(coarse: Sequence[Any], fine: Sequence[Any], factor: float) -> lis
     """Of the values of a column in two runs, this factor times |a - b|; 0 where one has none."""
     pairs = zip(coarse, fine, strict=False)
     return [0.0 if a is None or b is None else factor * abs(float(a - b)) for a, b in pairs]
-
-
-def _first_beyond(columns: Sequence[Sequence[float]], limits: Sequence[float]) -> int | None:
-    """The first row in which a column is above its limit; None where there is none."""
-    return min(
-        (
-            next(row for row, x in enumerate(column) if x > limit)
-            for column, limit in zip(columns, limits, strict=False)
-            if max(column, default=0.0) > limit
-        ),
-        default=None,
-    )
 
 
 def ended(outcome: Outcome, place: RankPlace) -> Outcome:

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from lagcli.numerics.certified.accuracy import NARROW, USUAL, Outcome
+from lagcli.numerics.certified.accuracy import USUAL, Outcome
 from lagcli.numerics.certified.drift import changes
 from lagcli.numerics.certified.exact_columns import with_digits
 from lagcli.numerics.certified.methods import METHODS
@@ -135,11 +135,10 @@ def _without_time(row: dict[str, float | None]) -> dict[str, float | None]:
 
 def _estimated_by(outcome: Outcome) -> str:
     coarse, fine = outcome.tolerances
-    factor = outcome.controller.factor(fine, outcome.run)
-    times = "twice" if factor == USUAL else f"{factor:g} times"
-    if USUAL < factor < NARROW or max(outcome.held) <= USUAL * coarse:
-        times = f"up to {NARROW:g} times"
-    runs = "three" if outcome.run.shortened and outcome.reached else "two"
+    least, largest = outcome.multiples
+    times = "twice" if largest == USUAL else f"{largest:g} times"
+    times = times if least == largest else f"up to {times}"
+    runs = "three" if outcome.is_against_two else "two"
     return (
         f"{times} the difference of {runs} runs with local tolerances {coarse:.0e} and {fine:.0e}; "
         "the finer one is shown (a cross-check, no proof)"

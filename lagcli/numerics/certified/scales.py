@@ -168,3 +168,15 @@ def is_enlarged(run: Run, errors: Sequence[float], rounded: float) -> bool:
     """
     steady = rounded * (_STEADY + run.steps / _DRIFT)
     return bool(run.shortened) or 0 < steady < max(errors, default=0.0)
+
+
+def first_beyond(columns: Sequence[Sequence[float]], limits: Sequence[float]) -> int | None:
+    """The first row in which a column is above its limit; None where there is none."""
+    return min(
+        (
+            next(row for row, x in enumerate(column) if x > limit)
+            for column, limit in zip(columns, limits, strict=False)
+            if max(column, default=0.0) > limit
+        ),
+        default=None,
+    )
