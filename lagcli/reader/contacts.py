@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from lagcli.expression import ZERO, Equation
 from lagcli.problem_data import Contact
+from lagcli.reader.file_reader import Required
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.scope import POSITION, VALUES, Kind, name_mistake
-from lagcli.reader.sections import Required
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
-    from lagcli.reader.sections import Sections
+    from lagcli.reader.file_reader import FileReader
 
 RESTITUTION = "restitution"
 _ATTRIBUTES = ("gap", RESTITUTION, "multiplier")
@@ -30,7 +30,7 @@ class Declared(NamedTuple):
 
 
 def declared(
-    sections: Sections, key: Scalar, value: DocumentNode, kind: Kind, known: tuple[str, ...]
+    file: FileReader, key: Scalar, value: DocumentNode, kind: Kind, known: tuple[str, ...]
 ) -> Declared | None:
     """Enter the multiplier into the scope; None where the name is not valid.
 
@@ -43,46 +43,44 @@ def declared(
         message = f"'{key.label}' is not a valid name for a {what}"
         is_relation = re.search("[=<>≤≥]", key.label)
         rule = "a name has letters, digits and underscores"
-        sections.error(message, key.span, f"write name: {key.label}" if is_relation else rule)
+        file.error(message, key.span, f"write name: {key.label}" if is_relation else rule)
         return None
     multiplier, place = f"lambda_{key.label}", key.span
     attributes = {known[0]: value}
     if isinstance(value, Mapping):
         what = f"the {what} '{key.label}'"
-        found = sections.attributes(value, what, known, Required(known[0], key.span, hint))
+        found = file.attributes(value, what, known, Required(known[0], key.span, hint))
         attributes = {name: attribute for name, (_, attribute) in found.items()}
         if "multiplier" in attributes:
-            text = sections.scalar(attributes["multiplier"], "'multiplier'")
+            text = file.scalar(attributes["multiplier"], "'multiplier'")
             if text is not None:
                 multiplier, place = text.label, text.span
-    sections.declare(multiplier, kind, place)
+    file.declare(multiplier, kind, place)
     return Declared(key, multiplier, attributes)
 
 
-def declare_contacts(
-    sections: Sections, node: DocumentNode, constraints: set[str]
-) -> list[Declared]:
+def declare_contacts(file: FileReader, node: DocumentNode, constraints: set[str]) -> list[Declared]:
     """Enter the multipliers into the scope; a constraint's name is taken."""
     contacts = []
-    for key, value in sections.entries(node, "contacts", _HINT):
+    for key, value in file.entries(node, "contacts", _HINT):
         if key.label in constraints:
-            sections.error(f"'{key.label}' is a constraint already", key.span)
-        elif one := declared(sections, key, value, "contact force", _ATTRIBUTES):
+            file.error(f"'{key.label}' is a constraint already", key.span)
+        elif one := declared(file, key, value, "contact force", _ATTRIBUTES):
             contacts.append(one)
     return contacts
 
 
-def read_contacts(sections: Sections, given: list[Declared]) -> tuple[Contact, ...]:
+def read_contacts(file: FileReader, given: list[Declared]) -> tuple[Contact, ...]:
     """The contacts, the larger side of each gap on the left."""
     contacts = []
     for one in given:
         if "gap" not in one.attributes:
             continue
         what = f"the contact '{one.key.label}'"
-        gap = _gap(sections, one.attributes["gap"], what)
+        gap = _gap(file, one.attributes["gap"], what)
         restitution = None
         if RESTITUTION in one.attributes:
-            restitution = read_restitution(sections, one.attributes[RESTITUTION], what)
+            restitution = read_restitution(file, one.attributes[RESTITUTION], what)
         contacts.append(
             Contact(
                 name=one.key.label,
@@ -95,28 +93,28 @@ def read_contacts(sections: Sections, given: list[Declared]) -> tuple[Contact, .
     return tuple(contacts)
 
 
-def _gap(sections: Sections, node: DocumentNode, what: str) -> Equation:
+def _gap(file: FileReader, node: DocumentNode, what: str) -> Equation:
     """`y >= 0`, `y <= h`, or an expression that is not negative."""
-    before = len(sections.diagnostics)
+    before = len(file.diagnostics)
     if isinstance(node, Scalar) and {"<", ">", "≤", "≥"} & set(node.value):
-        found = sections.comparison(node, what, POSITION)
+        found = file.comparison(node, what, POSITION)
         left, right = (found.left, found.right) if found is not None else (ZERO, ZERO)
         if found is not None and found.comparison[0] == "<":
             left, right = right, left
         gap = Equation(left, right, span=node.span)
     elif isinstance(node, Scalar) and "=" in node.value:
         hint = f"write {re.sub('=+', '>=', node.value.strip())}"
-        sections.error(f"{what} is an inequality", node.span, hint)
+        file.error(f"{what} is an inequality", node.span, hint)
         return Equation(ZERO, ZERO, span=node.span)
     else:
-        gap = Equation(sections.expression(node, what, POSITION), ZERO, span=node.span)
-    if len(sections.diagnostics) == before:
-        orders = [derivative_order(side, sections.scope) for side in (gap.left, gap.right)]
+        gap = Equation(file.expression(node, what, POSITION), ZERO, span=node.span)
+    if len(file.diagnostics) == before:
+        orders = [derivative_order(side, file.scope) for side in (gap.left, gap.right)]
         if max(orders) < 0:
-            sections.error(f"{what} contains no coordinate", node.span)
+            file.error(f"{what} contains no coordinate", node.span)
     return gap
 
 
-def read_restitution(sections: Sections, node: DocumentNode, what: str) -> Expression:
+def read_restitution(file: FileReader, node: DocumentNode, what: str) -> Expression:
     """Newton's coefficient: a number or a formula of parameters."""
-    return sections.expression(node, f"the restitution of {what}", VALUES)
+    return file.expression(node, f"the restitution of {what}", VALUES)

@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Point, Problem
+from lagcli.reader.file_reader import Required
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import colon_advice
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
@@ -13,19 +14,18 @@ from lagcli.reader.misshapen import as_list
 from lagcli.reader.names import depends_on_time, derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Growth, Role
-from lagcli.reader.sections import Required
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
     from lagcli.diagnostics import Span
     from lagcli.expression import Expression
-    from lagcli.reader.sections import Sections
+    from lagcli.reader.file_reader import FileReader
 
 _CARTESIAN = "write [x, y], in polar coordinates [r*cos(phi), r*sin(phi)]"
 _POINT_ATTRIBUTES = ("position", "mass", "force")
 
 
-def check_energies(sections: Sections, given: dict[str, Scalar]) -> None:
+def check_energies(file: FileReader, given: dict[str, Scalar]) -> None:
     """The kinetic energy comes from one place: L, or H, or T, or the masses of the points."""
     for whole, others in (("L", "TV"), ("H", "LTV")):
         both = [key for key in others if whole in given and key in given]
@@ -34,37 +34,35 @@ def check_energies(sections: Sections, given: dict[str, Scalar]) -> None:
             message = f"both {whole} and {both[0]} are given"
             message = f"{whole}, T and V are given" if both[1:] else message
             hint = "give L, or H" if "L" in both else f"give {whole}, or T and V"
-            sections.error(message, given[both[0]].span, hint, related)
-            sections.scope.refused += both  # as in L: T - V
+            file.error(message, given[both[0]].span, hint, related)
+            file.scope.refused += both  # as in L: T - V
 
 
-def check_masses(sections: Sections, problem: Problem, span: Span) -> None:
+def check_masses(file: FileReader, problem: Problem, span: Span) -> None:
     """Without T and L, the points give the kinetic energy, and every one needs a mass."""
     given = problem.kinetic, problem.lagrangian, problem.hamiltonian
     if any(formula is not None for formula in given):
         return
-    if not (problem.points or "points" in sections.scope.refused):
+    if not (problem.points or "points" in file.scope.refused):
         hint = "give T, or points with masses, or L, or H"
-        sections.error("there is no kinetic energy", span, hint)
+        file.error("there is no kinetic energy", span, hint)
     for point in problem.points:
         if point.mass is None:
             message = f"the point '{point.name}' has no mass, and there is no T"
-            sections.error(message, point.span, "give its mass, or T, or L")
+            file.error(message, point.span, "give its mass, or T, or L")
 
 
-def check_momenta(sections: Sections) -> None:
+def check_momenta(file: FileReader) -> None:
     """`p_x` is the momentum of the coordinate x and cannot be declared."""
-    for name, span in sections.scope.spans.items():
-        coordinate = sections.scope.coordinate_of_momentum(name)
+    for name, span in file.scope.spans.items():
+        coordinate = file.scope.coordinate_of_momentum(name)
         if coordinate is not None:
-            related = ((sections.scope.spans[coordinate], "the coordinate"),)
+            related = ((file.scope.spans[coordinate], "the coordinate"),)
             message = f"'{name}' is the momentum of the coordinate '{coordinate}'"
-            sections.error(message, span, "choose another name", related)
+            file.error(message, span, "choose another name", related)
 
 
-def declare_definitions(
-    sections: Sections, node: DocumentNode
-) -> list[tuple[Scalar, DocumentNode]]:
+def declare_definitions(file: FileReader, node: DocumentNode) -> list[tuple[Scalar, DocumentNode]]:
     """Enter the definitions into the scope in the order of the file."""
     declared: list[tuple[Scalar, DocumentNode]] = []
     hint = "write d: expression"
@@ -72,52 +70,52 @@ def declare_definitions(
         lines = [node] if isinstance(node, Scalar) else node.items
         written = [each.value for each in lines if isinstance(each, Scalar)]
         hint = colon_advice(written[0]) if written else hint
-        sections.scope.refused += [line.partition("=")[0].strip() for line in written]
-    for key, value in sections.entries(node, "definitions", hint):
-        if sections.declare(key.label, "definition", key.span):
-            sections.scope.definitions[key.label] = Definition(place=len(declared))
+        file.scope.refused += [line.partition("=")[0].strip() for line in written]
+    for key, value in file.entries(node, "definitions", hint):
+        if file.declare(key.label, "definition", key.span):
+            file.scope.definitions[key.label] = Definition(place=len(declared))
             declared.append((key, value))
     return declared
 
 
 def read_definitions(
-    sections: Sections, declared: list[tuple[Scalar, DocumentNode]]
+    file: FileReader, declared: list[tuple[Scalar, DocumentNode]]
 ) -> dict[str, Expression]:
     """The definitions; the scope learns which derivatives each contains."""
     definitions = {}
     for place, (key, value) in enumerate(declared):
         what = f"the definition of '{key.label}'"
-        expression = sections.expression(value, what, STATE, before=place)
+        expression = file.expression(value, what, STATE, before=place)
         definitions[key.label] = expression
-        known = sections.scope.definitions[key.label]
-        known.order = min(derivative_order(expression, sections.scope), STATE.order)
-        known.time = depends_on_time(expression, sections.scope)
-        found, _ = growth(expression, sections.scope)
+        known = file.scope.definitions[key.label]
+        known.order = min(derivative_order(expression, file.scope), STATE.order)
+        known.time = depends_on_time(expression, file.scope)
+        found, _ = growth(expression, file.scope)
         known.growth = Growth(
             min(found.exponentials, EXPONENTIAL_LEVELS), min(found.degree, DEGREE)
         )
     return definitions
 
 
-def read_points(sections: Sections, node: DocumentNode) -> tuple[Point, ...]:
+def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
     """The particles."""
     points = []
     hint = "write name: {position: [x, y], mass: m}"
-    sections.scope.refused += [] if isinstance(node, Mapping) else ["points"]
-    for key, value in sections.entries(node, "points", hint):
+    file.scope.refused += [] if isinstance(node, Mapping) else ["points"]
+    for key, value in file.entries(node, "points", hint):
         what = f"the point '{key.label}'"
         required = Required("position", key.span, f"write position: [{_by_axes(value)}]")
-        found = sections.attributes(value, what, _POINT_ATTRIBUTES, required)
+        found = file.attributes(value, what, _POINT_ATTRIBUTES, required)
         attributes = {name: attribute for name, (_, attribute) in found.items()}
         if "position" not in attributes:
-            sections.scope.refused.append("points")
+            file.scope.refused.append("points")
             continue
-        position = _position(sections, attributes["position"], key.label)
+        position = _position(file, attributes["position"], key.label)
         mass = force = None
         if "mass" in attributes:
-            mass = sections.expression(attributes["mass"], f"the mass of '{key.label}'", MASS)
+            mass = file.expression(attributes["mass"], f"the mass of '{key.label}'", MASS)
         if "force" in attributes:
-            force = _force(sections, attributes["force"], key.label, len(position))
+            force = _force(file, attributes["force"], key.label, len(position))
         points.append(
             Point(name=key.label, position=position, mass=mass, force=force, span=key.span)
         )
@@ -134,55 +132,53 @@ def _by_axes(node: DocumentNode) -> str:
     return ", ".join(written) or "x, y"
 
 
-def _components(sections: Sections, node: DocumentNode, what: str, hint: str) -> list[DocumentNode]:
+def _components(file: FileReader, node: DocumentNode, what: str, hint: str) -> list[DocumentNode]:
     if isinstance(node, Scalar) and not node.is_empty:
         hint = f"write {as_list(_shown(node.value))}"
-    return sections.items(node, what, hint)
+    return file.items(node, what, hint)
 
 
-def _position(sections: Sections, node: DocumentNode, name: str) -> tuple[Expression, ...]:
+def _position(file: FileReader, node: DocumentNode, name: str) -> tuple[Expression, ...]:
     what = f"the position of '{name}'"
-    items = _components(sections, node, what, _CARTESIAN)
+    items = _components(file, node, what, _CARTESIAN)
     if isinstance(node, Sequence) and not 1 <= len(items) <= 3:
-        sections.error(f"{what} has {len(items)} components, it may have 1 to 3", node.span)
-    return tuple(sections.expression(item, what, POSITION) for item in items)
+        file.error(f"{what} has {len(items)} components, it may have 1 to 3", node.span)
+    return tuple(file.expression(item, what, POSITION) for item in items)
 
 
-def _force(
-    sections: Sections, node: DocumentNode, name: str, length: int
-) -> tuple[Expression, ...]:
+def _force(file: FileReader, node: DocumentNode, name: str, length: int) -> tuple[Expression, ...]:
     what = f"the force on '{name}'"
-    items = _components(sections, node, what, "one component for each of the position's")
+    items = _components(file, node, what, "one component for each of the position's")
     if isinstance(node, Sequence) and length and len(items) != length:
         message = f"{what} has {len(items)} components, its position has {length}"
-        sections.error(message, node.span)
-    return tuple(sections.expression(item, what, STATE) for item in items)
+        file.error(message, node.span)
+    return tuple(file.expression(item, what, STATE) for item in items)
 
 
 def _shown(text: str) -> str:
     return text if len(text) <= 40 else "…"
 
 
-def read_forces(sections: Sections, node: DocumentNode) -> dict[str, Expression]:
+def read_forces(file: FileReader, node: DocumentNode) -> dict[str, Expression]:
     """The generalized forces by coordinate."""
-    return read_by_coordinate(sections, node, "forces", "the force along '{}'")
+    return read_by_coordinate(file, node, "forces", "the force along '{}'")
 
 
 def read_by_coordinate(
-    sections: Sections, node: DocumentNode, section: str, what: str, role: Role = STATE
+    file: FileReader, node: DocumentNode, section: str, what: str, role: Role = STATE
 ) -> dict[str, Expression]:
     """A map coordinate → expression."""
     found = {}
-    for key, value in sections.entries(node, section, sections.by_name(node)):
-        if sections.scope.kinds.get(key.label) != "coordinate":
-            coordinates = list(sections.scope.of_kind("coordinate"))
+    for key, value in file.entries(node, section, file.by_name(node)):
+        if file.scope.kinds.get(key.label) != "coordinate":
+            coordinates = list(file.scope.of_kind("coordinate"))
             along = re.sub(r"^[FQf]_?", "", key.label)
             hint = f"write {along}" if along in coordinates else ""
             hint = hint or did_you_mean(key.label, coordinates)
             pointed = ", or as 'force' of a point" if section == "forces" else ""
             hint = hint or f"it is given along a coordinate: {', '.join(coordinates)}{pointed}"
-            if not sections.scope.refused:
-                sections.error(f"'{key.label}' in {section} is not a coordinate", key.span, hint)
+            if not file.scope.refused:
+                file.error(f"'{key.label}' in {section} is not a coordinate", key.span, hint)
                 continue
-        found[key.label] = sections.expression(value, what.format(key.label), role)
+        found[key.label] = file.expression(value, what.format(key.label), role)
     return found

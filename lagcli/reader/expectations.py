@@ -16,7 +16,7 @@ from lagcli.statements.registry import expected_keys, find_expected
 if TYPE_CHECKING:
     from lagcli.diagnostics import Span
     from lagcli.expression import Expression
-    from lagcli.reader.sections import Sections
+    from lagcli.reader.file_reader import FileReader
 
 #: The fields of `Expect` that are no answers of one section.
 _FIELDS = frozenset(Expect.__annotations__) - {"others", "ranges", "spans"}
@@ -28,13 +28,13 @@ class ExpectReader:
     What may stand under the key of a section of the answers, that section declares.
     """
 
-    def __init__(self, sections: Sections, problem: Problem) -> None:
-        self.sections = sections
+    def __init__(self, file: FileReader, problem: Problem) -> None:
+        self.file = file
         self.problem = problem
         self.constraints = [constraint.name for constraint in problem.constraints]
         holding: tuple[Constraint | Contact, ...] = (*problem.constraints, *problem.contacts)
         self.holding = [each.name for each in holding]
-        self.columns = named_columns(sections.scope, holding, problem.symmetries)
+        self.columns = named_columns(file.scope, holding, problem.symmetries)
         self.symmetries = [symmetry.name for symmetry in problem.symmetries]
         self.brackets = [bracket.name for bracket in problem.brackets]
         self.transformations = {each.name: each for each in problem.canonical_transformations}
@@ -48,7 +48,7 @@ class ExpectReader:
         if isinstance(node, Mapping) and not node.entries:
             return Expect()  # no section need be known
         keys = ("degrees_of_freedom", *expected_keys(self._unusual(node)), "trajectory")
-        found = self.sections.attributes(node, "expect", keys)
+        found = self.file.attributes(node, "expect", keys)
         values: dict[str, Any] = {}
         others: dict[str, Any] = {}
         for name, (key, value) in found.items():
@@ -66,7 +66,7 @@ class ExpectReader:
             case "degrees_of_freedom":
                 return self.count(node, name)
             case "trajectory":
-                reader = TrajectoryReader(self.sections, self.holding, self.columns, self.spans)
+                reader = TrajectoryReader(self.file, self.holding, self.columns, self.spans)
                 return reader.read(node)
             case _:
                 return find_expected(name)[1].read(self, node)
@@ -75,12 +75,12 @@ class ExpectReader:
 
     def count(self, node: DocumentNode, name: str) -> int | None:
         """A whole number, 0 or more."""
-        text = self.sections.scalar(node, f"'{name}'")
+        text = self.file.scalar(node, f"'{name}'")
         if text is None:
             return None
         value = text.value.strip()
         if not (value.isascii() and value.isdigit() and len(value) < 10):
-            self.sections.error(f"'{name}' is a whole number, 0 or more", text.span)
+            self.file.error(f"'{name}' is a whole number, 0 or more", text.span)
             return None
         return int(value)
 
@@ -89,7 +89,7 @@ class ExpectReader:
     ) -> dict[str, Expression]:
         """A map from coordinates to formulas."""
         self.note(node, section)
-        return read_by_coordinate(self.sections, node, section, what, role)
+        return read_by_coordinate(self.file, node, section, what, role)
 
     def note(self, node: DocumentNode, *path: str) -> None:
         """Remember where the entries of a map stand."""
@@ -101,12 +101,12 @@ class ExpectReader:
     ) -> list[tuple[Scalar, DocumentNode]]:
         """The entries whose keys exist in the problem; a mistake at each other one."""
         good = []
-        for key, value in self.sections.entries(node, f"'{' of '.join(path)}'"):
+        for key, value in self.file.entries(node, f"'{' of '.join(path)}'"):
             self.spans[(*path, key.label)] = key.span
             if key.label in known:
                 good.append((key, value))
                 continue
             names = ", ".join(known[:10])
             hint = did_you_mean(key.label, known) or (f"known are {names}" if known else "")
-            self.sections.error(f"there is no {what} '{key.label}'", key.span, hint)
+            self.file.error(f"there is no {what} '{key.label}'", key.span, hint)
         return good

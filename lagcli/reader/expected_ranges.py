@@ -12,26 +12,26 @@ if TYPE_CHECKING:
 
     from lagcli.expression import Name
     from lagcli.problem_data import Inequality
-    from lagcli.reader.sections import Sections
+    from lagcli.reader.file_reader import FileReader
 
 
 def read_ranges(
-    sections: Sections, items: Iterable[DocumentNode], unknown: Name, what: str
+    file: FileReader, items: Iterable[DocumentNode], unknown: Name, what: str
 ) -> tuple[tuple[Inequality, ...], ...]:
     """`[v <= a, [v > b, v < c]]`: each item one range, by one bound or a list of them."""
     return tuple(
         tuple(
             bound
             for each in (item.items if isinstance(item, Sequence) else [item])
-            if (bound := _bound(sections, each, unknown, what)) is not None
+            if (bound := _bound(file, each, unknown, what)) is not None
         )
         for item in items
     )
 
 
-def _bound(sections: Sections, node: DocumentNode, unknown: Name, what: str) -> Inequality | None:
-    bound = sections.comparison(node, what, CONSTANTS)
+def _bound(file: FileReader, node: DocumentNode, unknown: Name, what: str) -> Inequality | None:
+    bound = file.comparison(node, what, CONSTANTS)
     if bound is not None and bound.left != unknown:
-        sections.error(f"{what} is a bound of {unknown}", node.span, f"write {unknown} >= 0")
+        file.error(f"{what} is a bound of {unknown}", node.span, f"write {unknown} >= 0")
         return None
     return bound

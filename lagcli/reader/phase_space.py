@@ -13,7 +13,7 @@ from lagcli.reader.scope import PHASE_SPACE, name_mistake
 if TYPE_CHECKING:
     from lagcli.expression import Expression
     from lagcli.problem_data import Symmetry
-    from lagcli.reader.sections import Sections
+    from lagcli.reader.file_reader import FileReader
 
 FUNCTION = PHASE_SPACE._replace(why="a function on phase space has momenta p_x, no velocities")
 BRACKETED = FUNCTION._replace(observables=True)
@@ -29,39 +29,39 @@ _WRITE = "write name: {Q: p_x, p_Q: -x}"
 HAMILTONIAN = "H"
 
 
-def read_observables(sections: Sections, node: DocumentNode) -> dict[str, Expression]:
+def read_observables(file: FileReader, node: DocumentNode) -> dict[str, Expression]:
     """Functions of q, p and t, each of which may use earlier ones."""
     found = {}
-    for key, value in sections.entries(node, "observables", "write A: x*p_y - y*p_x"):
+    for key, value in file.entries(node, "observables", "write A: x*p_y - y*p_x"):
         what = f"the observable '{key.label}'"
-        expression = sections.expression(value, what, BRACKETED)
-        if not _is_momentum(sections, key) and sections.declare(key.label, "observable", key.span):
+        expression = file.expression(value, what, BRACKETED)
+        if not _is_momentum(file, key) and file.declare(key.label, "observable", key.span):
             found[key.label] = expression
     return found
 
 
-def _is_momentum(sections: Sections, key: Scalar) -> bool:
-    coordinate = sections.scope.coordinate_of_momentum(key.label)
+def _is_momentum(file: FileReader, key: Scalar) -> bool:
+    coordinate = file.scope.coordinate_of_momentum(key.label)
     if coordinate is not None:
         message = f"'{key.label}' is the momentum of the coordinate '{coordinate}'"
-        sections.error(message, key.span, "choose another name")
+        file.error(message, key.span, "choose another name")
     return coordinate is not None
 
 
 def read_brackets(
-    sections: Sections, node: DocumentNode, symmetries: Iterable[Symmetry]
+    file: FileReader, node: DocumentNode, symmetries: Iterable[Symmetry]
 ) -> tuple[BracketQuestion, ...]:
     """Pairs of functions; the charges of symmetries and H may stand in them by name."""
     found = []
     hint = "write name: [x, p_x]"
     names = [HAMILTONIAN, *(symmetry.name for symmetry in symmetries)]
-    with sections.scope.also(names, "observable"):
-        for key, value in sections.entries(node, "brackets", hint):
+    with file.scope.also(names, "observable"):
+        for key, value in file.entries(node, "brackets", hint):
             what = f"the bracket '{key.label}'"
-            items = sections.items(value, what, hint)
+            items = file.items(value, what, hint)
             if isinstance(value, Sequence) and len(items) != 2:
-                sections.error(f"{what} has {len(items)} functions, not 2", value.span, hint)
-            read = [sections.expression(item, what, BRACKETED) for item in items]
+                file.error(f"{what} has {len(items)} functions, not 2", value.span, hint)
+            read = [file.expression(item, what, BRACKETED) for item in items]
             if len(read) == 2:
                 left, right = read
                 found.append(BracketQuestion(name=key.label, left=left, right=right, span=key.span))
@@ -69,16 +69,16 @@ def read_brackets(
 
 
 def read_transformations(
-    sections: Sections, node: DocumentNode
+    file: FileReader, node: DocumentNode
 ) -> tuple[CanonicalTransformation, ...]:
     """New variables in the old ones, with a generating function or without."""
-    entries = sections.entries(node, "canonical_transformations", _WRITE)
-    return tuple(_transformation(sections, key, value) for key, value in entries)
+    entries = file.entries(node, "canonical_transformations", _WRITE)
+    return tuple(_transformation(file, key, value) for key, value in entries)
 
 
-def _transformation(sections: Sections, key: Scalar, node: DocumentNode) -> CanonicalTransformation:
+def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> CanonicalTransformation:
     what = f"the transformation '{key.label}'"
-    entries = list(sections.entries(node, what, _WRITE))
+    entries = list(file.entries(node, what, _WRITE))
     labels = {name.label for name, _ in entries} - _KINDS.keys()
     coordinates: dict[str, Expression] = {}
     momenta: dict[str, Expression] = {}
@@ -88,47 +88,47 @@ def _transformation(sections: Sections, key: Scalar, node: DocumentNode) -> Cano
         if label in _KINDS:
             generating.append((name, value))
             continue
-        expression = sections.expression(value, f"the new variable '{label}'", FUNCTION)
+        expression = file.expression(value, f"the new variable '{label}'", FUNCTION)
         rest = label.removeprefix("p_")
         if rest != label and rest in labels:
             momenta[rest] = expression
             continue
-        _check_new(sections, name, what)
+        _check_new(file, name, what)
         coordinates[label] = expression
-    _check_complete(sections, key, what, coordinates, momenta, entries)
+    _check_complete(file, key, what, coordinates, momenta, entries)
     given: dict[str, Any] = {}
-    with sections.scope.also(coordinates, "coordinate"):
+    with file.scope.also(coordinates, "coordinate"):
         for place, (name, value) in enumerate(generating):
             if place:
-                sections.error(f"{what} has two generating functions", name.span, "give one")
+                file.error(f"{what} has two generating functions", name.span, "give one")
             given = {
                 "kind": name.label,
-                "generating": _generating(sections, name.label, value, coordinates),
+                "generating": _generating(file, name.label, value, coordinates),
             }
     return CanonicalTransformation(
         name=key.label, coordinates=coordinates, momenta=momenta, span=key.span, **given
     )
 
 
-def _check_new(sections: Sections, name: Scalar, what: str) -> None:
+def _check_new(file: FileReader, name: Scalar, what: str) -> None:
     """A new coordinate, whose momentum gets the prefix p_, needs a name of its own."""
-    label, scope = name.label, sections.scope
+    label, scope = name.label, file.scope
     wrong = name_mistake(label)
     taken = next((n for n in (label, f"p_{label}") if n in scope.kinds), None)
     if wrong is not None:
-        sections.error(wrong[0], name.span, wrong[1])
+        file.error(wrong[0], name.span, wrong[1])
     elif label.startswith("p_") and scope.coordinate_of_momentum(label) is None:
         coordinate = label.removeprefix("p_")
         message = f"{what} has a momentum '{label}' and no coordinate '{coordinate}'"
-        sections.error(message, name.span, _WRITE)
+        file.error(message, name.span, _WRITE)
     elif taken is not None or scope.coordinate_of_momentum(label) is not None:
         kind = scope.kinds.get(taken or "", "momentum")
         message = f"the new variable '{taken or label}' is a {kind} of the file already"
-        sections.error(message, name.span, "choose another name")
+        file.error(message, name.span, "choose another name")
 
 
 def _check_complete(
-    sections: Sections,
+    file: FileReader,
     key: Scalar,
     what: str,
     coordinates: dict[str, Expression],
@@ -139,27 +139,25 @@ def _check_complete(
     for name in coordinates.keys() - momenta.keys():
         if not name.startswith("p_"):
             message = f"the momentum 'p_{name}' of '{name}' is missing in {what}"
-            sections.error(message, spans[name], _WRITE)
-    number = sum(1 for _ in sections.scope.of_kind("coordinate"))
+            file.error(message, spans[name], _WRITE)
+    number = sum(1 for _ in file.scope.of_kind("coordinate"))
     if len(coordinates) != number and not any(name.startswith("p_") for name in coordinates):
         plural = "" if len(coordinates) == 1 else "s"
         message = (
             f"{what} has {len(coordinates) or 'no'} new coordinate{plural}, the file has {number}"
         )
-        sections.error(message, key.span, _WRITE)
+        file.error(message, key.span, _WRITE)
 
 
-def _generating(
-    sections: Sections, kind: str, node: DocumentNode, new: Iterable[str]
-) -> Expression:
+def _generating(file: FileReader, kind: str, node: DocumentNode, new: Iterable[str]) -> Expression:
     """F, in the variables of its kind."""
-    expression = sections.expression(node, kind, FUNCTION)
+    expression = file.expression(node, kind, FUNCTION)
     new = set(new)
-    old = set(sections.scope.of_kind("coordinate")) - new
+    old = set(file.scope.of_kind("coordinate")) - new
     forbidden = {f"p_{n}" for n in old} if kind in ("F1", "F2") else set(old)
     forbidden |= {f"p_{n}" for n in new} if kind in ("F1", "F3") else new
     for part in walk(expression):
         if isinstance(part, Name) and part.name in forbidden:
             hint = f"{kind} is a function of {_KINDS[kind]}"
-            sections.error(f"'{part.name}' cannot stand in {kind}", part.span, hint)
+            file.error(f"'{part.name}' cannot stand in {kind}", part.span, hint)
     return expression

@@ -19,6 +19,7 @@ from lagcli.reader.dynamics import (
     read_points,
 )
 from lagcli.reader.expectations import ExpectReader
+from lagcli.reader.file_reader import FileReader
 from lagcli.reader.habits import colon_advice
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, kind
@@ -33,7 +34,6 @@ from lagcli.reader.questions import read_find, read_initial, read_simulation
 from lagcli.reader.restrictions import declare_constraints, read_constraints, read_symmetries
 from lagcli.reader.scenery import read_scenery
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
-from lagcli.reader.sections import Sections
 from lagcli.reader.text import Mistake, SourceText, decode
 from lagcli.reader.undeclared import one_for_undeclared
 from lagcli.reader.value_checks import check_values, slips
@@ -93,12 +93,12 @@ def read_problem(source_name: str, data: bytes) -> ProblemReading:
         root, diagnostics = compose(SourceText.of(source))
     except Mistake as error:
         return ProblemReading(source, None, error.diagnostics)
-    sections = Sections(diagnostics=diagnostics)
-    problem = _read(sections, source, root)
-    if problem is not None and not sections.diagnostics:
-        sections.diagnostics += _dimension_mistakes(problem) or slips(problem)
+    file = FileReader(diagnostics=diagnostics)
+    problem = _read(file, source, root)
+    if problem is not None and not file.diagnostics:
+        file.diagnostics += _dimension_mistakes(problem) or slips(problem)
     found = one_for_undeclared(
-        sorted(sections.diagnostics, key=lambda each: each.span), together=not _declares(root)
+        sorted(file.diagnostics, key=lambda each: each.span), together=not _declares(root)
     )
     has_errors = any(diagnostic.is_error for diagnostic in found)
     return ProblemReading(source, None if has_errors else problem, found)
@@ -109,58 +109,58 @@ def _declares(root: DocumentNode) -> bool:
     return isinstance(root, Mapping) and any(key.label == "parameters" for key, _ in root.entries)
 
 
-def _read(sections: Sections, source: Source, root: DocumentNode) -> Problem | None:
+def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | None:
     """Declare every name, then read every formula."""
     span = Span(1, 1, 1, 1)
     if kind(root) == "nothing" or (isinstance(root, Mapping) and not root.entries):
-        sections.error("the problem is empty", span, "write coordinates: [x]")
+        file.error("the problem is empty", span, "write coordinates: [x]")
         return None
     if not isinstance(root, Mapping):
         line = root.text.source.text.lstrip().split("\n")[0] if isinstance(root, Scalar) else ""
         message = f"a problem must be a map of keys, not {kind(root)}"
         is_text = isinstance(root, Scalar)
         hint = colon_advice(line) if is_text else "leave out the '-' before each key"
-        sections.error(message, span, hint)
+        file.error(message, span, hint)
         return None
     inner = [value for _, value in root.entries]
     if len(inner) == 1 and isinstance(inner[0], Mapping) and _is_problem(inner[0]):
         key = root.entries[0][0]
         message = f"the problem stands under '{key.label}'"
-        sections.error(message, key.span, "its keys begin the lines; the name is title: …")
+        file.error(message, key.span, "its keys begin the lines; the name is title: …")
         return None
-    given = sections.attributes(root, "the problem", KEYS)
+    given = file.attributes(root, "the problem", KEYS)
 
     def section(key: str) -> DocumentNode:
         """The node at a key, or a map without entries."""
         return given[key][1] if key in given else Mapping(root.text, 0, 0, [])
 
     def formula(key: str, role: Role = STATE) -> Expression | None:
-        return sections.expression(given[key][1], key, role) if key in given else None
+        return file.expression(given[key][1], key, role) if key in given else None
 
     def text(key: str) -> str | None:
-        scalar = sections.scalar(given[key][1], f"'{key}'") if key in given else None
+        scalar = file.scalar(given[key][1], f"'{key}'") if key in given else None
         return scalar.value.strip() if scalar else None
 
-    coordinates = read_coordinates(sections, section("coordinates"))
-    parameters = declare_parameters(sections, section("parameters"))
-    functions = read_functions(sections, section("functions"))
-    definitions = declare_definitions(sections, section("definitions"))
-    constraints = declare_constraints(sections, section("constraints"))
+    coordinates = read_coordinates(file, section("coordinates"))
+    parameters = declare_parameters(file, section("parameters"))
+    functions = read_functions(file, section("functions"))
+    definitions = declare_definitions(file, section("definitions"))
+    constraints = declare_constraints(file, section("constraints"))
     names = {one.key.label for one in constraints}
-    contacts = declare_contacts(sections, section("contacts"), names)
-    check_momenta(sections)
-    check_energies(sections, {key: name for key, (name, _) in given.items()})
+    contacts = declare_contacts(file, section("contacts"), names)
+    check_momenta(file)
+    check_energies(file, {key: name for key, (name, _) in given.items()})
 
-    parameters_read = read_parameters(sections, parameters)
-    definitions_read = read_definitions(sections, definitions)
-    constraints_read = read_constraints(sections, constraints)
-    symmetries = read_symmetries(sections, section("symmetries"))
-    questions = read_find(sections, section("find"))
-    contacts_read = read_contacts(sections, contacts)
-    points = read_points(sections, section("points"))
-    observables = read_observables(sections, section("observables"))
-    brackets = read_brackets(sections, section("brackets"), symmetries)
-    transformations = read_transformations(sections, section("canonical_transformations"))
+    parameters_read = read_parameters(file, parameters)
+    definitions_read = read_definitions(file, definitions)
+    constraints_read = read_constraints(file, constraints)
+    symmetries = read_symmetries(file, section("symmetries"))
+    questions = read_find(file, section("find"))
+    contacts_read = read_contacts(file, contacts)
+    points = read_points(file, section("points"))
+    observables = read_observables(file, section("observables"))
+    brackets = read_brackets(file, section("brackets"), symmetries)
+    transformations = read_transformations(file, section("canonical_transformations"))
     problem = Problem(
         source=source,
         title=text("title") or _stem(source.name),
@@ -175,7 +175,7 @@ def _read(sections: Sections, source: Source, root: DocumentNode) -> Problem | N
         potential=formula("V"),
         lagrangian=formula("L"),
         hamiltonian=formula("H", PHASE_SPACE),
-        forces=read_forces(sections, section("forces")),
+        forces=read_forces(file, section("forces")),
         dissipation=formula("dissipation"),
         constraints=constraints_read,
         contacts=contacts_read,
@@ -183,16 +183,16 @@ def _read(sections: Sections, source: Source, root: DocumentNode) -> Problem | N
         observables=observables,
         brackets=brackets,
         canonical_transformations=transformations,
-        initial=read_initial(sections, section("initial")),
+        initial=read_initial(file, section("initial")),
         find=questions,
-        simulation=read_simulation(sections, section("simulation")),
-        picture=read_scenery(sections, section("picture"), points),
+        simulation=read_simulation(file, section("simulation")),
+        picture=read_scenery(file, section("picture"), points),
     )
-    problem = replace(problem, expect=ExpectReader(sections, problem).read(section("expect")))
+    problem = replace(problem, expect=ExpectReader(file, problem).read(section("expect")))
     if len(given) == len(root.entries):  # else the energy may be there under another key
-        check_masses(sections, problem, section("points").span)
-    if not sections.diagnostics:
-        check_values(sections, problem)
+        check_masses(file, problem, section("points").span)
+    if not file.diagnostics:
+        check_values(file, problem)
     return problem
 
 

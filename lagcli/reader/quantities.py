@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from lagcli.diagnostics import Span
-    from lagcli.reader.sections import Sections
+    from lagcli.reader.file_reader import FileReader
 
 
 class _Said(TypedDict, total=False):
@@ -34,27 +34,27 @@ _PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 
 
-def read_coordinates(sections: Sections, node: DocumentNode) -> tuple[Coordinate, ...]:
+def read_coordinates(file: FileReader, node: DocumentNode) -> tuple[Coordinate, ...]:
     """The generalized coordinates, in order; each is declared in the scope."""
     coordinates = []
-    for key, value in _declared(sections, node, "coordinates", "coordinate"):
-        attributes = _attributes(sections, value, key, "coordinate", _COORDINATE_ATTRIBUTES)
-        coordinates.append(Coordinate(name=key.label, span=key.span, **_said(sections, attributes)))
+    for key, value in _declared(file, node, "coordinates", "coordinate"):
+        attributes = _attributes(file, value, key, "coordinate", _COORDINATE_ATTRIBUTES)
+        coordinates.append(Coordinate(name=key.label, span=key.span, **_said(file, attributes)))
     if isinstance(node, Mapping | Sequence) and not size(node):
-        sections.error("the problem has no coordinates", node.span, "write coordinates: [x]")
-        sections.scope.refused.append("")
+        file.error("the problem has no coordinates", node.span, "write coordinates: [x]")
+        file.scope.refused.append("")
     return tuple(coordinates)
 
 
 def declare_parameters(
-    sections: Sections, node: DocumentNode
+    file: FileReader, node: DocumentNode
 ) -> list[tuple[Scalar, DocumentNode | None]]:
     """Enter the parameters into the scope, before any of their values is read."""
-    return list(_declared(sections, node, "parameters", "parameter"))
+    return list(_declared(file, node, "parameters", "parameter"))
 
 
 def read_parameters(
-    sections: Sections, declared: list[tuple[Scalar, DocumentNode | None]]
+    file: FileReader, declared: list[tuple[Scalar, DocumentNode | None]]
 ) -> tuple[Parameter, ...]:
     """The parameters with their values, which may use each other without a cycle."""
     parameters = []
@@ -63,81 +63,81 @@ def read_parameters(
         if isinstance(node, Scalar) and not node.is_empty:
             attributes = {"value": node}
         else:
-            attributes = _attributes(sections, node, key, "parameter", _PARAMETER_ATTRIBUTES)
+            attributes = _attributes(file, node, key, "parameter", _PARAMETER_ATTRIBUTES)
         value = None
         if sign := _sign(attributes.get("value")):
             hint = f"write {{assume: {sign}}}"
-            sections.error(f"an assumption stands under 'assume' of '{key.label}'", key.span, hint)
+            file.error(f"an assumption stands under 'assume' of '{key.label}'", key.span, hint)
         elif "value" in attributes:
             what = f"the value of '{key.label}'"
-            value = sections.expression(attributes["value"], what, VALUES)
-        integer = "integer" in attributes and sections.yes_or_no(attributes["integer"], "integer")
-        said = _said(sections, attributes)
+            value = file.expression(attributes["value"], what, VALUES)
+        integer = "integer" in attributes and file.yes_or_no(attributes["integer"], "integer")
+        said = _said(file, attributes)
         parameters.append(
             Parameter(name=key.label, span=key.span, value=value, integer=bool(integer), **said)
         )
-    _check_cycles(sections, parameters)
+    _check_cycles(file, parameters)
     return tuple(parameters)
 
 
-def read_functions(sections: Sections, node: DocumentNode) -> dict[str, tuple[str, ...]]:
+def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str, ...]]:
     """The functions left unspecified; the names of their arguments only document."""
     functions = {}
     if not isinstance(node, Mapping):
-        sections.scope.refused.append("")
-    for key, value in sections.entries(node, "functions", "write U: [r]"):
-        if not sections.declare(key.label, "function", key.span):
+        file.scope.refused.append("")
+    for key, value in file.entries(node, "functions", "write U: [r]"):
+        if not file.declare(key.label, "function", key.span):
             continue
         what = f"the arguments of '{key.label}'"
         if isinstance(value, Scalar) and not value.is_empty:
             hint = f"write [{value.value}]"
             if not re.fullmatch(r"[\w\s,]+", value.value):
                 hint = f"a formula stands under definitions: {key.label}: {value.value}"
-            sections.error(f"{what} must be a list", value.span, hint)
-            sections.scope.arity[key.label] = 1
+            file.error(f"{what} must be a list", value.span, hint)
+            file.scope.arity[key.label] = 1
             continue
-        arguments = [sections.scalar(item, f"an argument of '{key.label}'")
-                     for item in sections.items(value, what)]  # fmt: skip
+        arguments = [file.scalar(item, f"an argument of '{key.label}'")
+                     for item in file.items(value, what)]  # fmt: skip
         for argument in arguments:
             wrong = argument and name_mistake(argument.label)
             if argument and wrong and argument.label != "t":
-                sections.error(wrong[0], argument.span, wrong[1])
+                file.error(wrong[0], argument.span, wrong[1])
         if not arguments and isinstance(value, Sequence):
-            sections.error(f"'{key.label}' has no argument", value.span, "declare a parameter")
+            file.error(f"'{key.label}' has no argument", value.span, "declare a parameter")
         functions[key.label] = tuple(argument.label for argument in arguments if argument)
-        sections.scope.arity[key.label] = len(arguments)
+        file.scope.arity[key.label] = len(arguments)
     return functions
 
 
 def _declared(
-    sections: Sections, node: DocumentNode, section: str, kind_: Kind
+    file: FileReader, node: DocumentNode, section: str, kind_: Kind
 ) -> Iterator[tuple[Scalar, DocumentNode | None]]:
     """The names of a list or of a map's keys, as far as they could be declared."""
     entries: list[tuple[Scalar, DocumentNode | None]]
     if given := _pairs(node):
-        sections.error(f"{section} with values are a map", node.span, f"write {{{given}}}")
-        sections.scope.refused.append("")
+        file.error(f"{section} with values are a map", node.span, f"write {{{given}}}")
+        file.scope.refused.append("")
         return
     if isinstance(node, Mapping):
         entries = list(node.entries)
     elif isinstance(node, Sequence):
-        names = [sections.scalar(item, "a name") for item in node.items]
+        names = [file.scalar(item, "a name") for item in node.items]
         entries = [(name, None) for name in names if name is not None]
-        sections.scope.refused += [""] * (len(names) - len(entries))
+        file.scope.refused += [""] * (len(names) - len(entries))
     elif isinstance(node, Scalar) and not node.is_empty:
-        sections.error(f"{section} must be a list or a map", node.span, _list_advice(node.value))
-        sections.scope.refused += ["", *re.findall(r"[^\W\d]\w*", node.value)]
+        file.error(f"{section} must be a list or a map", node.span, _list_advice(node.value))
+        file.scope.refused += ["", *re.findall(r"[^\W\d]\w*", node.value)]
         return
     else:
         hint = "such as [x, y]" if section == "coordinates" else "such as [m, g]"
-        sections.error(f"{section} must be a list or a map, not {kind(node)}", node.span, hint)
-        sections.scope.refused.append("")  # whatever was to be declared
+        file.error(f"{section} must be a list or a map, not {kind(node)}", node.span, hint)
+        file.scope.refused.append("")  # whatever was to be declared
         return
     for key, value in entries:
         if is_decimal_part(key, value):
             message = f"'{key.label}' is not a name"
-            sections.error(message, key.span, "a decimal point is written '.'")
-        elif sections.declare(key.label, kind_, key.span):
+            file.error(message, key.span, "a decimal point is written '.'")
+        elif file.declare(key.label, kind_, key.span):
             yield key, value
 
 
@@ -181,36 +181,36 @@ def _pairs(node: DocumentNode) -> str:
 
 
 def _attributes(
-    sections: Sections, node: DocumentNode | None, key: Scalar, what: str, known: tuple[str, ...]
+    file: FileReader, node: DocumentNode | None, key: Scalar, what: str, known: tuple[str, ...]
 ) -> dict[str, DocumentNode]:
     if node is None or node.is_empty:
         return {}
-    found = sections.attributes(node, f"the {what} '{key.label}'", known)
+    found = file.attributes(node, f"the {what} '{key.label}'", known)
     return {name: value for name, (_, value) in found.items()}
 
 
-def _said(sections: Sections, attributes: dict[str, DocumentNode]) -> _Said:
+def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
     """The attributes that coordinates and parameters share."""
     said: _Said = {}
-    if "unit" in attributes and (text := sections.scalar(attributes["unit"], "'unit'")):
+    if "unit" in attributes and (text := file.scalar(attributes["unit"], "'unit'")):
         said["unit"], said["unit_span"] = text.value, text.span
-        _check_unit(sections, text)
-    if "symbol" in attributes and (text := sections.scalar(attributes["symbol"], "'symbol'")):
+        _check_unit(file, text)
+    if "symbol" in attributes and (text := file.scalar(attributes["symbol"], "'symbol'")):
         said["symbol"] = text.value
-        _check_symbol(sections, text)
+        _check_symbol(file, text)
     if "description" in attributes:
-        text = sections.scalar(attributes["description"], "'description'")
+        text = file.scalar(attributes["description"], "'description'")
         if text is not None:
             said["description"] = text.value
     if "assume" in attributes:
-        text = sections.scalar(attributes["assume"], "'assume'")
+        text = file.scalar(attributes["assume"], "'assume'")
         if text is not None and text.value in _ASSUMPTIONS:
             said["assume"] = cast("Assumption", text.value)
         elif text is not None:
             hint = did_you_mean(text.value, _ASSUMPTIONS) or f"known are {', '.join(_ASSUMPTIONS)}"
             sign = _sign(text)
             hint = f"write {sign}" if sign else hint.replace("known are", "write one of")
-            sections.error(f"unknown assumption '{text.value}'", text.span, hint)
+            file.error(f"unknown assumption '{text.value}'", text.span, hint)
     return said
 
 
@@ -224,31 +224,31 @@ def _sign(node: DocumentNode | None) -> str:
     return SIGNS.get(found[1], "") if found else ""
 
 
-def _check_unit(sections: Sections, text: Scalar) -> None:
+def _check_unit(file: FileReader, text: Scalar) -> None:
     from lagcli.units import UnitMistake, read_unit
 
     try:
         read_unit(text.value)
     except UnitMistake as wrong:
-        sections.error(wrong.message, text.excerpt().span(wrong.start, wrong.end), wrong.hint)
+        file.error(wrong.message, text.excerpt().span(wrong.start, wrong.end), wrong.hint)
 
 
-def _check_symbol(sections: Sections, text: Scalar) -> None:
+def _check_symbol(file: FileReader, text: Scalar) -> None:
     from lagcli.reader.latex_symbol import symbol_mistake
 
     wrong = symbol_mistake(text.value)
     if wrong:
         escaped = text.style == '"' and not text.value.isprintable()
         hint = "in double quotes a backslash is an escape: use single quotes" if escaped else ""
-        sections.error(f"a symbol must be simple LaTeX: {wrong}", text.span, hint)
+        file.error(f"a symbol must be simple LaTeX: {wrong}", text.span, hint)
 
 
-def _check_cycles(sections: Sections, parameters: list[Parameter]) -> None:
+def _check_cycles(file: FileReader, parameters: list[Parameter]) -> None:
     """A value must not need itself, directly or through others."""
     spans = {one.name: one.value.span for one in parameters if one.value is not None}
     found = value_cycle({one.name: one.value for one in parameters if one.value is not None})
     if found is not None:
-        sections.error(found[1], spans[found[0]])
+        file.error(found[1], spans[found[0]])
 
 
 def value_cycle(values: dict[str, Expression]) -> tuple[str, str] | None:

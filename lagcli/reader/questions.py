@@ -24,8 +24,8 @@ from lagcli.reader.scope import NUMBERS, POSITION, QUESTION, VALUES, Role
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
+    from lagcli.reader.file_reader import FileReader
     from lagcli.reader.nodes import DocumentNode
-    from lagcli.reader.sections import Sections
 
 _QUESTION_ATTRIBUTES = ("where", "for", "value", "in_terms_of", "always", "reaches")
 _PARTNERS = {
@@ -47,29 +47,29 @@ _UNKNOWN = Role(
 _VARIABLE = Role(order=1, momenta=True, why="velocities are removed, accelerations never needed")
 
 
-def read_initial(sections: Sections, node: DocumentNode) -> dict[Name, Expression]:
+def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]:
     """The state at t = 0, by coordinate and by velocity."""
     initial: dict[Name, Expression] = {}
-    coordinates = list(sections.scope.of_kind("coordinate"))
-    for key, value in sections.entries(node, "initial", sections.by_name(node)):
+    coordinates = list(file.scope.of_kind("coordinate"))
+    for key, value in file.entries(node, "initial", file.by_name(node)):
         what = f"the initial '{key.label}'"
         if is_decimal_part(key, value):
             message = f"'{key.label}' is not a coordinate"
-            sections.error(message, key.span, "a decimal point is written '.'")
+            file.error(message, key.span, "a decimal point is written '.'")
             continue
-        name = _state_name(sections, key, coordinates)
+        name = _state_name(file, key, coordinates)
         if name is None:
             continue
-        expression = sections.expression(value, what, VALUES)
+        expression = file.expression(value, what, VALUES)
         if name in initial:
-            sections.error(f"the initial '{name}' is given twice", key.span)
+            file.error(f"the initial '{name}' is given twice", key.span)
         initial[name] = expression
     return initial
 
 
-def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name | None:
+def _state_name(file: FileReader, key: Scalar, coordinates: list[str]) -> Name | None:
     letters = key.label.rstrip("'’′″")
-    if letters not in coordinates and sections.scope.refused:
+    if letters not in coordinates and file.scope.refused:
         return None
     if letters not in coordinates:
         hint = velocity_meant(letters, coordinates) or did_you_mean(letters, coordinates)
@@ -83,17 +83,17 @@ def _state_name(sections: Sections, key: Scalar, coordinates: list[str]) -> Name
             hint = "leave it out: a velocity that is not given is 0"
         if letters == "t":
             hint = "a motion begins at t = 0: leave it out"
-        sections.error(f"'{key.label}' in initial is not a coordinate", key.span, hint)
+        file.error(f"'{key.label}' in initial is not a coordinate", key.span, hint)
         return None
     primes = sum(2 if prime == "″" else 1 for prime in key.label[len(letters) :])
     if primes > 1:
         message = f"{key.label} in initial is an acceleration"
-        sections.error(message, key.span, "a state has coordinates x and velocities x'")
+        file.error(message, key.span, "a state has coordinates x and velocities x'")
         return None
     return Name(letters, primes)
 
 
-def read_find(sections: Sections, node: DocumentNode) -> tuple[Question, ...]:
+def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
     """The questions."""
     questions: list[Question] = []
     hint = (
@@ -102,107 +102,107 @@ def read_find(sections: Sections, node: DocumentNode) -> tuple[Question, ...]:
     )
     if isinstance(node, Scalar) and "=" not in node.value:
         hint = f"leave it out: equations of motion and charges are found; or {hint}"
-    for key, value in sections.entries(node, "find", hint):
+    for key, value in file.entries(node, "find", hint):
         what = f"the question '{key.label}'"
-        found = sections.attributes(value, what, _QUESTION_ATTRIBUTES)
+        found = file.attributes(value, what, _QUESTION_ATTRIBUTES)
         parts = {name: part for name, (_, part) in found.items()}
         if parts.keys() == {"where", "for"}:
-            questions += _where(sections, key, parts["where"], parts["for"])
+            questions += _where(file, key, parts["where"], parts["for"])
         elif parts.keys() == {"value", "in_terms_of"}:
-            questions.append(_rewrite(sections, key, parts["value"], parts["in_terms_of"]))
+            questions.append(_rewrite(file, key, parts["value"], parts["in_terms_of"]))
         elif parts.keys() == {"always", "for"}:
-            questions += _lasting(sections, key, parts["always"], parts["for"])
+            questions += _lasting(file, key, parts["always"], parts["for"])
         elif parts.keys() == {"reaches", "for"}:
-            questions += _reaching(sections, key, parts["reaches"], parts["for"])
+            questions += _reaching(file, key, parts["reaches"], parts["for"])
         elif "where" in parts and "value" in parts:
-            sections.error(f"{what} has both 'where' and 'value'", key.span, hint)
+            file.error(f"{what} has both 'where' and 'value'", key.span, hint)
         elif missing := _PARTNERS.get(next(iter(parts), "")):
-            sections.error(f"{what} has no '{missing}'", key.span, hint)
+            file.error(f"{what} has no '{missing}'", key.span, hint)
         elif isinstance(value, Mapping) and not value.entries:
-            sections.error(f"{what} is empty", key.span, hint)
+            file.error(f"{what} is empty", key.span, hint)
     return tuple(questions)
 
 
 def _where(
-    sections: Sections, key: Scalar, where: DocumentNode, unknown: DocumentNode
+    file: FileReader, key: Scalar, where: DocumentNode, unknown: DocumentNode
 ) -> list[Question]:
-    equation = sections.equation(where, f"the question '{key.label}'", QUESTION)
-    name = sections.name(unknown, "'for'", _UNKNOWN)
+    equation = file.equation(where, f"the question '{key.label}'", QUESTION)
+    name = file.name(unknown, "'for'", _UNKNOWN)
     if name is None:
         return []
-    if sections.scope.kinds.get(name.name) not in {"coordinate", "parameter"}:
-        sections.error(f"'{name}' is not a coordinate, a velocity or a parameter", name.span)
+    if file.scope.kinds.get(name.name) not in {"coordinate", "parameter"}:
+        file.error(f"'{name}' is not a coordinate, a velocity or a parameter", name.span)
     return [Where(name=key.label, equation=equation, unknown=name, span=key.span)]
 
 
 def _lasting(
-    sections: Sections, key: Scalar, condition: DocumentNode, unknown: DocumentNode
+    file: FileReader, key: Scalar, condition: DocumentNode, unknown: DocumentNode
 ) -> list[Question]:
-    inequality = sections.comparison(condition, f"the question '{key.label}'", QUESTION)
-    name = _parameter(sections, unknown)
+    inequality = file.comparison(condition, f"the question '{key.label}'", QUESTION)
+    name = _parameter(file, unknown)
     if name is None or inequality is None:
         return []
     return [Lasting(name=key.label, condition=inequality, unknown=name, span=key.span)]
 
 
 def _reaching(
-    sections: Sections, key: Scalar, place: DocumentNode, unknown: DocumentNode
+    file: FileReader, key: Scalar, place: DocumentNode, unknown: DocumentNode
 ) -> list[Question]:
     what = f"the question '{key.label}'"
-    before = len(sections.diagnostics)
-    equation = sections.equation(place, what, POSITION)
-    name = _parameter(sections, unknown)
-    if name is None or len(sections.diagnostics) > before:
+    before = len(file.diagnostics)
+    equation = file.equation(place, what, POSITION)
+    name = _parameter(file, unknown)
+    if name is None or len(file.diagnostics) > before:
         return []
     left = equation.left
-    if not isinstance(left, Name) or sections.scope.kinds.get(left.name) != "coordinate":
-        sections.error(f"'reaches' is about a coordinate alone, {_REACHES}", place.span)
+    if not isinstance(left, Name) or file.scope.kinds.get(left.name) != "coordinate":
+        file.error(f"'reaches' is about a coordinate alone, {_REACHES}", place.span)
         return []
-    if derivative_order(equation.right, sections.scope) >= 0:
-        sections.error(f"the place that is reached has no coordinate, {_REACHES}", place.span)
+    if derivative_order(equation.right, file.scope) >= 0:
+        file.error(f"the place that is reached has no coordinate, {_REACHES}", place.span)
         return []
     return [
         Reaching(name=key.label, coordinate=left, value=equation.right, unknown=name, span=key.span)
     ]
 
 
-def _parameter(sections: Sections, node: DocumentNode) -> Name | None:
-    name = sections.name(node, "'for'", _UNKNOWN)
-    if name is not None and sections.scope.kinds.get(name.name) != "parameter":
+def _parameter(file: FileReader, node: DocumentNode) -> Name | None:
+    name = file.name(node, "'for'", _UNKNOWN)
+    if name is not None and file.scope.kinds.get(name.name) != "parameter":
         message = f"'{name}' is not a parameter"
-        sections.error(message, node.span, "a condition for all times is solved for a parameter")
+        file.error(message, node.span, "a condition for all times is solved for a parameter")
         return None
     return name
 
 
-def _rewrite(sections: Sections, key: Scalar, value: DocumentNode, terms: DocumentNode) -> Question:
-    expression = sections.expression(value, f"the question '{key.label}'", QUESTION)
-    names = [sections.name(item, "an item of 'in_terms_of'", _VARIABLE)
-             for item in sections.items(terms, "'in_terms_of'", "write [x]")]  # fmt: skip
+def _rewrite(file: FileReader, key: Scalar, value: DocumentNode, terms: DocumentNode) -> Question:
+    expression = file.expression(value, f"the question '{key.label}'", QUESTION)
+    names = [file.name(item, "an item of 'in_terms_of'", _VARIABLE)
+             for item in file.items(terms, "'in_terms_of'", "write [x]")]  # fmt: skip
     known = tuple(name for name in names if name is not None)
     return Rewrite(name=key.label, value=expression, in_terms_of=known, span=key.span)
 
 
-def read_simulation(sections: Sections, node: DocumentNode) -> SimulationDefaults:
+def read_simulation(file: FileReader, node: DocumentNode) -> SimulationDefaults:
     """The defaults of the numerical run."""
-    found = sections.attributes(node, "simulation", _SIMULATION_ATTRIBUTES)
+    found = file.attributes(node, "simulation", _SIMULATION_ATTRIBUTES)
     until = accuracy = method = None
     if "until" in found:
-        until = _number(sections, found["until"][1], "'until'")
+        until = _number(file, found["until"][1], "'until'")
     if "accuracy" in found:
-        accuracy = _number(sections, found["accuracy"][1], "'accuracy'")
+        accuracy = _number(file, found["accuracy"][1], "'accuracy'")
     if "method" in found:
-        text = sections.scalar(found["method"][1], "'method'")
+        text = file.scalar(found["method"][1], "'method'")
         method = text.value.strip() if text else None
         if method is not None and method not in METHODS:
             hint = did_you_mean(method, METHODS) or f"there are {', '.join(METHODS)}"
-            sections.error(f"unknown method '{method}'", found["method"][1].span, hint)
+            file.error(f"unknown method '{method}'", found["method"][1].span, hint)
     return SimulationDefaults(until=until, accuracy=accuracy, method=method)
 
 
-def _number(sections: Sections, node: DocumentNode, what: str) -> Expression:
+def _number(file: FileReader, node: DocumentNode, what: str) -> Expression:
     if what == "'until'" and isinstance(node, Scalar) and (end := range_end(node.value)):
         hint = f"a motion begins at t = 0: write {end}"
-        sections.error("'until' is one time, no range", node.span, hint)
+        file.error("'until' is one time, no range", node.span, hint)
         return ZERO
-    return sections.expression(node, what, NUMBERS)
+    return file.expression(node, what, NUMBERS)

@@ -15,7 +15,7 @@ from lagcli.reader.suggest import did_you_mean
 if TYPE_CHECKING:
     from lagcli.expression import Expression
     from lagcli.problem_data import ForceKind, Inequality, OnLoss
-    from lagcli.reader.sections import Sections
+    from lagcli.reader.file_reader import FileReader
 
 _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION,
                           "acts_as")  # fmt: skip
@@ -27,16 +27,16 @@ _FORCES: dict[str, ForceKind] = {
 }
 
 
-def declare_constraints(sections: Sections, node: DocumentNode) -> list[Declared]:
+def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     """Enter the multipliers into the scope."""
-    entries = sections.entries(
+    entries = file.entries(
         node, "constraints", "write name: equation, as in rolling: x' = R*theta'"
     )
-    given = (declared(sections, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
+    given = (declared(file, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
     return [one for one in given if one is not None]
 
 
-def read_constraints(sections: Sections, given: list[Declared]) -> tuple[Constraint, ...]:
+def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constraint, ...]:
     """The constraints f = left - right = 0."""
     constraints = []
     for one in given:
@@ -44,19 +44,17 @@ def read_constraints(sections: Sections, given: list[Declared]) -> tuple[Constra
         if node is None:
             continue
         name = one.key.label
-        mistakes = len(sections.diagnostics)
-        equation = sections.equation(node, f"the constraint '{name}'", STATE)
-        if len(sections.diagnostics) == mistakes:
+        mistakes = len(file.diagnostics)
+        equation = file.equation(node, f"the constraint '{name}'", STATE)
+        if len(file.diagnostics) == mistakes:
             sides = (equation.left, equation.right)
-            if max(derivative_order(side, sections.scope) for side in sides) < 0:
+            if max(derivative_order(side, file.scope) for side in sides) < 0:
                 message = f"the constraint '{name}' contains no coordinate"
-                sections.error(message, node.span)
+                file.error(message, node.span)
         holds_while = None
         if "holds_while" in one.attributes:
-            holds_while = sections.comparison(
-                one.attributes["holds_while"], "'holds_while'", QUESTION
-            )
-        on_loss = _on_loss(sections, one)
+            holds_while = file.comparison(one.attributes["holds_while"], "'holds_while'", QUESTION)
+        on_loss = _on_loss(file, one)
         constraints.append(
             Constraint(
                 name=name,
@@ -64,23 +62,23 @@ def read_constraints(sections: Sections, given: list[Declared]) -> tuple[Constra
                 multiplier=one.multiplier,
                 holds_while=holds_while,
                 on_loss=on_loss,
-                restitution=_restitution(sections, one, holds_while, on_loss),
-                acts_as=_acts_as(sections, one),
+                restitution=_restitution(file, one, holds_while, on_loss),
+                acts_as=_acts_as(file, one),
                 span=one.key.span,
             )
         )
     return tuple(constraints)
 
 
-def _on_loss(sections: Sections, one: Declared) -> OnLoss:
+def _on_loss(file: FileReader, one: Declared) -> OnLoss:
     """What a run does where the contact is lost."""
     if "on_loss" not in one.attributes:
         return "stop"
-    text = sections.scalar(one.attributes["on_loss"], "'on_loss'")
+    text = file.scalar(one.attributes["on_loss"], "'on_loss'")
     if text is None:
         return "stop"
     if "holds_while" not in one.attributes:
-        sections.error("'on_loss' needs 'holds_while'", text.span, "write holds_while: N >= 0")
+        file.error("'on_loss' needs 'holds_while'", text.span, "write holds_while: N >= 0")
     match text.value.strip():
         case "stop":
             return "stop"
@@ -88,26 +86,26 @@ def _on_loss(sections: Sections, one: Declared) -> OnLoss:
             return "release"
         case other:
             hint = did_you_mean(other, _ON_LOSS) or "write stop or release"
-            sections.error(f"'{other}' is nothing that a run does", text.span, hint)
+            file.error(f"'{other}' is nothing that a run does", text.span, hint)
             return "stop"
 
 
-def _acts_as(sections: Sections, one: Declared) -> ForceKind | None:
+def _acts_as(file: FileReader, one: Declared) -> ForceKind | None:
     """What the force of the constraint is called."""
     node = one.attributes.get("acts_as")
-    text = None if node is None else sections.scalar(node, "'acts_as'")
+    text = None if node is None else file.scalar(node, "'acts_as'")
     if text is None:
         return None
     word = text.value.strip()
     if word not in _FORCES:
         hint = did_you_mean(word, _FORCES) or "write normal, friction or tension"
-        sections.error(f"'{word}' is no kind of force", text.span, hint)
+        file.error(f"'{word}' is no kind of force", text.span, hint)
         return None
     return _FORCES[word]
 
 
 def _restitution(
-    sections: Sections, one: Declared, holds_while: Inequality | None, on_loss: OnLoss
+    file: FileReader, one: Declared, holds_while: Inequality | None, on_loss: OnLoss
 ) -> Expression | None:
     """Of the impact that closes a contact again which has been released."""
     node = one.attributes.get(RESTITUTION)
@@ -115,43 +113,43 @@ def _restitution(
         return None
     if on_loss != "release":
         message = "'restitution' is of a contact that is released and closes again"
-        sections.error(message, node.span, "write on_loss: release")
+        file.error(message, node.span, "write on_loss: release")
     elif holds_while is not None and pushing_sign(one.multiplier, holds_while) is None:
         message = f"which side of '{one.key.label}' is open does not follow from 'holds_while'"
         hint = f"write holds_while: {one.multiplier} >= 0, or <="
-        sections.error(message, node.span, hint)
-    return read_restitution(sections, node, f"the constraint '{one.key.label}'")
+        file.error(message, node.span, hint)
+    return read_restitution(file, node, f"the constraint '{one.key.label}'")
 
 
-def read_symmetries(sections: Sections, node: DocumentNode) -> tuple[Symmetry, ...]:
+def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...]:
     """The candidate symmetries."""
-    coordinates = list(sections.scope.of_kind("coordinate"))
+    coordinates = list(file.scope.of_kind("coordinate"))
     symmetries = []
     change_of = "{{{}: 1}}".format
     hint = f"write shift: {change_of(next(iter(coordinates), 'x'))}"
-    for key, value in sections.entries(node, "symmetries", hint):
+    for key, value in file.entries(node, "symmetries", hint):
         what = f"the symmetry '{key.label}'"
         changes = {}
         if isinstance(value, Mapping) and not value.entries:
-            sections.error(f"{what} changes nothing", value.span, hint)
+            file.error(f"{what} changes nothing", value.span, hint)
         words = re.findall(r"\w+", value.value) if isinstance(value, Scalar) else []
         changed = [name for name in words if name in {*coordinates, "t"}]
         here = f"write {key.label}: {change_of(changed[0])}" if changed else hint
-        for name, change in sections.entries(value, what, here):
+        for name, change in file.entries(value, what, here):
             if name.label in coordinates or name.label in {"t", "gauge"}:
-                changes[name.label] = sections.expression(change, what, STATE)
+                changes[name.label] = file.expression(change, what, STATE)
                 continue
             message = f"'{name.label}' in {what} is not a coordinate"
             if isinstance(change, Mapping):
                 written = change.text.source.text[change.start : change.end].strip()
-                sections.error(message, name.span, f"write {key.label}: {written}")
+                file.error(message, name.span, f"write {key.label}: {written}")
                 continue
-            sections.expression(change, what, STATE)
+            file.expression(change, what, STATE)
             hint = did_you_mean(name.label, [*coordinates, "t", "gauge"])
-            sections.error(message, name.span, hint or "a key is a coordinate, t or gauge")
+            file.error(message, name.span, hint or "a key is a coordinate, t or gauge")
         time, gauge = changes.pop("t", None), changes.pop("gauge", None)
         if gauge is not None and time is None and not changes:
-            sections.error(f"{what} changes neither a coordinate nor t", key.span)
+            file.error(f"{what} changes neither a coordinate nor t", key.span)
         symmetries.append(
             Symmetry(name=key.label, changes=changes, time=time, gauge=gauge, span=key.span)
         )

@@ -4,71 +4,69 @@ from __future__ import annotations
 
 from lagcli.expression import Expression
 from lagcli.problem_data import Point, Scenery
+from lagcli.reader.file_reader import FileReader
 from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.scope import POSITION
-from lagcli.reader.sections import Sections
 from lagcli.reader.suggest import did_you_mean
 
 #: What `picture` may hold.
 KEYS = ("places", "rods", "springs", "trails")
 
 
-def read_scenery(sections: Sections, node: DocumentNode, points: tuple[Point, ...]) -> Scenery:
+def read_scenery(file: FileReader, node: DocumentNode, points: tuple[Point, ...]) -> Scenery:
     """Places, what joins them to the points, and which points leave a trail."""
-    given = sections.attributes(node, "picture", KEYS)
+    given = file.attributes(node, "picture", KEYS)
     places: dict[str, tuple[Expression, ...]] = {}
     if "places" in given:
-        places = _places(sections, given["places"][1], points)
+        places = _places(file, given["places"][1], points)
     names = [*(point.name for point in points), *places]
 
     def pairs(key: str) -> tuple[tuple[str, str], ...]:
-        return _pairs(sections, given[key][1], key, names) if key in given else ()
+        return _pairs(file, given[key][1], key, names) if key in given else ()
 
     trails = None
     if "trails" in given:
-        listed = sections.items(given["trails"][1], "trails", "write [bob]")
+        listed = file.items(given["trails"][1], "trails", "write [bob]")
         known = [point.name for point in points]
-        trails = tuple(n for item in listed if (n := _name(sections, item, "trails", known)))
+        trails = tuple(n for item in listed if (n := _name(file, item, "trails", known)))
     return Scenery(places=places, rods=pairs("rods"), springs=pairs("springs"), trails=trails)
 
 
 def _places(
-    sections: Sections, node: DocumentNode, points: tuple[Point, ...]
+    file: FileReader, node: DocumentNode, points: tuple[Point, ...]
 ) -> dict[str, tuple[Expression, ...]]:
     found = {}
     taken = {point.name for point in points}
     size = len(points[0].position) if points else None
-    for key, value in sections.entries(node, "places", "write O: [0, 0]"):
+    for key, value in file.entries(node, "places", "write O: [0, 0]"):
         what = f"the place '{key.label}'"
         if key.label in taken:
-            sections.error(f"{what} has the name of a point", key.span)
-        items = sections.items(value, what, "write [x, y]")
+            file.error(f"{what} has the name of a point", key.span)
+        items = file.items(value, what, "write [x, y]")
         if size is not None and items and len(items) != size:
-            sections.error(
-                f"{what} has {len(items)} components, the points have {size}", value.span
-            )
-        found[key.label] = tuple(sections.expression(item, what, POSITION) for item in items)
+            file.error(f"{what} has {len(items)} components, the points have {size}", value.span)
+        found[key.label] = tuple(file.expression(item, what, POSITION) for item in items)
     return found
 
 
 def _pairs(
-    sections: Sections, node: DocumentNode, key: str, names: list[str]
+    file: FileReader, node: DocumentNode, key: str, names: list[str]
 ) -> tuple[tuple[str, str], ...]:
     found = []
-    for item in sections.items(node, key, "write [[O, bob], [bob, ball]]"):
-        ends = sections.items(item, f"one of the {key}", "write two names: [O, bob]")
+    for item in file.items(node, key, "write [[O, bob], [bob, ball]]"):
+        ends = file.items(item, f"one of the {key}", "write two names: [O, bob]")
         if ends and len(ends) != 2:
-            sections.error(f"one of the {key} joins {len(ends)} points, it joins two", item.span)
+            file.error(f"one of the {key} joins {len(ends)} points, it joins two", item.span)
             continue
-        pair = [_name(sections, end, key, names) for end in ends]
+        pair = [_name(file, end, key, names) for end in ends]
         if len(pair) == 2 and pair[0] and pair[1]:
             found.append((pair[0], pair[1]))
     return tuple(found)
 
 
-def _name(sections: Sections, node: DocumentNode, what: str, names: list[str]) -> str:
+def _name(file: FileReader, node: DocumentNode, what: str, names: list[str]) -> str:
     """The name of a point or a place; empty where there is none of it."""
-    scalar = sections.scalar(node, f"a name in {what}")
+    scalar = file.scalar(node, f"a name in {what}")
     if scalar is None:
         return ""
     name = scalar.value.strip()
@@ -76,5 +74,5 @@ def _name(sections: Sections, node: DocumentNode, what: str, names: list[str]) -
         return name
     known = f"there are {', '.join(names)}" if names else "declare it under points or places"
     hint = did_you_mean(name, names) or known
-    sections.error(f"{what}: there is no point '{name}'", scalar.span, hint)
+    file.error(f"{what}: there is no point '{name}'", scalar.span, hint)
     return ""

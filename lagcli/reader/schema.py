@@ -5,7 +5,7 @@ of YAML, so an expression may be any of them.  What a schema cannot say (names t
 declared, formulas that are wrong) the reader says.
 
 `problem.schema.json` is the schema but for the names that the program knows: they are put into
-its empty lists here, and what `expect` may have follows from the sections.
+its empty lists here, and what `expect` may have follows from the file.
 """
 
 from __future__ import annotations

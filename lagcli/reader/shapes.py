@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 from lagcli.reader import schema_parts
 from lagcli.reader.dynamics import read_by_coordinate
+from lagcli.reader.file_reader import YES_OR_NO
 from lagcli.reader.nodes import DocumentNode, Scalar, Sequence
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, STABLE, TEXT, Schema, ref
 from lagcli.reader.scope import Role
-from lagcli.reader.sections import YES_OR_NO
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
 
@@ -57,7 +57,7 @@ def formula(what: str, role: Role = REDUCED) -> Shape:
     """One formula, which messages call `what`, with its key in the place of braces."""
 
     def read(reader: ExpectReader, node: DocumentNode, path: Path) -> Any:
-        return reader.sections.expression(node, what.format(path[-1]), role)
+        return reader.file.expression(node, what.format(path[-1]), role)
 
     return Shape(FORMULA, read)
 
@@ -72,7 +72,7 @@ def by_coordinate(what: str, role: Role = REDUCED) -> Shape:
     return Shape(
         FORMULAS,
         lambda reader, node, path: read_by_coordinate(
-            reader.sections, node, f"'{path[-1]}'", what, role
+            reader.file, node, f"'{path[-1]}'", what, role
         ),
     )
 
@@ -82,7 +82,7 @@ def by_name(item: Shape) -> Shape:
 
     def read(reader: ExpectReader, node: DocumentNode, path: Path) -> dict[str, Any]:
         reader.note(node, *path)
-        entries = reader.sections.entries(node, f"'{path[-1]}'")
+        entries = reader.file.entries(node, f"'{path[-1]}'")
         return {key.label: item.read(reader, value, (*path, key.label)) for key, value in entries}
 
     return Shape(schema_parts.map_of(item.schema), read)
@@ -102,9 +102,7 @@ def of_known(kind: str, known: Callable[[ExpectReader], Iterable[str]], item: Sh
 
 def equation(what: str, role: Role) -> Shape:
     """`left = right`, or an expression that is 0."""
-    return Shape(
-        ref("equation"), lambda reader, node, _: reader.sections.equation(node, what, role)
-    )
+    return Shape(ref("equation"), lambda reader, node, _: reader.file.equation(node, what, role))
 
 
 def list_of(item: Shape, hint: str = "") -> Shape:
@@ -112,7 +110,7 @@ def list_of(item: Shape, hint: str = "") -> Shape:
 
     def read(reader: ExpectReader, node: DocumentNode, path: Path) -> tuple[Any, ...]:
         found = []
-        for place, each in enumerate(reader.sections.items(node, f"'{path[-1]}'", hint)):
+        for place, each in enumerate(reader.file.items(node, f"'{path[-1]}'", hint)):
             reader.spans[(*path, str(place))] = each.span
             found.append(item.read(reader, each, (*path, str(place))))
         return tuple(found)
@@ -127,10 +125,10 @@ def record_of(
     required = needs or {}
 
     def read(reader: ExpectReader, node: DocumentNode, path: Path) -> Any:
-        entries = reader.sections.attributes(node, what.format(*path[-1:]), parts)
+        entries = reader.file.attributes(node, what.format(*path[-1:]), parts)
         for name, sentence in required.items():
             if name not in entries:
-                reader.sections.error(sentence, node.span)
+                reader.file.error(sentence, node.span)
         found = {}
         for name, (key, value) in entries.items():
             reader.spans[(*path, name)] = key.span
@@ -145,12 +143,12 @@ def one_of(words: tuple[str, ...]) -> Shape:
     """One of some words."""
 
     def read(reader: ExpectReader, node: DocumentNode, _: Path) -> str | None:
-        text = reader.sections.scalar(node, "this")
+        text = reader.file.scalar(node, "this")
         found = "" if text is None else " ".join(text.value.split())
         if text is None or found in words:
             return found or None
         hint = did_you_mean(found, words) or f"write {' or '.join(words)}"
-        reader.sections.error(f"'{found}' is not one of {', '.join(words)}", text.span, hint)
+        reader.file.error(f"'{found}' is not one of {', '.join(words)}", text.span, hint)
         return None
 
     return Shape({"enum": list(words)}, read)
@@ -160,29 +158,29 @@ def with_constants(shape: Shape) -> Shape:
     """The same, where the constants of the answers may stand, such as E."""
 
     def read(reader: ExpectReader, node: DocumentNode, path: Path) -> Any:
-        with reader.sections.scope.also(CONSTANT_NAMES, "parameter"):
+        with reader.file.scope.also(CONSTANT_NAMES, "parameter"):
             return shape.read(reader, node, path)
 
     return Shape(shape.schema, read)
 
 
 def _word(reader: ExpectReader, node: DocumentNode, path: Path) -> str | None:
-    text = reader.sections.scalar(node, f"'{path[-1]}'")
+    text = reader.file.scalar(node, f"'{path[-1]}'")
     return None if text is None else text.value.strip()
 
 
 def _stable(
     reader: ExpectReader, node: DocumentNode, _: Path
 ) -> bool | tuple[Inequality, ...] | None:
-    sections = reader.sections
+    file = reader.file
     if isinstance(node, Scalar) and node.value.strip() in YES_OR_NO:
         return YES_OR_NO[node.value.strip()]
     items = node.items if isinstance(node, Sequence) else [node]
     what = "a condition of stability"
-    read = [sections.comparison(item, what, REDUCED) for item in items]
+    read = [file.comparison(item, what, REDUCED) for item in items]
     for item, each in zip(items, read, strict=True):
         if each is not None and each.comparison not in (">", "<"):
-            sections.error(f"{what} has > or <", item.span)
+            file.error(f"{what} has > or <", item.span)
     return tuple(each for each in read if each is not None)
 
 
@@ -190,5 +188,5 @@ STABILITY = Shape(STABLE, _stable)
 WORD = Shape(TEXT, _word)
 COUNT = Shape(schema_parts.COUNT, lambda reader, node, path: reader.count(node, path[-1]))
 YES = Shape(
-    schema_parts.YES_OR_NO, lambda reader, node, path: reader.sections.yes_or_no(node, path[-1])
+    schema_parts.YES_OR_NO, lambda reader, node, path: reader.file.yes_or_no(node, path[-1])
 )

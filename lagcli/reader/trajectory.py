@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from lagcli.diagnostics import Span
     from lagcli.expression import Expression
-    from lagcli.reader.sections import Sections
+    from lagcli.reader.file_reader import FileReader
 
 _KEYS = ("until", "tolerance", "rigorous", "at", "events")
 _ENERGY = "energy"
@@ -31,7 +31,7 @@ class TrajectoryReader:
 
     Parameters
     ----------
-    sections
+    file
         The names and the mistakes.
     contacts
         What an event may be about.
@@ -43,25 +43,25 @@ class TrajectoryReader:
 
     def __init__(
         self,
-        sections: Sections,
+        file: FileReader,
         contacts: list[str],
         named: Mapping[str, Expression],
         spans: dict[tuple[str, ...], Span],
     ) -> None:
-        self.sections = sections
+        self.file = file
         self.contacts = contacts
         self.named = named
         self.spans = spans
 
     def read(self, node: DocumentNode) -> Trajectory:
         """The whole section; a column is an expression along the motion."""
-        with self.sections.scope.also([_ENERGY], "multiplier"):
+        with self.file.scope.also([_ENERGY], "multiplier"):
             return self._read(node)
 
     def _read(self, node: DocumentNode) -> Trajectory:
         parts: dict[str, DocumentNode] = {}
         formulas = []
-        for key, value in self.sections.entries(node, "'trajectory'", "write x: cos(t)"):
+        for key, value in self.file.entries(node, "'trajectory'", "write x: cos(t)"):
             self.spans["trajectory", key.label] = key.span
             if key.label in _KEYS:
                 parts[key.label] = value
@@ -78,40 +78,40 @@ class TrajectoryReader:
             until=self._number(parts, "until"),
             tolerance=self._number(parts, "tolerance"),
             rigorous="rigorous" in parts
-            and bool(self.sections.yes_or_no(parts["rigorous"], "rigorous")),
+            and bool(self.file.yes_or_no(parts["rigorous"], "rigorous")),
         )
 
     def _number(self, parts: dict[str, DocumentNode], key: str) -> Expression | None:
         if key not in parts:
             return None
-        return self.sections.expression(parts[key], f"'{key}'", CONSTANTS)
+        return self.file.expression(parts[key], f"'{key}'", CONSTANTS)
 
     def _known(self, key: Scalar, value: DocumentNode, role: Role) -> Known:
         what = f"the expected '{key.label}'"
         column = self.named.get(key.label)
         if column is None:
-            column = self.sections.expression(key, "a column", ALONG)
-        return Known(key.label, column, self.sections.expression(value, what, role))
+            column = self.file.expression(key, "a column", ALONG)
+        return Known(key.label, column, self.file.expression(value, what, role))
 
     def _rows(self, node: DocumentNode, section: str, words: tuple[str, ...]) -> list[KnownRow]:
         """Maps of columns, with words that say when."""
         rows = []
-        for place, item in enumerate(self.sections.items(node, f"'{section}'")):
+        for place, item in enumerate(self.file.items(node, f"'{section}'")):
             self.spans["trajectory", section, str(place)] = item.span
             found: dict[str, Scalar] = {}
             known: list[Known] = []
             time: Expression | None = None
-            for key, value in self.sections.entries(item, f"a row of '{section}'"):
+            for key, value in self.file.entries(item, f"a row of '{section}'"):
                 if key.label == "t":
-                    time = self.sections.expression(value, "the time", CONSTANTS)
+                    time = self.file.expression(value, "the time", CONSTANTS)
                 elif key.label in words:
-                    text = self.sections.scalar(value, f"'{key.label}'")
+                    text = self.file.scalar(value, f"'{key.label}'")
                     if text is not None:
                         found[key.label] = text
                 else:
                     known.append(self._known(key, value, CONSTANTS))
             if section == "at" and time is None and isinstance(item, Map):
-                self.sections.error("a row of 'at' has no time", item.span, "write {t: 1, x: …}")
+                self.file.error("a row of 'at' has no time", item.span, "write {t: 1, x: …}")
             rows.append(
                 KnownRow(
                     t=time,
@@ -131,5 +131,5 @@ class TrajectoryReader:
         word = " ".join(text.label.split())
         if word not in known:
             hint = did_you_mean(word, known) or f"known are {', '.join(known)}"
-            self.sections.error(f"there is no {what} '{word}'", text.span, hint)
+            self.file.error(f"there is no {what} '{word}'", text.span, hint)
         return word

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
     from lagcli.expression import Expression
     from lagcli.problem_data import Problem
-    from lagcli.reader.sections import Sections
+    from lagcli.reader.file_reader import FileReader
 
 
 _ODD = frozenset("sin tan sinh tanh asin atan asinh atanh sign".split())
@@ -111,10 +111,10 @@ def _names(formula: Expression) -> list[Name]:
     return [node for node in walk(formula) if isinstance(node, Name)]
 
 
-def check_values(sections: Sections, problem: Problem) -> None:
+def check_values(file: FileReader, problem: Problem) -> None:
     """Values that break an assumption, negative masses, restitution that is not in 0 to 1, runs."""
-    _check_run(sections, problem)
-    _check_dissipation(sections, problem)
+    _check_run(file, problem)
+    _check_dissipation(file, problem)
     known = _known(problem)
     for parameter in problem.parameters:
         value = known.get(parameter.name)
@@ -122,8 +122,8 @@ def check_values(sections: Sections, problem: Problem) -> None:
             continue
         mistake = parameter.mistake_of(value)
         if mistake is not None:
-            sections.error(mistake, parameter.value.span)
-    _check_masses(sections, problem, known)
+            file.error(mistake, parameter.value.span)
+    _check_masses(file, problem, known)
     striking = {one.name: one.restitution for one in problem.constraints}
     striking |= {one.name: one.restitution for one in problem.contacts}
     for name, formula in striking.items():
@@ -131,7 +131,7 @@ def check_values(sections: Sections, problem: Problem) -> None:
         if formula is not None and value is not None and not 0 <= value <= 1:
             message = f"the restitution of '{name}' lies between 0 and 1, and is {value}"
             hint = "1 loses no energy, after 0 nothing rebounds"
-            sections.error(message, formula.span, hint)
+            file.error(message, formula.span, hint)
 
 
 def run_number(formula: Expression) -> float:
@@ -156,15 +156,15 @@ def run_mistake(name: str, value: float) -> str:
     return sentence + (f", not {value:g}" if math.isfinite(value) else ", and a double")
 
 
-def _check_run(sections: Sections, problem: Problem) -> None:
+def _check_run(file: FileReader, problem: Problem) -> None:
     """The defaults of a run, which `simulate` and the studies go by."""
-    file = problem.simulation
-    for name, formula in (("until", file.until), ("accuracy", file.accuracy)):
+    defaults = problem.simulation
+    for name, formula in (("until", defaults.until), ("accuracy", defaults.accuracy)):
         if formula is not None and (mistake := run_mistake(name, run_number(formula))):
-            sections.error(f"'{name}': {mistake}", formula.span)
+            file.error(f"'{name}': {mistake}", formula.span)
 
 
-def _check_dissipation(sections: Sections, problem: Problem) -> None:
+def _check_dissipation(file: FileReader, problem: Problem) -> None:
     """Rayleigh's function takes energy at the rate Σ q' ∂D/∂q'; no odd one does so both ways.
 
     Source: Goldstein, Poole, Safko, Classical Mechanics, 3rd edition, section 1.5.
@@ -172,11 +172,11 @@ def _check_dissipation(sections: Sections, problem: Problem) -> None:
     formula = problem.dissipation
     if formula is None or formula == ZERO:
         return
-    if derivative_order(formula, sections.scope) < 1:
-        sections.error("the dissipation contains no velocity", formula.span, _FRICTION)
+    if derivative_order(formula, file.scope) < 1:
+        file.error("the dissipation contains no velocity", formula.span, _FRICTION)
     elif _parity(formula, problem.definitions) == -1:
         message = "the dissipation changes its sign with the velocities"
-        sections.error(message, formula.span, _FRICTION)
+        file.error(message, formula.span, _FRICTION)
 
 
 def _parity(formula: Expression, definitions: Mapping[str, Expression]) -> int:
@@ -201,7 +201,7 @@ def _parity(formula: Expression, definitions: Mapping[str, Expression]) -> int:
     return folded(formula, parity)
 
 
-def _check_masses(sections: Sections, problem: Problem, known: Mapping[str, Fraction]) -> None:
+def _check_masses(file: FileReader, problem: Problem, known: Mapping[str, Fraction]) -> None:
     """A product has the sign that it has with 1 and -1 for what is positive and negative."""
     signs = {p.name: _SIGNS[p.assume] for p in problem.parameters if p.assume in _SIGNS}
     for point in problem.points:
@@ -213,7 +213,7 @@ def _check_masses(sections: Sections, problem: Problem, known: Mapping[str, Frac
             value = rational_value(mass, {**signs, **known})
         if value is not None and value < 0:
             message = f"the mass of '{point.name}' is negative"
-            sections.error(message, mass.span, "write it without its sign")
+            file.error(message, mass.span, "write it without its sign")
 
 
 def _known(problem: Problem) -> dict[str, Fraction]:

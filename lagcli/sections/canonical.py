@@ -166,8 +166,8 @@ def _read_hamiltonian(
 ) -> Expression:
     """A function of the new variables."""
     new = reader.transformations[path[1]].coordinates
-    with reader.sections.scope.also(new, "coordinate"):
-        return reader.sections.expression(node, "the expected new Hamiltonian", FUNCTION)
+    with reader.file.scope.also(new, "coordinate"):
+        return reader.file.expression(node, "the expected new Hamiltonian", FUNCTION)
 
 
 _EXPECTED = of_known(

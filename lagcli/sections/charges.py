@@ -217,11 +217,11 @@ def _read_charge(reader: ExpectReader, node: DocumentNode, path: Path) -> Expres
     """One formula, or `not conserved`."""
     if isinstance(node, Scalar) and " ".join(node.value.split()) == NOT_CONSERVED:
         return NOT_CONSERVED
-    return reader.sections.expression(node, f"the expected charge '{path[-1]}'", ANSWER)
+    return reader.file.expression(node, f"the expected charge '{path[-1]}'", ANSWER)
 
 
 def _symmetries(reader: ExpectReader) -> list[str]:
-    momenta = [f"p_{name}" for name in reader.sections.scope.of_kind("coordinate")]
+    momenta = [f"p_{name}" for name in reader.file.scope.of_kind("coordinate")]
     return [*reader.symmetries, "energy", *momenta]
 
 

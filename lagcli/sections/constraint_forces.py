@@ -133,7 +133,7 @@ def read(reader: ExpectReader, node: DocumentNode) -> dict[str, dict[str, Expres
     found = {}
     for key, value in reader.known(node, ("constraint_forces",), reader.constraints, "constraint"):
         what = f"the expected force of '{key.label}' along '{{}}'"  # no braces in a name
-        forces = read_by_coordinate(reader.sections, value, f"'{key.label}'", what, ANSWER)
+        forces = read_by_coordinate(reader.file, value, f"'{key.label}'", what, ANSWER)
         found[key.label] = forces
         reader.note(value, "constraint_forces", key.label)
     return found

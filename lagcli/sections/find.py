@@ -176,10 +176,10 @@ def read(reader: ExpectReader, node: DocumentNode) -> dict[str, tuple[Expression
         what = f"the expected answer to '{key.label}'"
         question = reader.questions[key.label]
         if isinstance(question, Lasting | Reaching):
-            ranges = read_ranges(reader.sections, items, question.unknown, what)
+            ranges = read_ranges(reader.file, items, question.unknown, what)
             reader.ranges[key.label] = ranges
             continue
-        found[key.label] = tuple(reader.sections.expression(item, what, ANSWER) for item in items)
+        found[key.label] = tuple(reader.file.expression(item, what, ANSWER) for item in items)
     return found
 
 

@@ -160,8 +160,8 @@ def _read_force(
     """The signed force, or a list of components."""
     what = f"the expected force of '{path[-2]}' on '{path[-1]}'"
     if not isinstance(node, Sequence):
-        return reader.sections.expression(node, what, ANSWER)
-    return tuple(reader.sections.expression(item, what, ANSWER) for item in node.items)
+        return reader.file.expression(node, what, ANSWER)
+    return tuple(reader.file.expression(item, what, ANSWER) for item in node.items)
 
 
 def compare(

@@ -147,6 +147,6 @@ def real_value(expression: Expr, values: Mapping[Symbol, mpf], digits: int = DIG
     if found is None:
         return None
     [value] = found
-    if isinstance(value, mpmath.mpc):
-        return value.real if abs(value.imag) < _SMALL * abs(value) else None
-    return value if mpmath.isfinite(value) else None
+    if abs(value.imag) > _SMALL * (1 + abs(value)) or not mpmath.isfinite(value):
+        return None
+    return value.real

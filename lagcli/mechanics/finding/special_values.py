@@ -13,9 +13,9 @@ from sympy import Expr, Symbol
 from lagcli.algebra import simplify
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import is_decimal, solve_for
-from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.signs import sign
 from lagcli.algebra.weights import NotAPower, Weights, weights
+from lagcli.mechanics.finding.reach import real_value
 
 DIGITS = 90
 _REAL = mpf(10) ** -40
@@ -80,15 +80,8 @@ class SpecialValues:
         found = []
         with mpmath.workdps(DIGITS):
             for index, root in enumerate(self.roots):
-                numbers = Evaluator([root], DIGITS).where_defined(values)
-                if numbers is None:
-                    continue
-                [value] = numbers
-                if isinstance(value, mpmath.mpc):
-                    if abs(value.imag) > _REAL * (1 + abs(value)):
-                        continue
-                    value = value.real
-                if mpmath.isfinite(value) and self._inside(value):
+                value = real_value(root, values, DIGITS)
+                if value is not None and self._inside(value):
                     found.append((value, index))
         return sorted(found)
 

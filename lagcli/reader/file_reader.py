@@ -59,7 +59,7 @@ class Required(NamedTuple):
 
 
 @dataclass(slots=True, eq=False, repr=False)
-class Sections:
+class FileReader:
     """The mistakes found so far and the names declared so far."""
 
     scope: Scope = field(default_factory=Scope)
