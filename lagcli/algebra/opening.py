@@ -16,7 +16,7 @@ from collections.abc import Mapping, Sequence
 from itertools import combinations
 
 import sympy
-from sympy import Dummy, Expr, Symbol
+from sympy import Dummy, Expr, S, Symbol
 
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.factors import factors_of
@@ -94,6 +94,32 @@ def turns(equations: Sequence[Expr], x: Symbol) -> bool:
         return isinstance(f, CIRCULAR) and bool(f.args[0].diff(x).is_Integer)
 
     return all(free_of(e.replace(is_wave, lambda _: Dummy()), [x]) for e in equations)
+
+
+def phases(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> dict[Symbol, Expr]:
+    """The phases d ≠ 0 of unknowns that occur in sines and cosines of c (x - d) only."""
+    found: dict[Symbol, Expr] = {}
+    for x in unknowns:
+        waves = {f for e in equations for f in e.atoms(*CIRCULAR) if not free_of(f, [x])}
+        angles = [sympy.expand(f.args[0]) for f in waves]
+        masked = [e.xreplace(dict.fromkeys(waves, Dummy())) for e in equations]
+        if x.is_positive is not None or not all(free_of(e, [x]) for e in masked):
+            continue
+        zeros = {
+            sympy.expand(-a.subs(x, 0) / a.diff(x)) if free_of(a.diff(x), unknowns) else x
+            for a in angles
+        }
+        if len(zeros) == 1 and zeros != {S.Zero} and free_of(*zeros, unknowns):
+            [found[x]] = zeros
+    return found
+
+
+def without_phases(equation: Expr, phases: Mapping[Symbol, Expr]) -> Expr:
+    """With x + d for x: sin(c x) where sin(c (x - d)) was."""
+    moved = equation.xreplace({x: x + d for x, d in phases.items()})
+    return moved.replace(
+        lambda f: isinstance(f, CIRCULAR), lambda f: f.func(sympy.expand(f.args[0]))
+    )
 
 
 def _equal_angles(whole: Expr) -> tuple[Expr, Expr] | None:

@@ -18,7 +18,14 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients, solve_for
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.numeric import vanishes_at_random
-from lagcli.algebra.opening import by_distances, opened, turns, whole_angles
+from lagcli.algebra.opening import (
+    by_distances,
+    opened,
+    phases,
+    turns,
+    whole_angles,
+    without_phases,
+)
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.resultants import without
 from lagcli.algebra.ring import factorization
@@ -65,7 +72,8 @@ def solve_system(
     With `families`, those that one relation between unknowns gives are among them, and no
     solution that lies on another.
     """
-    equations = [whole_angles(equation, unknowns) for equation in equations]
+    moved = phases(equations, unknowns)
+    equations = [whole_angles(without_phases(e, moved), unknowns) for e in equations]
     solver = _Solver(equations, unknowns, Work(_UNITS), families=families)
     solver.branch(equations, {}, ())
     found = solver.found
@@ -73,7 +81,22 @@ def solve_system(
         each for each in found.solutions
         if not any(_lies_on(each, other) for other in found.solutions)
     ]  # fmt: skip
+    if moved:
+        found.solutions = [_with_phases(each, moved, solver.turning) for each in found.solutions]
     return found
+
+
+def _with_phases(
+    solution: SystemSolution, moved: Mapping[Symbol, Expr], turning: Sequence[Symbol]
+) -> SystemSolution:
+    """The solution in x - d as one in x: an angle that is a number in (-pi, pi]."""
+    back = {x: x - d for x, d in moved.items()}
+    values = {
+        x: value.xreplace(back) + moved.get(x, sympy.S.Zero) for x, value in solution.values.items()
+    }
+    values |= {x: _within_a_turn(values[x]) for x in turning if x in values}
+    relation = None if solution.relation is None else solution.relation.xreplace(back)
+    return SystemSolution(values, tuple(e.xreplace(back) for e in solution.positive), relation)
 
 
 class _Solver:
@@ -88,7 +111,7 @@ class _Solver:
         self.unknowns = tuple(unknowns)
         self.found = SolvedSystem()
         self._given = given
-        self._turning = [x for x in unknowns if turns(given, x)]
+        self.turning = [x for x in unknowns if turns(given, x)]
         self._allowed = allowed
         self._families = families
         self._branches = 0
@@ -309,7 +332,7 @@ class _Solver:
     ) -> None:
         plain = {s: simplify(v) for s, v in values.items()}
         ordered = {
-            u: _within_a_turn(plain[u]) if u in self._turning else plain[u]
+            u: _within_a_turn(plain[u]) if u in self.turning else plain[u]
             for u in self.unknowns
             if u in plain
         }

@@ -9,7 +9,7 @@ import math
 import random
 
 import pytest
-from sympy import Rational, pi, symbols
+from sympy import Rational, pi, sin, symbols
 
 from lagcli.algebra.systems import solve_system
 from lagcli.formatters.grammar import to_grammar
@@ -81,6 +81,28 @@ def test_both_minima_of_three_cosines():
     third = 2 * math.pi / 3
     for sign in (1, -1):
         assert any(math.dist((sign * third,) * 2, point) < 1e-12 for point in points)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_phase_moves_the_critical_points(seed):
+    """a cos n (x - d) + b cos 2 n (x - d) + c cos (y - e): found at d and e, and all of them."""
+    source = random.Random(seed)
+    n, d, e = source.randint(1, 2), source.randint(1, 3), source.randint(1, 3)
+    a, b, c = (source.choice((-3, -1, 1, 2, 4)) for _ in range(3))
+    V = f"{a}*cos({n}*(x - {d})) + {b}*cos({2 * n}*x - {2 * n * d}) + {c}*cos(y - {e})"
+    points, complete = _found(V)
+    turned = [(_turned(x), _turned(y)) for x, y in points]
+    assert complete
+    for point in [(_turned(d), _turned(e)), *_by_newton(V, source)]:
+        assert any(math.dist(point, other) < 1e-3 for other in turned), (V, point, turned)
+
+
+def test_a_phase_that_is_a_parameter():
+    """V = -k cos n (y - a) has its equilibria at n (y - a) = 0, pi, ..., whatever n and a."""
+    k, n, a, y = symbols("k n a y", real=True)
+    solved = solve_system([k * n * sin(n * (y - a))], [y])
+    assert solved.complete
+    assert {each.values[y] for each in solved.solutions} >= {a, a + pi / n}
 
 
 @pytest.mark.parametrize(

@@ -134,8 +134,26 @@ def test_equal_weights_balance(seed):
     )
     section = equilibria(derive(text).dynamics)
     assert section.equilibria == ()
-    assert section.unless is None
-    assert "in general there is no" in said(text, "Equilibria", "equilibria")
+    [condition] = section.unless or ()
+    m, M = sympy.symbols("m M")
+    assert sympy.solve(sympy.sympify(to_grammar(condition)), M) == [factor * m]
+    assert "unless" in said(text, "Equilibria", "equilibria")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_force_along_a_well_is_balanced_for_special_values_only(seed):
+    """V = F x - k x cos(n (y - a)): F = ± k at cos = ± 1, where k x sin(n (y - a)) vanishes."""
+    draw = random.Random(seed)
+    n, a = draw.randint(1, 4), draw.randint(0, 3)
+    text = (
+        "{coordinates: {x: {assume: positive}, y: {}}, parameters: {k: {assume: positive}, F: {}}, "
+        f"T: x'^2/2 + y'^2/2, V: F*x - k*x*cos({n}*(y - {a}))}}"
+    )
+    section = equilibria(derive(text).dynamics)
+    assert section.equilibria == ()
+    [condition] = section.unless or ()
+    k, F = sympy.symbols("k F")
+    assert set(sympy.solve(sympy.sympify(to_grammar(condition).replace("^", "**")), F)) == {k, -k}
 
 
 # -- forces on points that are guided -------------------------------------------------------------

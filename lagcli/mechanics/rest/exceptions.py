@@ -13,7 +13,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import written
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign
-from lagcli.algebra.systems import solve_system
+from lagcli.algebra.systems import SolvedSystem, solve_system
 from lagcli.expression import Expression
 
 _MOST_CONDITIONS = 4  # of which each is left out in turn
@@ -32,23 +32,30 @@ def without_unknowns(
     found = _factors_without(conditions, unknowns)
     if found or any(sign(e) in (1, -1) for e in conditions):
         return found
-    return None if _may_hold_for_special_values(conditions, unknowns) else ()
+    return _decided_by_parameters(conditions, unknowns)
 
 
-def _may_hold_for_special_values(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> bool:
-    """Whether all but one have a solution at which parameters decide that one, or a factor does."""
+def _decided_by_parameters(
+    conditions: Sequence[Expr], unknowns: Sequence[Symbol]
+) -> tuple[Expr, ...] | None:
+    """What one condition is at all solutions of the others, in parameters alone.
+
+    Empty where it vanishes for no values of them, None where they were not all found.
+    """
     if len(conditions) > _MOST_CONDITIONS:
-        return False
+        return ()
+    may_hold = False
     for k, left in enumerate(conditions):
         others = [e for j, e in enumerate(conditions) if j != k]
-        solutions = solve_system(others, unknowns, families=True).solutions if others else ()
-        if solutions and _perhaps_zero(left, unknowns):
-            return True
-        for each in solutions:
-            rest = simplify(left.xreplace(dict(each.values)))
-            if rest.free_symbols and free_of(rest, unknowns) and sign(rest) not in (1, -1):
-                return True
-    return False
+        solved = solve_system(others, unknowns, families=True) if others else SolvedSystem()
+        rests = [simplify(left.xreplace(dict(each.values))) for each in solved.solutions]
+        plain = [e for e in rests if e.free_symbols and free_of(e, unknowns)]
+        special = [e for e in plain if sign(e) not in (1, -1)]
+        if special and solved.complete and len(plain) == len(rests):
+            factors = [f for e in special for f in _perhaps_zero(e, unknowns)]
+            return (sympy.Mul(*dict.fromkeys(factors)),)
+        may_hold = may_hold or bool(special or (rests and _perhaps_zero(left, unknowns)))
+    return None if may_hold else ()
 
 
 def unless_written(
