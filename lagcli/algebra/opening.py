@@ -109,7 +109,7 @@ def phases(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> dict[Symbol
             sympy.expand(-a.subs(x, 0) / a.diff(x)) if free_of(a.diff(x), unknowns) else x
             for a in angles
         }
-        if len(zeros) == 1 and zeros != {S.Zero} and free_of(*zeros, unknowns):
+        if len(zeros) == 1 and all(e != 0 and free_of(e, unknowns) for e in zeros):
             [found[x]] = zeros
     return found
 

@@ -185,6 +185,20 @@ L: m*(x'^2 + y'^2)/2 + m*W*(x*y' - y*x') - m*w^2*(x^2 + y^2)/2
     assert rest_states(text) == {("0", "0"): True}
 
 
+def test_a_penning_trap_has_its_magnetron_and_cyclotron_frequencies():
+    """Brown and Gabrielse, Rev. Mod. Phys. 58 (1986) 233, section II; real for w > sqrt(2) u."""
+    text = """
+coordinates: [x, y, z]
+parameters: {m: POSITIVE, w: POSITIVE, u: POSITIVE}
+L: m*(x'^2 + y'^2 + z'^2)/2 + m*w*(x*y' - y*x')/2 - m*u^2*(2*z^2 - x^2 - y^2)/4
+"""
+    expected = formulas("(w - sqrt(w^2 - 2*u^2))/2", "(w + sqrt(w^2 - 2*u^2))/2", "u")
+    assert set(frequencies(text)) == set(expected)
+    found = modes(dynamics(text)).modes
+    assert found is not None
+    assert [each.open_sign for each in found].count(True) == 2
+
+
 def test_three_pendulums_have_the_roots_of_a_laguerre_polynomial():
     """L_3(W l/g) = 0 has three real roots, given by Viete's cosines."""
     text = """

@@ -61,7 +61,7 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
             continue
         plain = [without_moduli(root, linear.point.positive) for root in roots]
         given, roots = roots, plain
-        pair = beats(roots, values)
+        pair = beats(roots, chosen)
         for k, root in enumerate(roots):
             if pair:
                 frequency, square = pair[k], simplify(pair[k] ** 2)
@@ -71,7 +71,8 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
             known = sign(square, linear.point.positive)
             falls = frequency is None and known == -1
             shapes = _shapes(linear, square, values) or _shapes(linear, given[k], values)
-            turns = known is None and weak_sign(square) != 1
+            complex_somewhere = any(_is_complex(root, each) for each in chosen)
+            turns = known is None and (complex_somewhere or weak_sign(square) != 1)
             modes.append(
                 NormalMode(square, frequency, shapes, multiplicity, falls, open_sign=turns)
             )
@@ -109,16 +110,18 @@ def _with_whole_modulus(root: Expr) -> Expr:
     return shorter(root, sympy.Abs(sympy.expand(outside * moduli.args[0])))
 
 
-def beats(squares: Sequence[Expr], values: Mapping[Symbol, mpf]) -> list[Expr] | None:
-    """omega = p ± q for omega^2 = a ± sqrt(b), where that is shorter.
+def beats(squares: Sequence[Expr], chosen: Sequence[Mapping[Symbol, mpf]]) -> list[Expr] | None:
+    """omega = p ± q for omega^2 = a ± sqrt(b), where that is shorter and the motion oscillates.
 
     4 p^2 = W1 + W2 + 2 sqrt(W1 W2) and 4 q^2 = W1 + W2 - 2 sqrt(W1 W2).
     """
     if len(squares) != 2 or not any(x.exp == S.Half for x in squares[0].atoms(sympy.Pow)):
         return None
-    both, times = simplify(squares[0] + squares[1]), simplify(squares[0] * squares[1])
-    if _number(times, values) <= 0 or _number(both, values) <= 0:
+    real = [v for v in chosen if not any(_is_complex(square, v) for square in squares)]
+    oscillating = [v for v in real if all(_number(square, v) > 0 for square in squares)]
+    if not oscillating:
         return None
+    both, times = simplify(squares[0] + squares[1]), simplify(squares[0] * squares[1])
     cross = 2 * simplify(sympy.sqrt(times))
     p, q = (sympy.sqrt(simplify((both + sign_ * cross) / 4)) for sign_ in (1, -1))
     p, q = shorter(simplify(p), p), shorter(simplify(q), q)
@@ -128,11 +131,18 @@ def beats(squares: Sequence[Expr], values: Mapping[Symbol, mpf]) -> list[Expr] |
     plain = [sympy.sqrt(simplify(square)) for square in squares]
     if sum(map(sympy.count_ops, pair)) >= sum(map(sympy.count_ops, plain)):
         return None
+    return pair if all(_are_frequencies(pair, squares, values) for values in oscillating) else None
+
+
+def _are_frequencies(
+    pair: Sequence[Expr], squares: Sequence[Expr], values: Mapping[Symbol, mpf]
+) -> bool:
     with mpmath.workdps(_DIGITS):
-        found = sorted(_number(each, values) ** 2 for each in pair)
+        found = sorted(_number(each, values) for each in pair)
         wanted = sorted(_number(each, values) for each in squares)
-        agree = all(abs(a - b) < _ZERO * (1 + abs(b)) for a, b in zip(found, wanted, strict=True))
-        return pair if agree and all(_number(each, values) > 0 for each in pair) else None
+        return found[0] > 0 and all(
+            abs(a**2 - b) < _ZERO * (1 + abs(b)) for a, b in zip(found, wanted, strict=True)
+        )
 
 
 def shorter(first: Expr, second: Expr) -> Expr:

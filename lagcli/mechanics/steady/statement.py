@@ -258,6 +258,6 @@ def squares_of(linear: Linearization) -> tuple[Expr, ...]:
 def _squared_sums(linear: Linearization, roots: Sequence[Expr]) -> list[Expr]:
     """(p ± q)² where that is shorter than a ± sqrt(b), else the roots."""
     with suppress(ZeroDivisionError):
-        if sums := beats(roots, choices(linear)[0]):
-            return [sympy.Pow(each, 2) for each in sums]
+        if sums := beats(roots, choices(linear)):
+            return [sympy.factor_terms(each) ** 2 for each in sums]
     return [shorter(rounded(simplify(root)), root) for root in roots]
