@@ -16,7 +16,7 @@ from collections.abc import Mapping, Sequence
 from itertools import combinations
 
 import sympy
-from sympy import Dummy, Expr, S, Symbol
+from sympy import Dummy, Expr, Symbol
 
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.factors import factors_of
