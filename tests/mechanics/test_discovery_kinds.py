@@ -135,6 +135,21 @@ def test_the_energy_of_a_damped_oscillator_is_named(letters):
     assert min(digits_of(derivation).values()) > 20
 
 
+@pytest.mark.parametrize("stiffness", ["k", "k + 2*n", "5*k + n"])
+def test_a_damped_frequency_has_one_root(stiffness):
+    """sqrt(4 m k - c^2)/(2 m) in the transformation as in the charge: not sqrt((k - c^2/4m)/m)."""
+    T, V = "m*x'^2/2", f"({stiffness})*x^2/2"
+    text = text_of("x", "", "m k n c").replace('L: ""', f"T: {T}, V: {V}, dissipation: c*x'^2/2")
+    roots = {
+        root
+        for charge in derive(text).discovery.charges
+        for e in (charge.charge, *charge.transformation.changes)
+        for root in e.atoms(sympy.Pow)
+        if root.exp == sympy.S.Half
+    }
+    assert len(roots) == 1
+
+
 SURFACES = {
     "elliptic paraboloid": ("z - a*x^2 - b*y^2", "", {"b = a": "L_z"}),
     "Neumann": ("x^2 + y^2 + z^2 - 1", " - (a*x^2 + b*y^2 + c*z^2)/2",

@@ -231,6 +231,8 @@ def _root(square: Expr) -> Expr:
     if below.free_symbols and not below.is_nonnegative:
         return simplify(_root(above * below) / below)
     root = sympy.sqrt(factored)
-    if any(p.base.is_Add for p in root.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q == 2):
-        root = sympy.sqrt(square)  # no perfect square: not torn apart
+    roots = [p for p in root.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q == 2]
+    radicands = [p.base for p in roots if not p.base.is_number]
+    if len(radicands) > 1 and any(each.is_Add for each in radicands):
+        root = sympy.sqrt(square)  # not torn apart
     return simplify(root.replace(sympy.Abs, lambda x: x))
