@@ -259,6 +259,6 @@ def _squared_sums(linear: Linearization, roots: Sequence[Expr]) -> list[Expr]:
     """(p ± q)² where that is shorter than a ± sqrt(b), else the roots."""
     with suppress(ZeroDivisionError):
         if sums := beats(roots, choices(linear)):
-            parts = (each.as_content_primitive() for each in sums)
-            return [number**2 * rest**2 for number, rest in parts]
+            parts = ((each, *each.as_content_primitive()) for each in sums)
+            return [shorter(each**2, number**2 * rest**2) for each, number, rest in parts]
     return [shorter(rounded(simplify(root)), root) for root in roots]
