@@ -141,9 +141,13 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
         whole = Above(*added_and_subtracted(shape(rest, order)))
         found = min(found, whole, key=_operations)
     constant, others = left.as_coeff_Add()
-    if constant > 0 and others != 0:  # 1 > 27 mu (1 - mu)
-        other = Above(shape(constant, order), shape(simplify(right - others), order))
-        found = min(found, other, key=_operations)
+    if constant > 0 and right == 0 and not others.is_Add:  # n > -3
+        number, power = others.as_coeff_Mul()
+        return Above(shape(power, order), shape(-constant / number, order))
+    if constant > 0 and others != 0:  # 1 > 27 mu (1 - mu), but 1 + 2 a > b
+        subtracted = simplify(right - others)
+        other = Above(shape(constant, order), shape(subtracted, order))
+        found = min((found, other) if subtracted.is_Add else (other, found), key=_operations)
     return found if product is None else min(found, product, key=_operations)
 
 

@@ -17,6 +17,7 @@ from lagcli.expression import (
     Sum,
     added_and_subtracted,
     operation_count,
+    walk,
 )
 from lagcli.statements.answers import QuantityUnit, Verification
 from lagcli.statements.motions import (
@@ -148,6 +149,8 @@ def _sides(each: Above) -> list[Part]:
             return [right, " > ", ZERO]
         case Above(left=Number(value=0), right=right):
             return [right, " < ", ZERO]
+    if not any(isinstance(node, Name) for node in walk(each.left)):
+        return [each.right, " < ", each.left]
     return [each.left, " > ", each.right]
 
 
