@@ -111,3 +111,32 @@ def test_a_square_of_a_sine_is_compared_as_it_stands(seed):
     [found] = conditions([positive], ["k", "m", "w", "a"])
     printed = to_grammar(found.left) + to_grammar(found.right)
     assert all(printed.count(each) == 1 for each in ("k", "m", "w", circular.__name__))
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_number_stands_alone_and_on_the_right(seed):
+    """C n + c > 0 is n > -c/C; 1 > C n (1 - n) is C n (1 - n) < 1 (Danby, section 8.5)."""
+    source = random.Random(seed)
+    n = sympy.Symbol("n", real=True)
+    C, c = source.randint(1, 30), source.randint(1, 9)
+    for expression in (C * n + c, 1 - C * n + C * n**2):
+        for forms, sign in ((conditions, 1), (opposites, -1)):
+            [each] = forms([expression], ["n"])
+            sides = (to_grammar(each.left), to_grammar(each.right))
+            assert any("n" not in side for side in sides)
+            for value in (-3.7, -0.4, 0.3, 0.97, 5.1):
+                held = evaluated(each.left, {"n": value}, {}) > evaluated(
+                    each.right, {"n": value}, {}
+                )
+                assert held == bool(sign * expression.subs(n, value) > 0)
+
+
+def test_a_condition_reads_with_its_number_last():
+    """Circular orbits in V = k r^(n + 1)/(n + 1): Goldstein, 3rd ed., section 3.6."""
+    text = (
+        "{coordinates: {r: {assume: positive}, phi: {}}, parameters: {m: {assume: positive}, "
+        "k: {assume: positive}, n: {}}, T: m*(r'^2 + r^2*phi'^2)/2, V: k*r^(n+1)/(n+1)}"
+    )
+    read = words(explain(derive(text), ["steady_motions"]), "Steady motions")
+    assert "n > −3" in read
+    assert "n < −3" in read
