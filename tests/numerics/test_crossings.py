@@ -6,6 +6,7 @@ import random
 import mpmath
 import pytest
 
+from lagcli.numerics.compiled.engine import engine
 from tests.marks import mostly_long
 from tests.numerics.running import last, simulated
 from tests.numerics.test_narrow import held
@@ -258,6 +259,20 @@ def test_a_force_with_a_vertical_tangent(accuracy):
 def test_corners_jumps_and_poles_are_distinguished(force, method, what, rate):
     file = given_to(f'forces: {{x: "{force.format(w=rate)}"}}')
     assert what in simulated(file, 8.0, 1e-9, method=method).refusal
+
+
+@pytest.mark.skipif(not engine().quadruple, reason="no numbers of 128 bits")
+@pytest.mark.parametrize("force", ["sqrt(1 - cos(t + 1)^2)", "asin(sin(3*t))", "acos(cos(2*t))"])
+def test_a_corner_met_by_a_run_of_128_bits(force):
+    """It is passed or named; x' is the integral of the force, by Gauss's rule in 300 parts."""
+    result = simulated(given_to(f'forces: {{x: "{force}"}}'), 3.0, 1e-9, method="taylor128")
+    end = result.rows[-1][0]
+    assert (end == 3) if result.certificate.reached else ("corner there" in result.refusal)
+    value = mpmath.quad(
+        eval(f"lambda t: {force.replace('^', '**')}", dict(vars(mpmath))),
+        mpmath.linspace(0, end, 301), maxdegree=3,
+    )  # fmt: skip
+    assert result.rows[-1][2] == pytest.approx(float(value), abs=1e-6)
 
 
 @pytest.mark.parametrize("strength", ["1", "1e-6", "1e-11"])

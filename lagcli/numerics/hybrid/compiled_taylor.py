@@ -259,7 +259,8 @@ class CompiledTaylor:
         both, ahead, t = 2 * self.n, self._ahead, float(state[2 * self.n])
         inside, numbers = self._straight(t, q, v), self.machine.numbers
         places, speeds, rates = inside(end)
-        pairs = zip(rates, self._scales[self.n : both], strict=True)
+        scales = [*map(float, self._scales[self.n : both])]
+        pairs = zip(rates, scales, strict=True)
         if any(abs(a) * self._unit(t) > _IMPULSE * scale for a, scale in pairs):
             raise CannotGoOn(t, q, v, "")
         if numbers.rounding < 2.0**-53:  # more digits than a time has: a jump is not passed
@@ -268,7 +269,6 @@ class CompiledTaylor:
                 abs((0.0 if math.isnan(b) else b) - float(a))
                 for a, b in zip(rates, later, strict=True)
             )
-            scales = map(float, self._scales[self.n : both])
             least = _UNFELT / (end - t)
             if not all(x <= least * scale for x, scale in zip(jumps, scales, strict=True)):
                 raise CannotGoOn(t, q, v, "")
