@@ -118,6 +118,11 @@ class Manner:
                 return self._power(node)
             case Call(function=function, arguments=(Sum() as inner,)) if function in ODD | EVEN:
                 return self._function(node, inner)
+            case Call(function=function, arguments=(Negative(operand=inner),)) if (
+                function in ODD | EVEN
+            ):
+                turned = Call(function, (inner,), node.primes)
+                return turned if function in EVEN else Negative(turned)
             case Negative(operand=Negative(operand=inner)):
                 return inner
             case Negative(operand=Sum() as inner) if self._wrong(negative_of(inner)) is False:

@@ -43,6 +43,10 @@ def manner():
         ("g + m*(a - R)", "g - m*(R - a)"),
         ("cos(phi - theta)", "cos(theta - phi)"),
         ("m*sin(phi - theta)", "-m*sin(theta - phi)"),
+        (
+            "m*cos(3*(phi - theta)) + g*sin(3*(phi - theta))",
+            "m*cos(3*(theta - phi)) - g*sin(3*(theta - phi))",
+        ),
         # a number first
         ("m*g*(cos(theta) - 1)", "-m*g*(1 - cos(theta))"),
         ("-g*(cos(theta) - 3)/r", "g*(3 - cos(theta))/r"),
