@@ -16,13 +16,17 @@ from lagcli.algebra.ring import factorization
 from lagcli.algebra.signs import between_angles, sign, sign_beside_zero, sign_of_circle
 from lagcli.algebra.simplification import simplify
 
+_MOST_TERMS = 6
+
 
 def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
     """A polynomial that is positive just where the expression is.
 
     Factors of known sign are left out, and squares that are divided by, which are not 0.
     """
-    kept, direction = S.One, 1
+    odd: list[Expr] = []
+    radicands: list[Expr] = []
+    direction = 1
     nonzero: dict[Expr, None] = {}
     for factor, power in with_sines(expression):
         even = power % 2 == 0
@@ -33,15 +37,29 @@ def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
         if known is not None:
             direction *= known if power % 2 else 1
         elif factor.is_Pow and factor.exp.is_Rational and not factor.exp.is_Integer:
-            rest = S.One if sign(factor.base, positive) == 1 else deciding(factor.base, positive)
-            kept *= S.One if rest in {x**2 for x in nonzero} else rest
+            radicands += [] if sign(factor.base, positive) == 1 else [factor.base]
         elif isinstance(factor, sympy.Abs):
             nonzero[factor.args[0]] = None
         elif even:
             nonzero |= {factor: None} if power > 0 else {}
         else:
-            kept *= factor
-    return direction * sympy.Mul(kept, *(x**2 for x in nonzero))
+            odd.append(factor)
+    others = [x for x in nonzero if x not in odd]
+    plain = [e for e in radicands if not _exceeds_a_square(e, (*odd, *others))]
+    roots = [e for e in (deciding(x, positive) for x in plain) if e not in {x**2 for x in others}]
+    return direction * sympy.Mul(*odd, *roots, *(x**2 for x in others))
+
+
+def _exceeds_a_square(radicand: Expr, nonzero: Sequence[Expr]) -> bool:
+    """Whether it is at least c x² with c > 0 and x not 0: g² + a² + 2 g a sin b ≥ a² cos² b."""
+    terms = sympy.Add.make_args(sympy.expand(radicand))
+    multiples = {term.as_independent(sympy.sin, sympy.cos)[0] for term in terms[:_MOST_TERMS]}
+    return any(
+        weak_sign(simplify(radicand - c * x**2)) == 1
+        for c in (S.One, *multiples)
+        for x in nonzero
+        if sign(c) == 1
+    )
 
 
 def with_sines(expression: Expr) -> list[tuple[Expr, int]]:

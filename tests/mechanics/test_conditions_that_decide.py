@@ -131,3 +131,30 @@ def test_a_number_stands_alone_and_on_the_right(seed):
                     each.right, {"n": value}, {}
                 )
                 assert held == bool(sign * expression.subs(n, value) > 0)
+
+
+@pytest.mark.parametrize(("p", "q"), [(0, 1), (1, 0), (0, -1)])
+def test_a_plumb_line_is_stable_where_its_cosine_is_positive(p, q):
+    """V = -k cos(y - p a) - b sin(y - q a): the sign of one sum decides, not that of a product.
+
+    It is stable where V'' > 0; k² + b² + 2 k b sin(…) under its root has one sign.
+    """
+    V = f"-k*cos(y - {p}*a) - b*sin(y - ({q})*a)"
+    text = (
+        "{coordinates: [y], parameters: {k: {assume: positive}, b: {assume: positive}, a: {}}, "
+        f"T: y'^2/2, V: {V}}}"
+    )
+    found = equilibria(derive(text).dynamics).equilibria
+    assert len(found) == 2
+    source = random.Random(p)
+    second = sympy.sympify(V).diff("y", 2)
+    for each in found:
+        [condition] = each.verdict.minimum
+        difference = f"{to_grammar(condition.left)} - ({to_grammar(condition.right)})"
+        formula = sympy.sympify(difference.replace("^", "**"))
+        assert not any(e.exp > 1 for e in formula.atoms(sympy.Pow))
+        place = sympy.sympify(to_grammar(each.at["y"]).replace("^", "**"))
+        for _ in range(20):
+            values = {x: source.uniform(0.2, 3) for x in "kb"} | {"a": source.uniform(-3, 3)}
+            known = second.subs("y", place.subs(values)).subs(values)
+            assert bool(formula.subs(values) > 0) == bool(known > 0)
