@@ -141,11 +141,15 @@ def _stays(
     """
     tried = 0
     for near in place.states() if place.readable else ():
+        if near.without_lagrangian:
+            x.refute(
+                what, "L has no value there for some parameters with which it is said to exist"
+            )
+            return None
         if not near.defined:
             continue
         tried += 1
-        stays = near.residual < NOTHING if not zeros else _constant(near, place.eliminated)
-        if not stays:
+        if not _is_at_rest(near, place, zeros):
             x.refute(what, "the equations of motion do not let it stay there")
             return None
         why = "" if place.eliminated else refutes(x, what, near, verdict, zeros)
@@ -160,11 +164,27 @@ def _stays(
         return _NOWHERE
     if not tried:
         x.unchecked.append(what)
+    if not (unknown or x.reference.large) and _exists_beyond(place, zeros):
+        x.refute(what, "it exists for parameters with which its conditions do not hold, too")
+        return None
     why = "" if place.eliminated else _refuted_beside_bounds(x, what, place, verdict, zeros)
     if why:
         x.refute(f"the stability of {what}", why)
         return Verdict(stable=None, reason=_WHY)
     return verdict
+
+
+def _is_at_rest(near: LinearMotion, place: RestPlace, zeros: int) -> bool:
+    return near.residual < NOTHING if not zeros else _constant(near, place.eliminated)
+
+
+def _exists_beyond(place: RestPlace, zeros: int) -> bool:
+    """Whether it stays there with parameters for which a printed condition fails."""
+    return any(
+        near.defined and near.regular and not near.without_lagrangian
+        and _is_at_rest(near, place, zeros)
+        for near in place.beyond()
+    )  # fmt: skip
 
 
 def _refuted_beside_bounds(

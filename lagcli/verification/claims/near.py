@@ -17,7 +17,7 @@ from lagcli.verification.linear import Unclear, dot, rank, size, solve
 from lagcli.verification.phase_points import Environment
 from lagcli.verification.reference import DynamicsAtState
 
-_STEP = arb(2) ** -100
+_STEP = arb(2) ** -150
 _BESIDE = arb(2) ** -30
 #: Real parts and differences below this are 0: an eigenvalue of multiplicity 4 is right to 1e-20.
 NOTHING = 1e-12
@@ -46,6 +46,19 @@ class LinearMotion:
     def defined(self) -> bool:
         """Whether all forces have values there."""
         return all(value.is_finite() for value in (*self.laws.drift, *self.laws.applied))
+
+    @cached_property
+    def without_lagrangian(self) -> bool:
+        """Whether L has no real value here and on all sides near it, as that of sqrt(-1)."""
+        lagrangian, names = self.x.reference.lagrangian, self.x.reference.names
+        if self.at(lagrangian).is_finite():
+            return False
+        for side in range(2 ** min(self.size, 3)):
+            steps = (-_BESIDE if side >> k & 1 else _BESIDE for k in range(self.size))
+            moved = {(n, 0): self.environment[n, 0] + d for n, d in zip(names, steps, strict=True)}
+            if self.x.reference.values({**self.environment, **moved})(lagrangian).is_finite():
+                return False
+        return True
 
     @cached_property
     def pull(self) -> list[arb]:

@@ -72,7 +72,7 @@ class RestPlace:
         for state in self.x.states(LOOKED_AT, BITS):
             near = self.near(state.environment)
             if near is not None:
-                count += 1
+                count += near.defined
                 yield near
             if count == WANTED:
                 return
@@ -101,6 +101,17 @@ class RestPlace:
                 if near is not None:
                     yield near
 
+    def beyond(self) -> Iterator[LinearMotion]:
+        """States here with parameters for which a printed condition fails: none that stays."""
+        known = (
+            [state.environment for state in self.x.states(LOOKED_AT, BITS)] if self.where else []
+        )
+        moved = (self._moved(known[0], bound, -1) for bound in self.where if known)
+        for each in (*filter(None, moved), *known):
+            near = self.near(each, allowed=False)
+            if near is not None:
+                yield near
+
     def _moved(self, known: Environment, bound: int, side: int) -> Environment | None:
         """One parameter moved until left - right of a condition is near 0, on this side."""
         reference = self.x.reference
@@ -123,8 +134,8 @@ class RestPlace:
                 return there if _has_sign(signs[name], there[name, 0]) else None
         return None
 
-    def near(self, known: Environment) -> LinearMotion | None:
-        """The state here for these parameters; None where there is none."""
+    def near(self, known: Environment, *, allowed: bool = True) -> LinearMotion | None:
+        """The state here, if there is one and the conditions hold there, or do not hold."""
         reference = self.x.reference
         resting = {(name, 1) for name in reference.names} - self.values.keys()
         environment = {**known, **{key: arb(0) for key in resting}}
@@ -135,9 +146,11 @@ class RestPlace:
         if not self._put_in(environment) or not self._carried(environment):
             return None
         at = reference.values(environment)
-        allowed = all(at(place) > 0 for place in self.where)
+        if allowed is any(at(place) < 0 for place in self.where):
+            return None
+        sure = not allowed or all(at(place) > 0 for place in self.where)
         signs = all(_has_sign(c.assume, environment[c.name, 0]) for c in self.x.problem.coordinates)
-        return LinearMotion(self.x, environment) if allowed and signs else None
+        return LinearMotion(self.x, environment) if sure and signs else None
 
     def _put_in(self, environment: Environment) -> bool:
         """Give the printed values; whether all are real."""

@@ -132,7 +132,11 @@ class Balance:
         if any(size(near.environment[n, 0]) > pi for n in x.reference.names):
             return False
         pole = not near.regular or any(abs(z) < _SAME for z in eigenvalues(near.laws.mass_matrix))
-        if not near.defined or (pole and (self.turning or not _rests_at_a_pole(near))):
+        if (
+            not near.defined
+            or near.without_lagrangian
+            or (pole and (self.turning or not _rests_at_a_pole(near)))
+        ):
             return False
         if any(_is_outside(near, c) for c in x.problem.coordinates):
             return False
