@@ -9,6 +9,10 @@ from mpmath import mpf
 
 from lagcli.record import record
 
+_RELATIVE = mpf(10) ** -20
+
+Row = list[mpf]
+
 
 @record
 class Elimination:
@@ -52,3 +56,35 @@ def least_norm_solution(rows: Sequence[Sequence[mpf]], right: Sequence[mpf]) -> 
     a = mpmath.matrix([list(row) for row in rows])
     y = mpmath.lu_solve(a * a.T, mpmath.matrix(list(right)))
     return list(a.T * y)
+
+
+def nullspace(rows: Sequence[Row]) -> list[Row]:
+    """A basis of the c with rows c = 0."""
+    width = len(rows[0])
+    solved = dict(_pivots(rows, mpf(1)))
+    free = [k for k in range(width) if k not in solved]
+    return [[-solved[k][j] if k in solved else mpf(k == j) for k in range(width)] for j in free]
+
+
+def rank(rows: Sequence[Row]) -> int:
+    """The rank, with what is small beside the largest entry taken for 0."""
+    return len(_pivots(rows, mpf(0)))
+
+
+def _pivots(rows: Sequence[Row], least: mpf) -> list[tuple[int, Row]]:
+    """Reduced rows by their columns, by elimination with the largest pivot of all."""
+    left = [list(row) for row in rows if any(row)]
+    scale = max((abs(x) for row in left for x in row), default=mpf(0))
+    pivots: list[tuple[int, Row]] = []
+    while left:
+        size, r, c = max((abs(x), r, c) for r, row in enumerate(left) for c, x in enumerate(row))
+        if size < _RELATIVE * max(scale, least):
+            break
+        pivot = left.pop(r)
+        pivot = [x / pivot[c] for x in pivot]
+        left = [[x - row[c] * y for x, y in zip(row, pivot, strict=True)] for row in left]
+        pivots = [
+            (k, [x - row[c] * y for x, y in zip(row, pivot, strict=True)]) for k, row in pivots
+        ]
+        pivots.append((c, pivot))
+    return pivots

@@ -29,6 +29,7 @@ from sympy import Expr
 from lagcli.algebra import derivative
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.row_rank import nullspace, rank
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.dynamics import Dynamics
 
@@ -103,11 +104,18 @@ class Brackets:
         expressions += [derivative(p, x) for p in dynamics.lagrange.momenta for x in q]
         self._evaluate = Evaluator(expressions, _DIGITS)
         self._samples: list[Sample] = []
-        self._source = self._states()
+        self._source = self._states(0)
+
+    @property
+    def has_parameters(self) -> bool:
+        """Whether the charges or L contain parameters."""
+        system = self.dynamics.system
+        variables = {system.t, *system.q, *system.qdot}
+        return any(e.free_symbols - variables for e in (system.L, *self.charges))
 
     # -- states -------------------------------------------------------------------------------
 
-    def _states(self) -> Iterator[Sample]:
+    def _states(self, first: int) -> Iterator[Sample]:
         system = self.dynamics.system
         source = random.Random("lagcli brackets")
         bad = 0
@@ -116,7 +124,7 @@ class Brackets:
             with mpmath.workdps(_DIGITS):
                 # the same parameters for all states; others where charges are not real
                 turn = bad // _PATIENCE
-                base = self.dynamics.states.take(1 + turn)[-1]
+                base = self.dynamics.states.take(1 + first + turn)[-1]
                 width = turn if turn % 2 else 1  # beyond a horizon r^2 > m as well
                 state = dict(base)
                 for x in (*system.q, *system.qdot):
@@ -222,13 +230,23 @@ class Brackets:
 
     # -- structure constants ------------------------------------------------------------------
 
-    def structure(self, chosen: Sequence[int], energy: int | None = None) -> Structure | None:
+    def structure(
+        self, chosen: Sequence[int], energy: int | None = None, turn: int = 0
+    ) -> Structure | None:
         """The structure constants, None where the brackets do not close linearly.
 
-        With `energy`, coefficients may be linear in that charge.
+        With `energy`, coefficients may be linear in that charge; with `turn`, for others of the
+        parameters.
         """
-        with mpmath.workdps(_DIGITS):
-            return self._structure(list(chosen), energy)
+        kept = self._samples, self._source
+        try:
+            if turn:
+                self._samples, self._source = [], self._states(turn)
+            with mpmath.workdps(_DIGITS):
+                return self._structure(list(chosen), energy)
+        finally:
+            if turn:
+                self._samples, self._source = kept
 
     def _structure(self, chosen: list[int], energy: int | None) -> Structure | None:
         count = len(chosen)
@@ -283,35 +301,3 @@ def _less(rows: list[Vector], f: int, along: mpmath.matrix, surface: range) -> V
         x - mpmath.fsum(along[k] * rows[a][j] for k, a in enumerate(surface))
         for j, x in enumerate(rows[f])
     ]
-
-
-def nullspace(rows: Sequence[Vector]) -> list[Vector]:
-    """A basis of the c with rows c = 0."""
-    width = len(rows[0])
-    solved = dict(_pivots(rows, mpf(1)))
-    free = [k for k in range(width) if k not in solved]
-    return [[-solved[k][j] if k in solved else mpf(k == j) for k in range(width)] for j in free]
-
-
-def rank(rows: Sequence[Vector]) -> int:
-    """The rank, with what is small beside the largest entry taken for 0."""
-    return len(_pivots(rows, mpf(0)))
-
-
-def _pivots(rows: Sequence[Vector], least: mpf) -> list[tuple[int, Vector]]:
-    """Reduced rows by their columns, by elimination with the largest pivot of all."""
-    left = [list(row) for row in rows if any(row)]
-    scale = max((abs(x) for row in left for x in row), default=mpf(0))
-    pivots: list[tuple[int, Vector]] = []
-    while left:
-        size, r, c = max((abs(x), r, c) for r, row in enumerate(left) for c, x in enumerate(row))
-        if size < _SMALL * max(scale, least):
-            break
-        pivot = left.pop(r)
-        pivot = [x / pivot[c] for x in pivot]
-        left = [[x - row[c] * y for x, y in zip(row, pivot, strict=True)] for row in left]
-        pivots = [
-            (k, [x - row[c] * y for x, y in zip(row, pivot, strict=True)]) for k, row in pivots
-        ]
-        pivots.append((c, pivot))
-    return pivots

@@ -19,7 +19,7 @@ from sympy import Expr
 
 from lagcli.algebra import dot
 from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.discovery.brackets import rank
+from lagcli.algebra.row_rank import rank
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.surface import relations_on_surface

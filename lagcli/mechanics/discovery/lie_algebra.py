@@ -19,7 +19,8 @@ from collections.abc import Sequence
 import mpmath
 from mpmath import mpf
 
-from lagcli.mechanics.discovery.brackets import Structure, Vector, rank
+from lagcli.algebra.row_rank import rank
+from lagcli.mechanics.discovery.brackets import Structure, Vector
 
 _SMALL = mpf(10) ** -12
 #: What stands after the name of an algebra that contains the constants beside its generators.

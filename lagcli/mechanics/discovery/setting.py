@@ -12,8 +12,8 @@ from sympy import Expr
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.row_rank import rank
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, time_functions
-from lagcli.mechanics.discovery.brackets import rank
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.isometries import Isometries
 from lagcli.mechanics.discovery.kinds import Kinds, kinds

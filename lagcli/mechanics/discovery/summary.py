@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -19,6 +20,8 @@ from lagcli.mechanics.states import Contradiction
 from lagcli.statements.answers import AlgebraSection
 
 _SMALL = 1e-12
+#: Choices of the parameters at which an algebra must have the same name.
+_PARAMETERS = 12
 _MOST_FOR_SQUARES = 9  # two bodies in space: P, L and L_rel
 
 
@@ -100,7 +103,7 @@ def _free(discovery: Discovery) -> Summary:
     structure = brackets.structure(everything)
     closed = structure is not None and len(everything) == count
     if structure is not None:
-        dimension, name = len(everything), name_of(structure)
+        dimension, name = len(everything), _name(brackets, everything, structure)
     elif len(everything) > points:
         dimension, name = _over_energy(brackets, everything, points, energy)
         if name is None:
@@ -140,11 +143,24 @@ def _over_energy(
     if energy is not None and all(brackets.commute(energy, k) for k in everything):
         rest = [k for k in everything if k != energy]
         structure = brackets.structure(rest, energy)
-        name = None if structure is None else name_of(structure)
+        name = None if structure is None else _name(brackets, rest, structure, energy)
         if name is not None:
             return len(everything), f"the energy and {name}"
     structure = brackets.structure(everything[:points])
-    return points, None if structure is None else name_of(structure)
+    return points, None if structure is None else _name(brackets, everything[:points], structure)
+
+
+def _name(
+    brackets: Brackets, chosen: Sequence[int], structure: Structure, energy: int | None = None
+) -> str | None:
+    """The name of the algebra; None where it is another one for other parameters."""
+    name = name_of(structure)
+    for turn in range(1, _PARAMETERS) if name is not None and brackets.has_parameters else ():
+        with suppress(NoState):
+            other = brackets.structure(chosen, energy, turn)
+            if other is None or name_of(other) != name:
+                return None
+    return name
 
 
 def _squares(discovery: Discovery) -> list[Expr]:

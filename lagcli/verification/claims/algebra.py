@@ -9,19 +9,26 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from itertools import islice
 
 from flint import arb, arb_mat
 
 from lagcli.expression import Name, walk
 from lagcli.record import replace
 from lagcli.statements.answers import AlgebraSection, Charge, ChargesSection
-from lagcli.verification.claims.canonical_samples import CanonicalSample, samples
+from lagcli.verification.claims.canonical_samples import (
+    CanonicalSample,
+    around_states,
+    samples,
+)
 from lagcli.verification.claims.near import eigenvalues
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, dot, rank, size
 
 _MOST = 21  # charges
 _SMALL = 1e-12
+#: Choices of the parameters at which the name is tried.
+_PARAMETERS = 12
 Signature = tuple[int, int, int]
 #: Dimension, and how many positive and negative eigenvalues the Killing form has.
 _KNOWN: dict[str, Signature] = {
@@ -29,6 +36,7 @@ _KNOWN: dict[str, Signature] = {
     "so(2,2)": (6, 4, 2), "su(3)": (8, 0, 8), "e(2)": (3, 0, 1), "R": (1, 0, 0),
     "Poincaré iso(1,1)": (3, 1, 0), "oscillator algebra": (3, 0, 1), "so(1,1)": (0, 1, 0),
     "oscillator algebra (hyperbolic)": (3, 1, 0),
+    "sl(2,R) + so(1,1) with Heisenberg h(2)": (8, 3, 1),
 }  # fmt: skip
 
 
@@ -137,44 +145,55 @@ class Counted:
     # -- structure ------------------------------------------------------------------------------
 
     def _has_name(self, name: str) -> bool:
-        """Whether the Killing form has the signature that the name stands for; True if unknown."""
+        """Whether the Killing form has the signature that the name stands for; True if unknown.
+
+        For several choices of the parameters: their signs may change that.
+        """
         expected = signature_of(name)
         if expected is None:
             return True
         size_ = self.section.dimension
-        constants = self._structure(size_)
-        if constants is None:
-            return False
-        form = [[_trace(one, other) for other in constants] for one in constants]
-        values = [z.real for z in eigenvalues(form)]
-        scale = max([1e-9, *map(abs, values)])
-        plus = sum(v > 1e-9 * scale for v in values)
-        minus = sum(v < -1e-9 * scale for v in values)
-        if plus == minus == 0 and expected[1:] != (0, 0):
-            return False
-        return (size_, plus, minus) == expected
+        around = islice(around_states(self.x, self.places, size_ + 5), _PARAMETERS)
+        return all(_has_signature(each, size_, expected) for each in around)
 
-    def _structure(self, count: int) -> list[list[list[arb]]] | None:
-        """C with {Q_a, Q_b} = sum_c C_abc Q_c + a constant; None where there is none."""
-        fitted, tried = self.samples[: count + 1], self.samples[count + 1 :]
-        matrix = arb_mat([[*s.values[:count], arb(1)] for s in fitted])
-        pairs = [(a, b) for a in range(count) for b in range(a)]
-        right = arb_mat([[s.bracket(a, b) for a, b in pairs] or [arb(0)] for s in fitted])
-        try:
-            solution = matrix.solve(right)
-        except ZeroDivisionError:
-            return None
-        constants = [[[arb(0)] * count for _ in range(count)] for _ in range(count)]
-        for column, (a, b) in enumerate(pairs):
-            found = [solution[row, column].mid() for row in range(count + 1)]
-            for s in tried[:4]:
-                terms = zip(found[:-1], s.values[:count], strict=True)
-                value = sum((c * v for c, v in terms), found[-1])
-                if size(value - s.bracket(a, b)) > 1e-9 * (1 + size(value)):
-                    return None
-            constants[a][b] = found[:-1]
-            constants[b][a] = [-c for c in found[:-1]]
-        return constants
+
+def _has_signature(around: Sequence[CanonicalSample], size_: int, expected: Signature) -> bool:
+    if len(around) < size_ + 5:
+        return True
+    constants = _structure(around, size_)
+    if constants is None:
+        return False
+    form = [[_trace(one, other) for other in constants] for one in constants]
+    values = [z.real for z in eigenvalues(form)]
+    scale = max([1e-9, *map(abs, values)])
+    plus = sum(v > 1e-9 * scale for v in values)
+    minus = sum(v < -1e-9 * scale for v in values)
+    if plus == minus == 0 and expected[1:] != (0, 0):
+        return False
+    return (size_, plus, minus) == expected
+
+
+def _structure(around: Sequence[CanonicalSample], count: int) -> list[list[list[arb]]] | None:
+    """C with {Q_a, Q_b} = sum_c C_abc Q_c + a constant; None where there is none."""
+    fitted, tried = around[: count + 1], around[count + 1 :]
+    matrix = arb_mat([[*s.values[:count], arb(1)] for s in fitted])
+    pairs = [(a, b) for a in range(count) for b in range(a)]
+    right = arb_mat([[s.bracket(a, b) for a, b in pairs] or [arb(0)] for s in fitted])
+    try:
+        solution = matrix.solve(right)
+    except ZeroDivisionError:
+        return None
+    constants = [[[arb(0)] * count for _ in range(count)] for _ in range(count)]
+    for column, (a, b) in enumerate(pairs):
+        found = [solution[row, column].mid() for row in range(count + 1)]
+        for s in tried[:4]:
+            terms = zip(found[:-1], s.values[:count], strict=True)
+            value = sum((c * v for c, v in terms), found[-1])
+            if size(value - s.bracket(a, b)) > 1e-9 * (1 + size(value)):
+                return None
+        constants[a][b] = found[:-1]
+        constants[b][a] = [-c for c in found[:-1]]
+    return constants
 
 
 def _trace(one: Sequence[Sequence[arb]], other: Sequence[Sequence[arb]]) -> arb:
@@ -193,9 +212,9 @@ def _rank(rows: Sequence[Sequence[arb]], columns: int) -> int:
 def signature_of(name: str) -> Signature | None:
     """Of a name, or of the parts of a direct sum; None where it is not known."""
     name = name.removesuffix(", modulo constants")
-    if "energy" in name or " with " in name:
+    if name not in _KNOWN and ("energy" in name or " with " in name):
         return _with_heisenberg(name)
-    parts = [_one(part) for part in name.split(" + ")]
+    parts = [_one(part) for part in ([name] if name in _KNOWN else name.split(" + "))]
     if any(part is None for part in parts):
         return None
     known = [part for part in parts if part is not None]

@@ -57,16 +57,25 @@ def samples(x: Examination, functions: Sequence[int], count: int) -> list[Canoni
 
     They lie around a state at which the functions have values, on the one side of a horizon.
     """
+    return next(around_states(x, functions, count), [])
+
+
+def around_states(
+    x: Examination, functions: Sequence[int], count: int
+) -> Iterator[list[CanonicalSample]]:
+    """So many samples for each of several choices of the parameters; fewer where no more exist."""
 
     def inside(states: Sequence[State]) -> list[State]:
         return [s for s in states if all(s.at(f).is_finite() for f in functions)]
 
     found: list[CanonicalSample] = []
-    for first in inside(x.states()) or inside(x.states(LOOKED_AT)) or x.states(1):
-        found = max(found, _around(first, functions, count), key=len)
-        if len(found) == count:
-            break
-    return found
+    for first in inside(x.states(LOOKED_AT)) or x.states(1):
+        around = _around(first, functions, count)
+        found = max(found, around, key=len)
+        if len(around) == count:
+            yield around
+    if len(found) < count:
+        yield found
 
 
 def _around(first: State, functions: Sequence[int], count: int) -> list[CanonicalSample]:

@@ -1,0 +1,51 @@
+"""The name of an algebra that depends on the signs of parameters is not printed for all of them.
+
+Free motion with a quadratic form of signature (2, 0) or (1, 1): rotations so(2), or boosts so(1,1)
+(Niederer, Helv. Phys. Acta 45 (1972) 802).
+"""
+
+from __future__ import annotations
+
+import pytest
+
+from lagcli.reader import read_problem
+from lagcli.record import replace
+from lagcli.verification import verified
+from tests.solved import solve
+
+ROTATIONS = "Schrödinger sch(2): sl(2,R) + so(2) with Heisenberg h(2), modulo constants"
+BOOSTS = "sl(2,R) + so(1,1) with Heisenberg h(2), modulo constants"
+POSITIVE = "{a: {assume: positive}, b: {assume: positive}, c: {assume: positive}}"
+
+
+def _solved(form: str, parameters: str):
+    text = f"coordinates: [x, y]\nparameters: {parameters}\nL: ({form})/2\n"
+    problem = read_problem("test.yaml", text.encode()).checked()
+    return problem, solve(problem, ["discovered", "algebra"])
+
+
+@pytest.mark.parametrize(
+    ("form", "parameters", "name"),
+    [
+        ("a*x'^2 + c*y'^2", POSITIVE, ROTATIONS),
+        ("a*(x' + b*y')^2 + c*y'^2", POSITIVE, ROTATIONS),
+        ("a*(x' + b*y')^2 - c*y'^2", POSITIVE, BOOSTS),
+        ("a*x'*y' + c*y'^2", POSITIVE, BOOSTS),
+        ("a*x'^2 + c*y'^2", "[a, c]", None),
+        ("a*x'^2 + 2*b*x'*y' + c*y'^2", "[a, b, c]", None),
+        ("a*x'^2 + 2*b*x'*y' + c*y'^2", POSITIVE, None),
+        ("(a - b)*x'^2 + c*y'^2", POSITIVE, None),
+    ],
+)
+def test_the_signs_of_parameters_decide_the_name(
+    form: str, parameters: str, name: str | None
+) -> None:
+    problem, answers = _solved(form, parameters)
+    assert answers.complete, answers.warnings
+    section = answers.sections["algebra"]
+    assert (section.dimension, section.name) == (8, name)
+    for other in {ROTATIONS, BOOSTS} - {name}:
+        wrong = {**answers.sections, "algebra": replace(section, name=other)}
+        found = verified(problem, replace(answers, sections=wrong))
+        assert found.sections["algebra"].name is None
+        assert not found.complete
