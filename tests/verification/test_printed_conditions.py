@@ -18,6 +18,8 @@ from lagcli.statements.motions import Above
 from lagcli.verification import verified
 from tests.solved import solve
 
+from .sheets import derived
+
 HEAD = (
     "coordinates: [x]\nparameters: {a: {assume: positive}, b: {assume: positive},"
     " c: {assume: positive}}\nT: x'^2/2\nV: "
@@ -104,3 +106,14 @@ def test_a_flat_effective_potential_has_steady_motions_everywhere(f: str) -> Non
     assert answers.complete, answers.warnings
     flat = [m for m in answers.sections["steady_motions"].motions if "x" not in m.at]
     assert {to_grammar(square) for m in flat for square in m.frequencies_squared} == {"0"}
+
+
+@pytest.mark.parametrize("other", ["m > c", "p_phi > 1"])
+def test_conditions_of_steady_motions_are_tried_where_they_fail(other: str) -> None:
+    problem, answers = derived("particles/relativistic-coulomb", ("steady_motions",))
+    assert verified(problem, answers) is answers
+    section = answers.sections["steady_motions"]
+    narrow = Above(*map(parse_text, other.split(" > ")))
+    motions = tuple(replace(each, where=(*each.where, narrow)) for each in section.motions)
+    spoiled = {"steady_motions": replace(section, motions=motions)}
+    assert not verified(problem, replace(answers, sections=spoiled)).complete

@@ -103,9 +103,12 @@ class RestPlace:
 
     def beyond(self) -> Iterator[LinearMotion]:
         """States here with parameters for which a printed condition fails: none that stays."""
-        known = (
-            [state.environment for state in self.x.states(LOOKED_AT, BITS)] if self.where else []
-        )
+        states = self.x.states(LOOKED_AT, BITS) if self.where else []
+        sizes = [arb(2) ** (k % 7 - 3) for k in range(len(states))]
+        known = [
+            {**{key: p * larger for key, p in self._momenta.items()}, **state.environment}
+            for larger, state in zip(sizes, states, strict=True)
+        ]
         moved = (self._moved(known[0], bound, -1) for bound in self.where if known)
         for each in (*filter(None, moved), *known):
             near = self.near(each, allowed=False)
@@ -138,9 +141,7 @@ class RestPlace:
         """The state here, if there is one and the conditions hold there, or do not hold."""
         reference = self.x.reference
         resting = {(name, 1) for name in reference.names} - self.values.keys()
-        environment = {**known, **{key: arb(0) for key in resting}}
-        for name, p in zip(reference.names, ball_numbers(len(reference.names)), strict=True):
-            environment.setdefault((f"p_{name}", 0), p)
+        environment = {**self._momenta, **known, **{key: arb(0) for key in resting}}
         if not (self._put_in(environment) and self._tied(environment)):
             return None
         if not self._put_in(environment) or not self._carried(environment):
@@ -151,6 +152,13 @@ class RestPlace:
         sure = not allowed or all(at(place) > 0 for place in self.where)
         signs = all(_has_sign(c.assume, environment[c.name, 0]) for c in self.x.problem.coordinates)
         return LinearMotion(self.x, environment) if sure and signs else None
+
+    @property
+    def _momenta(self) -> Environment:
+        """Those that are free."""
+        names = self.x.reference.names
+        pairs = zip(names, ball_numbers(len(names)), strict=True)
+        return {(f"p_{name}", 0): p for name, p in pairs}
 
     def _put_in(self, environment: Environment) -> bool:
         """Give the printed values; whether all are real."""
