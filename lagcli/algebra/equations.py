@@ -18,6 +18,7 @@ from sympy import Dummy, Expr, Rational, S, Symbol
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
+from lagcli.algebra.opening import common_multiple, phases, without_phases
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.roots import substitute_square
 from lagcli.algebra.simplification import shape, simplify
@@ -42,6 +43,12 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
     of it, or of one constant multiple of it, or inside hyperbolic ones or exponentials of integer
     multiples of a (unknown - b).
     """
+    for x, phase in phases([expression], [unknown]).items():
+        plain = solve_for(without_phases(expression, {x: phase}), x)
+        return plain and Roots(tuple(rounded(root + phase) for root in plain.values), plain.angle)
+    if (n := common_multiple(expression, unknown)) > 1:
+        plain = solve_for(without_phases(expression.xreplace({unknown: unknown / n}), {}), unknown)
+        return plain and Roots(_over_all_turns(plain.values, n), plain.angle)
     field = Field([expression])
     try:
         poly = field(expression).numerator
@@ -88,6 +95,16 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
             tuple(a / factor for a in angles if -sympy.pi < a / factor <= sympy.pi), angle=True
         )
     return Roots(tuple(a / factor for a in angles), angle=False)
+
+
+def _over_all_turns(angles: Sequence[Expr], n: int) -> tuple[Expr, ...]:
+    """The x in (-pi, pi] at which n x is one of the angles up to whole turns."""
+    found: list[Expr] = []
+    for angle in angles:
+        negative = angle.could_extract_minus_sign() or angle == 0
+        first = -((n - negative) // 2)
+        found += [(angle + 2 * k * sympy.pi) / n for k in range(first, first + n)]
+    return tuple(dict.fromkeys(found))
 
 
 def coefficients(field: Field, poly: Poly, generator: int) -> list[Element]:

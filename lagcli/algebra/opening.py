@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import combinations
+from math import gcd
 
 import sympy
 from sympy import Dummy, Expr, Symbol
@@ -112,6 +113,13 @@ def phases(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> dict[Symbol
         if len(zeros) == 1 and all(e != 0 and free_of(e, unknowns) for e in zeros):
             [found[x]] = zeros
     return found
+
+
+def common_multiple(equation: Expr, x: Symbol) -> int:
+    """n where x occurs in sines and cosines of whole multiples of n x only; else 1."""
+    if not turns([equation], x):
+        return 1
+    return gcd(*(int(f.args[0].diff(x)) for f in equation.atoms(*CIRCULAR))) or 1
 
 
 def without_phases(equation: Expr, phases: Mapping[Symbol, Expr]) -> Expr:

@@ -95,6 +95,7 @@ TEXTBOOK: list[tuple[Expr, str]] = [
     # the tangent of a parameter, but of no coordinate: it is infinite where nothing happens
     ((g * cos(alpha) + k * sin(alpha)) * cos(alpha), "(g + k*tan(alpha))*cos(alpha)^2"),
     ((g * cos(theta) + k * sin(theta)) * cos(theta), "(g*cos(theta) + k*sin(theta))*cos(theta)"),
+    (sp.sqrt(sp.sqrt(k**2 + m * g) / (m * M)), "sqrt(sqrt(m*g + k^2)/(M*m))"),
 ]
 
 

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import math
 import random
+from itertools import pairwise
 
 import pytest
-from sympy import Rational, pi, sin, symbols
+from sympy import Rational, cos, expand, lambdify, pi, sin, symbols
 
+from lagcli.algebra.equations import solve_for
 from lagcli.algebra.systems import solve_system
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.rest.equilibria import RestPoints
@@ -221,3 +223,28 @@ V: -m*g*sqrt({c} - {k}*x^2{across})
     assert rest.points is not None
     assert [set(point.values.values()) for point in rest.points] == [{0}]
     assert rest.complete
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_roots_of_a_polynomial_in_one_wave_of_a_phase(seed):
+    """a cos² n (x - d) + b cos n (x - d) + c = 0: every sign change within a turn, and no other."""
+    source = random.Random(seed)
+    n, d = source.randint(1, 4), source.choice((0, 1, Rational(1, 2), pi / 3))
+    a, b, c = (
+        source.choice((0, 1, 2)),
+        source.choice((-3, -1, 1)),
+        Rational(source.randint(-2, 2), 3),
+    )
+    x = symbols("x", real=True)
+    wave = source.choice((cos, sin))(expand(n * (x - d)))
+    equation = a * wave**2 + b * wave + c
+    found = solve_for(equation, x)
+    assert found is not None
+    places = {round(_turned(float(each)), 9) for each in found.values if each.is_real}
+    value = lambdify(x, equation, "math")
+    assert all(abs(value(each)) < 1e-6 for each in places)
+    grid = [-math.pi + (k + 0.37) * math.pi / 500 for k in range(1001)]
+    changes = [u for u, v in pairwise(grid) if value(u) * value(v) < 0]
+    for u in changes:
+        step = math.pi / 500
+        assert any(abs(_turned(each - u - step / 2)) < step for each in places), (equation, u)
