@@ -88,7 +88,7 @@ def equations(derivation: Derivation, options: Options) -> str:
 
 def moved(problem):
     """The motion as HTML, and a picture of it."""
-    from lagcli.cli.moving import motion_below
+    from lagcli.cli.motion_on_page import motion_below
 
     below, _ = motion_below(problem)
     if not below:

@@ -6,12 +6,12 @@ import shutil
 from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import ANIMATIONS
-from lagcli.cli.delivering import has_place
+from lagcli.cli.error_output import report_line
+from lagcli.cli.motion_commands import shared, understood
+from lagcli.cli.output import has_place
 from lagcli.cli.plotting import drawn, ending, is_drawn_as
-from lagcli.cli.running import shared, understood
 from lagcli.cli.simulating import SimulateOptions, asked_of
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell_line
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -25,7 +25,7 @@ def animate_file(run: SimulateOptions, *, forces: bool, dark: bool) -> Status:
         return Status.USAGE
     if run.output is not None and ending(run.output) == "mp4" and shutil.which("ffmpeg") is None:
         instead = run.output.with_suffix(".html")
-        tell_line(
+        report_line(
             f"lagcli: error: -o {run.output} needs the program ffmpeg, which is not installed; "
             f"-o {instead} needs nothing"
         )

@@ -7,10 +7,10 @@ import sys
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
 
+from lagcli.cli.error_output import report_line
 from lagcli.cli.files import print_result
-from lagcli.cli.running import is_known
+from lagcli.cli.motion_commands import is_known
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell_line
 from lagcli.studies.check import CheckOutcome, NothingToCheck, Report, check_all, problem_files
 from lagcli.studies.check.reports import FORMS
 
@@ -24,7 +24,7 @@ def check_paths(
         files = problem_files(paths)
     except NothingToCheck as error:
         for line in error.lines:
-            tell_line(line)
+            report_line(line)
         return Status.USAGE
     if not known or part is None:
         return Status.USAGE
@@ -50,7 +50,7 @@ def _part(shard: str | None) -> slice | None:
     first, slash, count = shard.partition("/")
     if slash and first.isdecimal() and count.isdecimal() and 1 <= int(first) <= int(count):
         return slice(int(first) - 1, None, int(count))
-    tell_line(f"lagcli: error: --shard: write I/N with 1 <= I <= N, such as 1/4, not '{shard}'")
+    report_line(f"lagcli: error: --shard: write I/N with 1 <= I <= N, such as 1/4, not '{shard}'")
     return None
 
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import sys
 
-from lagcli.cli.running import problem_of
+from lagcli.cli.error_output import report
+from lagcli.cli.motion_commands import problem_of
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell
 from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import with_lagrangian
 from lagcli.platform.stack import with_deep_stack
@@ -27,7 +27,7 @@ def _problem(name: str) -> Problem | None:
     try:
         return problem and with_lagrangian(problem)
     except ProblemError as error:
-        tell(error.source, error.diagnostics)
+        report(error.source, error.diagnostics)
         return None
 
 
@@ -37,7 +37,7 @@ def _compared(first: Problem, second: Problem) -> Status:
     try:
         found = differences(first, second)
     except ProblemError as error:
-        tell(error.source, error.diagnostics)
+        report(error.source, error.diagnostics)
         return Status.USAGE
     if not found:
         sys.stdout.write("the same physics\n")

@@ -47,9 +47,9 @@ def explain(
       lagcli explain hoop --also find,modes
       lagcli explain hoop -f latex --standalone -o hoop.tex
     """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.cached_answers import CommandOptions, solve_or_repeat
     from lagcli.cli.endings import PAGES, format_of
     from lagcli.cli.printing import printing_of
-    from lagcli.cli.repeating import CommandOptions, solve_or_repeat
 
     form = format_of(format_name, output, PAGES, "text")
     printing = printing_of(

@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from lagcli.cli.choices import LANGUAGES
-from lagcli.cli.delivering import has_place, place
-from lagcli.cli.running import is_known, problem_of
+from lagcli.cli.error_output import report, report_line
+from lagcli.cli.motion_commands import is_known, problem_of
+from lagcli.cli.output import has_place, place
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import Request, derive, state
 from lagcli.platform.stack import with_deep_stack
@@ -36,14 +36,14 @@ def _export(problem: Problem, name: str, language: str, output: Path | None) -> 
         code = code_of(derivation.problem, answers, module if name != "-" else "problem")
         text = render(code, language)
     except ProblemError as error:
-        tell(error.source, error.diagnostics)
+        report(error.source, error.diagnostics)
         return Status.USAGE
     except NoCode as error:
-        tell_line(f"{name}: {error}")
+        report_line(f"{name}: {error}")
         return Status.NOT_FOUND
     if not place(text.encode(), output):
         return Status.USAGE
     if code.missing:
-        tell_line(f"{name}: only the matrices were written: {code.missing}")
+        report_line(f"{name}: only the matrices were written: {code.missing}")
         return Status.NOT_FOUND
     return Status.WELL

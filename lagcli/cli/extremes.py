@@ -57,7 +57,7 @@ def extremes(
       lagcli extremes kepler --cases 'k = 0' -f csv
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import STUDIES, format_of
-    from lagcli.cli.stretching import ExtremesOptions, stretch_file
+    from lagcli.cli.extremes_run import ExtremesOptions, stretch_file
 
     form = format_of(format_name, output, STUDIES, "text")
     return stretch_file(gathered(ExtremesOptions, locals(), format_name=form))

@@ -1,4 +1,4 @@
-"""Files in and files out: what cannot be read is told, what is written is whole."""
+"""Files in and files out: what cannot be read is reported, what is written is whole."""
 
 from __future__ import annotations
 

@@ -18,5 +18,5 @@ def formats() -> None:
     width = max(len(entry.name) for entry in listed)
     for entry in listed:
         origin = "" if entry.distribution == "lagcli" else f" (from {entry.distribution})"
-        told = f"not usable: {entry.problem}" if entry.problem else entry.description
-        sys.stdout.write(f"{entry.name:{width}}  {told}{origin}".rstrip() + "\n")
+        text = f"not usable: {entry.problem}" if entry.problem else entry.description
+        sys.stdout.write(f"{entry.name:{width}}  {text}{origin}".rstrip() + "\n")

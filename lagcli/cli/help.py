@@ -42,17 +42,17 @@ def help(  # noqa: A001 - the command's name
       lagcli help -o lagcli.1
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.choices import MANUAL_FORMATS
-    from lagcli.cli.delivering import has_place, place
     from lagcli.cli.endings import MANUAL, format_of
-    from lagcli.cli.reading import open_in_browser
-    from lagcli.cli.running import is_known
+    from lagcli.cli.error_output import report_line
+    from lagcli.cli.manual_page import open_in_browser
+    from lagcli.cli.motion_commands import is_known
+    from lagcli.cli.output import has_place, place
     from lagcli.cli.status import Status
-    from lagcli.cli.telling import tell_line
     from lagcli.manual import find_page
 
     page = None if topic is None else find_page(topic)
     if topic is not None and page is None:
-        tell_line(_unknown(topic))
+        report_line(_unknown(topic))
         return Status.USAGE
     if format_name is not None and not is_known("--format", format_name, MANUAL_FORMATS):
         return Status.USAGE
@@ -67,7 +67,7 @@ def help(  # noqa: A001 - the command's name
 
 
 def _shown(page: Page | None, format_name: str) -> str:
-    from lagcli.cli.reading import contents, rendered
+    from lagcli.cli.manual_page import contents, rendered
 
     if format_name == "man":
         from lagcli.cli.man_page import man_page

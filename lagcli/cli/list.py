@@ -23,8 +23,8 @@ def list(words: Words = None) -> int:  # noqa: A001 - the command's name
       lagcli list
       lagcli list pendulum rod
     """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.error_output import report_line
     from lagcli.cli.status import Status
-    from lagcli.cli.telling import tell_line
     from lagcli.library import entries
 
     wanted = [word.casefold() for word in words or ()]
@@ -35,7 +35,7 @@ def list(words: Words = None) -> int:  # noqa: A001 - the command's name
         if all(word in f"{name} {title}".casefold() for word in wanted)
     ]
     if not found:
-        tell_line(f"no problem of the library has: {' '.join(words or ())}")
+        report_line(f"no problem of the library has: {' '.join(words or ())}")
         return Status.NOT_FOUND
     width = max(len(name) for name, _ in found)
     for name, title in found:

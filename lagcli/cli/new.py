@@ -31,6 +31,6 @@ def new(name: Name, template_name: Template = "pendulum") -> int:
       lagcli new swing
       lagcli new cart --template constrained
     """  # noqa: D301 - click reads the control character \b
-    from lagcli.cli.beginning import write_problem
+    from lagcli.cli.new_problem import write_problem
 
     return write_problem(name, template_name)

@@ -10,12 +10,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import KINDS, PICTURES
-from lagcli.cli.delivering import has_place, place
+from lagcli.cli.error_output import report, report_line, report_refusal
+from lagcli.cli.motion_commands import is_known, shared, understood
+from lagcli.cli.output import has_place, place
 from lagcli.cli.printing import PIPE_WIDTH
-from lagcli.cli.running import is_known, shared, understood
 from lagcli.cli.simulating import SimulateOptions, asked_of
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell, tell_line, tell_refusal
 from lagcli.record import record, replace
 
 if TYPE_CHECKING:
@@ -76,16 +76,16 @@ def drawn(problem: Problem, work: Callable[[], tuple[bytes, str]], output: Path 
     try:
         data, refusal = work()
     except Refusal as mistake:
-        return tell_refusal(problem.source, mistake)
+        return report_refusal(problem.source, mistake)
     except ProblemError as mistakes:
-        tell(mistakes.source, mistakes.diagnostics)
+        report(mistakes.source, mistakes.diagnostics)
     except CannotDraw as reason:
-        tell_line(f"{problem.source.name}: error: {reason}")
+        report_line(f"{problem.source.name}: error: {reason}")
     else:
         if not place(data, output):
             return Status.USAGE
         if refusal:
-            tell_line(f"{problem.source.name}: {refusal}")
+            report_line(f"{problem.source.name}: {refusal}")
         return Status.NOT_FOUND if refusal else Status.WELL
     return Status.USAGE
 
@@ -138,7 +138,7 @@ def ending(path: Path) -> str:
 
 
 def is_drawn_as(output: Path | None, endings: tuple[str, ...], option: str = "-o") -> bool:
-    """Whether the ending of a file is one of these, and there is what writes it; told if not."""
+    """Whether the ending is one of these, and what writes it is installed; reported if not."""
     if output is None:
         return True
     kind = ending(output)
@@ -146,10 +146,12 @@ def is_drawn_as(output: Path | None, endings: tuple[str, ...], option: str = "-o
         first = output.with_suffix(f".{endings[0]}")
         known = ", ".join(f".{each}" for each in endings)
         what = f"'.{kind}' is not one of" if kind else "the ending says the form, one of"
-        tell_line(f"lagcli: error: {option} {output}: {what} {known}: for example {option} {first}")
+        report_line(
+            f"lagcli: error: {option} {output}: {what} {known}: for example {option} {first}"
+        )
         return False
     if kind != "html" and find_spec("matplotlib") is None:
-        tell_line(
+        report_line(
             f"lagcli: error: {option} {output} needs the package matplotlib: "
             "pip install 'lagcli[plot]'"
         )

@@ -1,4 +1,4 @@
-"""Where the result goes, in which form, and what was said beside it."""
+"""Where the result goes, and in which form."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Printing(NamedTuple):
 
     @property
     def columns(self) -> int:
-        """As asked for; else those of the terminal, or 80."""
+        """As requested; else those of the terminal, or 80."""
         if self.width:
             return self.width
         if self.output is not None or not sys.stdout.isatty():
@@ -53,7 +53,7 @@ class Printing(NamedTuple):
         return sys.stdout.encoding or "utf-8"
 
     def options(self, *, several: bool, below: tuple[str, ...] = ()) -> Options:
-        """What the formatter is told of the place where its text will stand."""
+        """What the formatter knows of the page around its text."""
         from lagcli.cli.latex_options import latex_options
         from lagcli.formatters import Options
 
@@ -93,7 +93,7 @@ def printing_of(
 
         demand_options(latex, form)
     if motion:
-        from lagcli.cli.moving import demand_pictures
+        from lagcli.cli.motion_on_page import demand_pictures
 
         demand_pictures(form)
     whole = standalone or pdf or (form == "html" and output is not None)

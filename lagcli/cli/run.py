@@ -42,7 +42,7 @@ def leave(status: int) -> NoReturn:
 
 
 def run(arguments: Sequence[str]) -> int:
-    """The exit status of a command line; whatever goes wrong is told on standard error."""
+    """The exit status of a command line; whatever goes wrong is reported on standard error."""
     if sys.stdout is None:
         sys.stderr.write("standard output: error: it is closed\n")
         return Status.USAGE

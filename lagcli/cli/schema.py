@@ -31,9 +31,9 @@ def schema(what: What = "problem", output: Output = None) -> int:
     import json
 
     from lagcli.cli.choices import SCHEMAS
-    from lagcli.cli.delivering import has_place, place
     from lagcli.cli.endings import JSON, format_of
-    from lagcli.cli.running import is_known
+    from lagcli.cli.motion_commands import is_known
+    from lagcli.cli.output import has_place, place
     from lagcli.cli.status import Status
     from lagcli.formatters.schema import answers_schema
     from lagcli.reader.schema import problem_schema

@@ -22,14 +22,14 @@ def show(name: Name) -> int:
       lagcli show kepler
       lagcli show kepler > mine.yaml
     """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.error_output import report_line
     from lagcli.cli.files import print_result, reason
     from lagcli.cli.status import Status
-    from lagcli.cli.telling import tell_line
     from lagcli.library import NotInLibrary, find_problem
 
     try:
         print_result(find_problem(name).read_bytes())
     except NotInLibrary as error:
-        tell_line(f"{name}: error: {reason(error)}")
+        report_line(f"{name}: error: {reason(error)}")
         return Status.USAGE
     return Status.WELL

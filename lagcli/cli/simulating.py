@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import BINARY, TABLES
-from lagcli.cli.delivering import has_place, place
 from lagcli.cli.endings import TABLES as ENDINGS
-from lagcli.cli.running import is_known, option_reader, shared, understood
+from lagcli.cli.error_output import report_line, report_refusal
+from lagcli.cli.motion_commands import is_known, option_reader, shared, understood
+from lagcli.cli.output import has_place, place
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell_line, tell_refusal
 from lagcli.record import record
 from lagcli.studies.run_options import RunOptions
 
@@ -61,7 +61,7 @@ def _simulate_into(folder: Path, files: Sequence[str], wish: SimulateOptions) ->
     ending = next(ending for ending, name in ENDINGS.items() if name == wish.format_name)
     targets = [folder / f"{Path(file).stem}{ending}" for file in files]
     if len(set(targets)) < len(targets):
-        tell_line(f"lagcli: error: -o {folder}: two of the files have the same name")
+        report_line(f"lagcli: error: -o {folder}: two of the files have the same name")
         return Status.USAGE
     runs = zip(files, targets, strict=True)
     return max(_simulate_one(replace(wish, file=file, output=target)) for file, target in runs)
@@ -70,7 +70,7 @@ def _simulate_into(folder: Path, files: Sequence[str], wish: SimulateOptions) ->
 def _simulate_together(files: Sequence[str], wish: SimulateOptions) -> Status:
     """One text: tables under their titles, or a JSON array."""
     if wish.format_name not in ("table", "json"):
-        tell_line(
+        report_line(
             f"lagcli: error: several files in the format {wish.format_name} need a folder: "
             "-o FOLDER, which exists"
         )
@@ -102,9 +102,9 @@ def _run(problem: Problem, asked: Asked, wish: SimulateOptions) -> tuple[bytes |
         made = _proved if wish.rigorous or wish.shadow else _integrated
         data, why = made(problem, asked, wish)
     except Refusal as refusal:
-        return None, tell_refusal(problem.source, refusal)
+        return None, report_refusal(problem.source, refusal)
     if why:
-        tell_line(f"{problem.source.name}: {why}")
+        report_line(f"{problem.source.name}: {why}")
     return data, Status.NOT_FOUND if why else Status.WELL
 
 
@@ -132,21 +132,23 @@ def can_be_written(wish: SimulateOptions) -> bool:
     """Whether there is what writes the format, and a place that takes bytes."""
     proof = "--shadow" if wish.shadow else "--rigorous" if wish.rigorous else ""
     if proof and wish.format_name not in ("table", "json", "csv"):
-        tell_line(
+        report_line(
             f"lagcli: error: {proof} has no format {wish.format_name}: take table, json or csv"
         )
         return False
     if proof and wish.beyond:
-        tell_line(f"lagcli: error: {proof} prints what is proved: leave out --beyond")
+        report_line(f"lagcli: error: {proof} prints what is proved: leave out --beyond")
         return False
     if wish.format_name == "parquet" and not _is_installed("pyarrow"):
-        tell_line(
+        report_line(
             "lagcli: error: --format parquet needs the package pyarrow: "
             "pip install 'lagcli[parquet]', or take --format npz, which needs nothing"
         )
         return False
     if wish.format_name in BINARY and wish.output is None and sys.stdout.isatty():
-        tell_line(f"lagcli: error: --format {wish.format_name} is not for a terminal: give -o PATH")
+        report_line(
+            f"lagcli: error: --format {wish.format_name} is not for a terminal: give -o PATH"
+        )
         return False
     return True
 

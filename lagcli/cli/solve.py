@@ -84,9 +84,9 @@ def solve(
       lagcli solve hoop --show accelerations,multipliers -f latex
       lagcli solve hoop --set R=1/2 --set "alpha=pi/6" -f json -o hoop.json
     """  # noqa: D301 - click reads the control character \b
+    from lagcli.cli.cached_answers import CommandOptions, solve_or_repeat
     from lagcli.cli.endings import PAGES, format_of
     from lagcli.cli.printing import printing_of
-    from lagcli.cli.repeating import CommandOptions, solve_or_repeat
 
     form = format_of(format_name, output, PAGES, "text")
     printing = printing_of(

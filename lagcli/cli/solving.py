@@ -6,12 +6,12 @@ from collections.abc import Sequence
 from functools import cache
 from typing import NamedTuple
 
-from lagcli.cli.asking import AskedSections
+from lagcli.cli.command_work import CommandWork, Result
+from lagcli.cli.error_output import report, report_line
 from lagcli.cli.files import reason
 from lagcli.cli.printing import Printing
+from lagcli.cli.section_options import SectionOptions
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell, tell_line
-from lagcli.cli.working import CommandWork, Result
 from lagcli.diagnostics import ProblemError
 from lagcli.formatters.registry import built_in
 from lagcli.pipeline import Request, derive, read
@@ -25,7 +25,7 @@ Input = tuple[str, bytes | OSError]
 
 
 class SolvingOutcome(NamedTuple):
-    """What is to be printed (None: nothing), and what has been told beside it.
+    """What is to be printed (None: nothing), and what has been reported on standard error.
 
     `repeatable` says that the same files and options would give the same again: nothing
     was missing on the disk, and no answer was left out that more time might have found.
@@ -56,7 +56,7 @@ class Tally:
 
 def solve_files(
     inputs: Sequence[Input],
-    asked: AskedSections,
+    wanted: SectionOptions,
     printing: Printing,
     work: CommandWork[Result],
     *,
@@ -64,21 +64,21 @@ def solve_files(
 ) -> SolvingOutcome:
     """Answer every file that can be read, and format the answers together."""
     tally = Tally()
-    problems = [_read(name, data, asked.request, tally) for name, data in inputs]
+    problems = [_read(name, data, wanted.request, tally) for name, data in inputs]
     text = None
     if not only_read and any(problems):
         answered = [
             (problem, answer)
             for (name, _), problem in zip(inputs, problems, strict=True)
             if problem is not None
-            if (answer := _answer(name, problem, asked.request, work, tally)) is not None
+            if (answer := _answer(name, problem, wanted.request, work, tally)) is not None
         ]
         if answered:
             below = [_motion(problem, tally) for problem, _ in answered if printing.motion]
             options = printing.options(several=len(inputs) > 1, below=tuple(below))
             text = work.render([answer for _, answer in answered], printing.format_name, options)
     lasting = not (tally.missing or tally.unreadable or only_read)
-    plain = all(map(is_built_in, asked.request.sections or ()))
+    plain = all(map(is_built_in, wanted.request.sections or ()))
     repeatable = lasting and plain and printing.format_name in built_in()
     return SolvingOutcome(tally.status, text, tuple(tally.said), repeatable)
 
@@ -95,27 +95,27 @@ def _start_algebra(*, needed: bool) -> None:
 
 def _read(name: str, data: bytes | OSError, request: Request, tally: Tally) -> Problem | None:
     if isinstance(data, OSError):
-        tell_line(f"{name}: error: {reason(data)}")
+        report_line(f"{name}: error: {reason(data)}")
         tally.wrong = tally.unreadable = True
         return None
     found = read(name, data, request)
-    tally.said.append(tell(found.source, found.diagnostics))
+    tally.said.append(report(found.source, found.diagnostics))
     tally.wrong = tally.wrong or found.problem is None
     if found.problem is not None and found.problem.initial and found.problem.constraints:
         from lagcli.values import off_constraints
 
-        tally.said.append(tell(found.source, off_constraints(found.problem)))
+        tally.said.append(report(found.source, off_constraints(found.problem)))
     return found.problem
 
 
 def _motion(problem: Problem, tally: Tally) -> str:
     """The motion as HTML; why there is none, or less, is a remark."""
-    from lagcli.cli.moving import motion_below
+    from lagcli.cli.motion_on_page import motion_below
 
     text, why = motion_below(problem)
     if why:
         remark = f"{problem.source.name}: no motion: {why}" if not text else why
-        tell_line(remark)
+        report_line(remark)
         tally.said.append(remark)
     return text
 
@@ -128,10 +128,10 @@ def _answer(
         _start_algebra(needed=derivation.gives_hamiltonian or derivation.large_form is None)
         answers = work.make(derivation, request)
     except ProblemError as error:
-        tally.said.append(tell(error.source, error.diagnostics))
+        tally.said.append(report(error.source, error.diagnostics))
         tally.wrong = True
     except Exception as error:  # noqa: BLE001 - one file's failure is not the others'
-        tell_line(f"{name}: error: {describe(error)}")
+        report_line(f"{name}: error: {describe(error)}")
         tally.missing = True
     else:
         tally.missing = tally.missing or not answers.complete

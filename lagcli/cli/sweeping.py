@@ -6,12 +6,12 @@ from hashlib import sha256
 
 from lagcli.cli.checking import cores
 from lagcli.cli.choices import PICTURES, TABLES
-from lagcli.cli.delivering import has_place, place
+from lagcli.cli.error_output import report_line
+from lagcli.cli.motion_commands import counted, is_known, understood
+from lagcli.cli.output import has_place, place
 from lagcli.cli.plotting import is_drawn_as
-from lagcli.cli.running import counted, is_known, understood
 from lagcli.cli.simulating import SimulateOptions, asked_of, can_be_written
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell_line
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.problem_data import Problem
 from lagcli.record import record, replace
@@ -45,7 +45,7 @@ def sweep_file(wish: SweepOptions) -> Status:
     wish = replace(wish, along=wish.along or bool(asked.times))
     with Journal(wish.output, _digest(wish, problem, asked, plan)) as journal:
         if journal.done:
-            tell_line(f"{wish.output}: going on after {len(journal.done)} finished parts")
+            report_line(f"{wish.output}: going on after {len(journal.done)} finished parts")
         try:
             with counted("sweeping") as progress:
                 table = sweep(
@@ -53,7 +53,7 @@ def sweep_file(wish: SweepOptions) -> Status:
                     scheduler=wish.scheduler, progress=progress,
                 )  # fmt: skip
         except NoCluster as reason:
-            tell_line(f"lagcli: error: {reason}")
+            report_line(f"lagcli: error: {reason}")
             return _without_cluster(wish, journal)
         data = _written(table, problem, asked, plan, wish)
         if data is None or not place(data, wish.output):
@@ -61,7 +61,7 @@ def sweep_file(wish: SweepOptions) -> Status:
         journal.remove()
     if not table.complete:
         missed = sum(row[table.columns.index("reached")] != 1.0 for row in table.rows)
-        tell_line(f"{wish.file}: {missed} of {len(table.rows)} rows do not reach the accuracy")
+        report_line(f"{wish.file}: {missed} of {len(table.rows)} rows do not reach the accuracy")
         return Status.NOT_FOUND
     return Status.WELL
 
@@ -70,7 +70,7 @@ def _can_be_written(wish: SweepOptions) -> bool:
     if wish.format_name not in PICTURES:
         return can_be_written(wish)
     if wish.output is None:
-        tell_line(f"lagcli: error: a picture goes to a file: -o sweep.{wish.format_name}")
+        report_line(f"lagcli: error: a picture goes to a file: -o sweep.{wish.format_name}")
         return False
     return is_drawn_as(wish.output, PICTURES)
 
@@ -97,7 +97,7 @@ def _written(
     try:
         return to_bytes(ensemble(problem, motions), wish.format_name)
     except CannotDraw as reason:
-        tell_line(f"{wish.file}: error: {reason}")
+        report_line(f"{wish.file}: error: {reason}")
         return None
 
 
@@ -107,7 +107,7 @@ def _without_cluster(wish: SweepOptions, journal: Journal) -> Status:
         journal.remove()
         return Status.USAGE
     if wish.output is not None:
-        tell_line(f"{wish.output}: give the same command again to go on where this one ended")
+        report_line(f"{wish.output}: give the same command again to go on where this one ended")
     return Status.NOT_FOUND
 
 
@@ -117,7 +117,7 @@ def _options(problem: Problem, wish: SweepOptions) -> tuple[Asked, Plan] | None:
         given = times_of(wish.at_times) if wish.at_times else ()
     except WrongPlan as error:
         for line in error.lines:
-            tell_line(f"lagcli: error: {line}")
+            report_line(f"lagcli: error: {line}")
         return None
     asked = asked_of(problem, wish, without_end=given[-1] if given else None)
     return None if asked is None else (at_times(asked, given), plan)

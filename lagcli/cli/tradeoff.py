@@ -76,7 +76,7 @@ def tradeoff(
       lagcli tradeoff kepler --methods taylor64 --plot kepler.svg -o kepler.csv
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import STUDIES, format_of
-    from lagcli.cli.weighing import TradeoffOptions, weigh_file
+    from lagcli.cli.tradeoff_run import TradeoffOptions, weigh_file
 
     form = format_of(format_name, output, STUDIES, "text")
     return weigh_file(gathered(TradeoffOptions, locals(), format_name=form))

@@ -10,8 +10,8 @@ from typing import NoReturn
 
 import click
 
+from lagcli.cli.error_output import report_line
 from lagcli.cli.files import STANDARD
-from lagcli.cli.telling import tell_line
 
 #: Seconds between two looks: shorter than an editor takes to save and an eye to move.
 _PAUSE = 0.2
@@ -48,7 +48,7 @@ def watch(files: Sequence[str], answer: Callable[[], int]) -> NoReturn:
         sys.stdout.flush()
         changed = _wait(files, seen)
         if not sys.stdout.isatty():
-            tell_line(f"{', '.join(changed)}: changed")
+            report_line(f"{', '.join(changed)}: changed")
 
 
 def _wait(files: Sequence[str], seen: Look) -> list[str]:

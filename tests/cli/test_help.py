@@ -10,7 +10,7 @@ from urllib.parse import unquote, urlsplit
 import pytest
 from rich.cells import cell_len
 
-from lagcli.cli.reading import rendered
+from lagcli.cli.manual_page import rendered
 from lagcli.cli.run import run
 from lagcli.manual import pages
 

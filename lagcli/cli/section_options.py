@@ -1,4 +1,4 @@
-"""What was asked for on the command line, with all of its mistakes at once."""
+"""The options of `solve` and `explain` that pick and change sections, with all mistakes at once."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ Known = Callable[[Iterable[str] | None], list[Declaration]]
 
 
 @record
-class AskedSections:
+class SectionOptions:
     """A request, and sentences on whatever is wrong with it."""
 
     request: Request
     mistakes: tuple[str, ...]
 
 
-def asked(
+def read_section_options(
     show: Sequence[str],
     settings: Sequence[str],
     *,
@@ -31,7 +31,7 @@ def asked(
     mistakes: list[str],
     option: str = "--show",
     known: Known = in_order,
-) -> AskedSections:
+) -> SectionOptions:
     """Read the options; a mistake in one hides none in another, nor those already found."""
     sections = _sections(show, mistakes, option, known)
     request = Request(
@@ -41,7 +41,7 @@ def asked(
         expand=expand,
         abbreviate=not expand,
     )
-    return AskedSections(request, tuple(mistakes))
+    return SectionOptions(request, tuple(mistakes))
 
 
 def _sections(

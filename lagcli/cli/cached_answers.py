@@ -1,4 +1,4 @@
-"""A run that was made before is printed again; any other is made, and kept."""
+"""The answer of an earlier run is printed again; any other is derived, and kept."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
-from lagcli.cli.delivering import deliver, has_place
+from lagcli.cli.error_output import report_line, report_text
 from lagcli.cli.files import read_input
+from lagcli.cli.output import deliver, has_place
 from lagcli.cli.printing import Printing
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell_line, tell_text
 from lagcli.platform.cache import Cache, KeptAnswer, folder, key
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class CommandOptions(NamedTuple):
-    """What was asked of the files, in the words of the command line."""
+    """The options of `solve` or `explain` that change the answer."""
 
     show: tuple[str, ...]
     settings: tuple[str, ...]
@@ -82,14 +82,14 @@ def _key(inputs: Sequence[Input], options: CommandOptions, printing: Printing) -
             printing.latex, printing.motion]  # fmt: skip
     try:
         return key({"options": options, "form": form}, contents)
-    except (OSError, ImportError, ValueError):  # a program that cannot be told from others
+    except (OSError, ImportError, ValueError):  # a program without a recognisable version
         return None
 
 
 def _repeated(entry: KeptAnswer, inputs: Sequence[Input], printing: Printing) -> Status:
     possible = has_place(printing.output, *(name for name, _ in inputs))
     for text in entry.said:
-        tell_text(text)
+        report_text(text)
     if not possible:
         return Status.USAGE
     return _ended(Status(entry.status), entry.text, printing)
@@ -98,14 +98,14 @@ def _repeated(entry: KeptAnswer, inputs: Sequence[Input], printing: Printing) ->
 def _solved(
     inputs: Sequence[Input], options: CommandOptions, printing: Printing
 ) -> tuple[Status, SolvingOutcome]:
-    from lagcli.cli.asking import asked
+    from lagcli.cli.command_work import WORKS
+    from lagcli.cli.section_options import read_section_options
     from lagcli.cli.solving import solve_files
-    from lagcli.cli.working import WORKS
     from lagcli.platform.stack import with_deep_stack
 
     work = WORKS[options.command]
     mistakes = work.mistakes(printing.format_name)
-    request = asked(
+    request = read_section_options(
         options.show,
         options.settings,
         numeric=options.numeric,
@@ -115,7 +115,7 @@ def _solved(
         known=work.sections,
     )
     for mistake in request.mistakes:
-        tell_line(f"lagcli: error: {mistake}")
+        report_line(f"lagcli: error: {mistake}")
     possible = has_place(printing.output, *(name for name, _ in inputs)) and not request.mistakes
     outcome = with_deep_stack(
         lambda: solve_files(inputs, request, printing, work, only_read=not possible)

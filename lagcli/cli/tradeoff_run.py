@@ -7,11 +7,11 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import COSTS, PICTURES, STUDIES
-from lagcli.cli.delivering import has_place, place
+from lagcli.cli.error_output import report_line, report_refusal
+from lagcli.cli.motion_commands import StudyOptions, counted, is_known, option_reader, understood
+from lagcli.cli.output import has_place, place
 from lagcli.cli.plotting import ending, is_drawn_as
-from lagcli.cli.running import StudyOptions, counted, is_known, option_reader, understood
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell_line, tell_refusal
 from lagcli.problem_data import METHODS
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
@@ -86,30 +86,30 @@ def _study(
                 cost=wish.cost,
                 repeat=wish.repeat,
                 progress=progress,
-                teller=_teller(),
+                teller=_row_printer(),
             )
     except Refusal as refusal:
-        return tell_refusal(problem.source, refusal)
+        return report_refusal(problem.source, refusal)
     if not _written(made, wish):
         return Status.USAGE
     return Status.NOT_FOUND if made.broken else Status.WELL
 
 
-def _teller() -> Teller:
+def _row_printer() -> Teller:
     """Tells the runs that are made while others go on, once that has taken a while."""
     from lagcli.studies.tradeoff.writing import line_of
 
     waiting: list[str] = []
     begun = monotonic()
 
-    def tell_made(point: RunPoint) -> None:
+    def show_run(point: RunPoint) -> None:
         waiting.append(line_of(point))
         if monotonic() - begun > _PATIENCE:
             for line in waiting:
-                tell_line(line)
+                report_line(line)
             waiting.clear()
 
-    return tell_made
+    return show_run
 
 
 def _written(made: Study, wish: TradeoffOptions) -> bool:
@@ -126,7 +126,7 @@ def _written(made: Study, wish: TradeoffOptions) -> bool:
         try:
             parts.insert(0, (wish.plot, to_bytes(picture_of(made), ending(wish.plot))))
         except CannotDraw as error:
-            tell_line(f"{wish.plot}: warning: nothing to draw: {error}")
+            report_line(f"{wish.plot}: warning: nothing to draw: {error}")
     return all(place(data, path) for path, data in parts)
 
 
@@ -142,5 +142,5 @@ def _methods(text: str | None) -> tuple[str, ...] | None:
     wrong = [word for word in asked if word not in every]
     for word in wrong:
         advice = did_you_mean(word, every) or f"there are {', '.join(every)}"
-        tell_line(f"lagcli: error: --methods: unknown name '{word}': {advice}")
+        report_line(f"lagcli: error: --methods: unknown name '{word}': {advice}")
     return None if wrong else tuple(asked)

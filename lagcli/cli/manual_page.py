@@ -36,7 +36,7 @@ def open_in_browser(page: Page | None) -> int:
     import webbrowser
     from pathlib import Path
 
-    from lagcli.cli.telling import tell_line
+    from lagcli.cli.error_output import report_line
     from lagcli.manual import pages
 
     folder = Path(tempfile.mkdtemp(prefix="lagcli-manual-"))
@@ -48,7 +48,7 @@ def open_in_browser(page: Page | None) -> int:
     (folder / "index.html").write_text(rendered(text, "html", "lagcli"), "utf-8")
     shown = folder / ("index.html" if page is None else f"{page.name}.html")
     if not webbrowser.open(shown.as_uri()):
-        tell_line(f"no web browser was found; the page is {shown}")
+        report_line(f"no web browser was found; the page is {shown}")
         return Status.NOT_FOUND
     return Status.WELL
 

@@ -13,33 +13,33 @@ if TYPE_CHECKING:
     from lagcli.numerics.equations.refusal import Refusal
 
 
-def tell(source: Source, diagnostics: Sequence[Diagnostic]) -> str:
+def report(source: Source, diagnostics: Sequence[Diagnostic]) -> str:
     """Show the mistakes (and warnings) of one file, and give the text that was shown."""
     if not diagnostics:
         return ""
     from lagcli.diagnostics import render
 
     text = render(source, diagnostics)
-    tell_text(text)
+    report_text(text)
     return text
 
 
-def tell_refusal(source: Source, refusal: Refusal) -> Status:
+def report_refusal(source: Source, refusal: Refusal) -> Status:
     """Show why there is no motion, and give the exit status."""
-    tell(source, refusal.diagnostics)
+    report(source, refusal.diagnostics)
     return Status.USAGE if refusal.mistake else Status.NOT_FOUND
 
 
-def tell_text(text: str) -> None:
+def report_text(text: str) -> None:
     """Show diagnostics that are a text already."""
     if sys.stderr.isatty():
-        _tell_in_colour(text)
+        _report_in_colour(text)
     else:
         sys.stderr.write(text if text.endswith("\n") else text + "\n")
     sys.stderr.flush()
 
 
-def tell_line(line: str) -> None:
+def report_line(line: str) -> None:
     """Show one sentence that has no place in a file."""
     from lagcli.diagnostics import printable
 
@@ -47,7 +47,7 @@ def tell_line(line: str) -> None:
     sys.stderr.flush()
 
 
-def _tell_in_colour(text: str) -> None:
+def _report_in_colour(text: str) -> None:
     """The same characters; rich knows what this terminal can do, and NO_COLOR."""
     from rich.console import Console
     from rich.text import Text

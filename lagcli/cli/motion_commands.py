@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, TypeVar
 
+from lagcli.cli.error_output import report, report_line
 from lagcli.cli.files import read_input, reason
-from lagcli.cli.telling import tell, tell_line
 from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem_data import Problem
@@ -27,9 +27,9 @@ def problem_of(file: str, request: Request | None = None) -> Problem | None:
     try:
         found = read(file, read_input(file), request or Request())
     except OSError as error:
-        tell_line(f"{file}: error: {reason(error)}")
+        report_line(f"{file}: error: {reason(error)}")
         return None
-    tell(found.source, found.diagnostics)
+    report(found.source, found.diagnostics)
     return found.problem
 
 
@@ -65,17 +65,17 @@ class StudyOptions:
 def understood(
     wish: OfFile, options: Callable[[Problem], Options | None]
 ) -> tuple[Problem, Options] | None:
-    """The file's problem with its Lagrangian, and the options; None once all mistakes are told.
+    """The file's problem with its Lagrangian, and the options; None once all mistakes are reported.
 
     Where a setting is wrong, the options are read beside the values of the file.
     """
     try:
         data = read_input(wish.file)
     except OSError as error:
-        tell_line(f"{wish.file}: error: {reason(error)}")
+        report_line(f"{wish.file}: error: {reason(error)}")
         return None
     found = read(wish.file, data, Request(settings=wish.settings, state=wish.state))
-    tell(found.source, found.diagnostics)
+    report(found.source, found.diagnostics)
     problem = found.problem
     if problem is None:
         plain = read(wish.file, data).problem
@@ -85,7 +85,7 @@ def understood(
     try:
         problem = with_lagrangian(problem)
     except ProblemError as error:
-        tell(error.source, error.diagnostics)
+        report(error.source, error.diagnostics)
         return None
     wanted = options(problem)
     return None if wanted is None else (problem, wanted)
@@ -95,10 +95,10 @@ def option_reader(problem: Problem) -> OptionReader:
     """What reads the options of a run and prints every mistake."""
     from lagcli.studies.run_options import COMMAND_LINE, OptionReader
 
-    def told(error: ProblemError) -> None:
-        tell(error.source, error.diagnostics)
+    def rejected(error: ProblemError) -> None:
+        report(error.source, error.diagnostics)
 
-    return OptionReader(problem, COMMAND_LINE, told)
+    return OptionReader(problem, COMMAND_LINE, rejected)
 
 
 def is_known(option: str, name: str, names: tuple[str, ...]) -> bool:
@@ -106,7 +106,7 @@ def is_known(option: str, name: str, names: tuple[str, ...]) -> bool:
     if name in names:
         return True
     advice = did_you_mean(name, names) or f"there are {', '.join(names)}"
-    tell_line(f"lagcli: error: {option}: unknown name '{name}': {advice}")
+    report_line(f"lagcli: error: {option}: unknown name '{name}': {advice}")
     return False
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lagcli.cli.choices import STUDIES
-from lagcli.cli.delivering import has_place, place
-from lagcli.cli.running import StudyOptions, counted, is_known, option_reader, understood
+from lagcli.cli.error_output import report_line, report_refusal
+from lagcli.cli.motion_commands import StudyOptions, counted, is_known, option_reader, understood
+from lagcli.cli.output import has_place, place
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell_line, tell_refusal
 from lagcli.record import record
 
 if TYPE_CHECKING:
@@ -43,17 +43,17 @@ def _study(problem: Problem, wanted: Wanted, wish: ExtremesOptions) -> Status:
             made = study(problem, wanted, words, progress)
     except NoSuchCase as error:
         advice = did_you_mean(error.word, error.known) or f"there are {', '.join(error.known)}"
-        tell_line(f"lagcli: error: --cases: no case '{error.word}': {advice}")
+        report_line(f"lagcli: error: --cases: no case '{error.word}': {advice}")
         return Status.USAGE
     except Refusal as refusal:
-        return tell_refusal(problem.source, refusal)
+        return report_refusal(problem.source, refusal)
     if not place(WRITERS[wish.format_name](made).encode(), wish.output):
         return Status.USAGE
     return Status.NOT_FOUND if made.bad else Status.WELL
 
 
 def _wanted(problem: Problem, wish: ExtremesOptions) -> Wanted | None:
-    """What each case is asked; None where an option is no number, which is told."""
+    """What each case measures; None where an option is not a number, which is reported."""
     from lagcli.studies.extremes.trial import Wanted
 
     options = option_reader(problem)

@@ -7,36 +7,36 @@ from pathlib import Path
 from stat import S_ISDIR
 from typing import TYPE_CHECKING
 
+from lagcli.cli.error_output import report_line
 from lagcli.cli.files import is_same_file, print_result, reason, write_output
-from lagcli.cli.telling import tell_line
 
 if TYPE_CHECKING:
     from lagcli.cli.printing import Printing
 
 
 def has_place(output: Path | None, *inputs: str) -> bool:
-    """Whether there is a place for what comes out; asked before any work is done.
+    """Whether there is a place for what comes out; checked before any work is done.
 
     A file that is read is none, by whatever name or link.
     """
     if output is None:
         return True
     if any(is_same_file(output, name) for name in inputs):
-        tell_line(f"{output}: error: is the problem itself, which would be lost")
+        report_line(f"{output}: error: is the problem itself, which would be lost")
         return False
     try:
         found = output.stat()
     except FileNotFoundError:
         pass
     except OSError as error:  # links in a circle, a name too long
-        tell_line(f"{output}: error: {reason(error)}")
+        report_line(f"{output}: error: {reason(error)}")
         return False
     else:
         if S_ISDIR(found.st_mode):
-            tell_line(f"{output}: error: is a directory")
+            report_line(f"{output}: error: is a directory")
             return False
     if not Path(realpath(output)).parent.is_dir():
-        tell_line(f"{output}: error: there is no directory '{output.parent}'")
+        report_line(f"{output}: error: there is no directory '{output.parent}'")
         return False
     return True
 
@@ -50,7 +50,7 @@ def deliver(text: str, printing: Printing) -> bool:
     try:
         return place(to_pdf(text), printing.output)
     except LatexError as error:
-        tell_line(f"lagcli: error: {error}")
+        report_line(f"lagcli: error: {error}")
         return False
 
 
@@ -62,6 +62,6 @@ def place(data: bytes, output: Path | None) -> bool:
     try:
         write_output(output, data)
     except OSError as error:
-        tell_line(f"{output}: error: {reason(error)}")
+        report_line(f"{output}: error: {reason(error)}")
         return False
     return True

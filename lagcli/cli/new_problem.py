@@ -6,10 +6,10 @@ import sys
 from pathlib import Path
 from shlex import quote
 
+from lagcli.cli.error_output import report_line
 from lagcli.cli.files import reason
-from lagcli.cli.running import is_known
+from lagcli.cli.motion_commands import is_known
 from lagcli.cli.status import Status
-from lagcli.cli.telling import tell_line
 from lagcli.templates import TEMPLATES, template
 
 
@@ -19,7 +19,7 @@ def write_problem(name: str, template_name: str) -> Status:
         return Status.USAGE
     path = Path(name if name.endswith((".yaml", ".yml")) else f"{name}.yaml")
     if path.stem in {"", ".yaml", ".yml"}:
-        tell_line(f"lagcli: error: '{name}' is not a name: for example lagcli new swing")
+        report_line(f"lagcli: error: '{name}' is not a name: for example lagcli new swing")
         return Status.USAGE
     title = path.stem.replace("-", " ").replace("_", " ").strip().capitalize() or "Problem"
     text = template(template_name).replace("{title}", _quoted(title))
@@ -27,7 +27,7 @@ def write_problem(name: str, template_name: str) -> Status:
         with path.open("x", encoding="utf-8") as file:
             file.write(text)
     except OSError as error:
-        tell_line(f"{path}: error: {reason(error)}")
+        report_line(f"{path}: error: {reason(error)}")
         return Status.USAGE
     typed = quote(str(path))
     steps = "".join(f"  lagcli {command} {typed}\n" for command in ("solve", "explain", "plot"))
