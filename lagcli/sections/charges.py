@@ -1,4 +1,4 @@
-"""Noether's charge of each symmetry, given or evident, and the rate of what is not conserved."""
+"""Noether's charge of each symmetry, given or evident, and its rate where it is not conserved."""
 
 from __future__ import annotations
 
