@@ -119,7 +119,8 @@ def common_multiple(equation: Expr, x: Symbol) -> int:
     """n where x occurs in sines and cosines of whole multiples of n x only; else 1."""
     if not turns([equation], x):
         return 1
-    return gcd(*(int(f.args[0].diff(x)) for f in equation.atoms(*CIRCULAR))) or 1
+    slopes = {f.args[0].diff(x) for f in equation.atoms(*CIRCULAR)}  # not whole of sin(c sin(x))
+    return gcd(*(int(slope) for slope in slopes if slope.is_Integer)) or 1
 
 
 def without_phases(equation: Expr, phases: Mapping[Symbol, Expr]) -> Expr:

@@ -248,3 +248,16 @@ def test_roots_of_a_polynomial_in_one_wave_of_a_phase(seed):
     for u in changes:
         step = math.pi / 500
         assert any(abs(_turned(each - u - step / 2)) < step for each in places), (equation, u)
+
+
+def test_a_sine_within_a_sine_has_the_period_of_the_inner_one():
+    """Two pendulums and a torsion spring: theta_2 = theta_1 + m g l sin(theta_1)/k in a sine."""
+    text = """
+coordinates: [theta_1, theta_2]
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE, k: POSITIVE}
+T: m*l^2*(theta_1'^2 + theta_2'^2)/2
+V: -m*g*l*(cos(theta_1) + cos(theta_2)) + k*(theta_1 - theta_2)^2/2
+"""
+    rest = RestPoints(derive(text.replace("POSITIVE", "{assume: positive}")).dynamics)
+    assert rest.points is not None
+    assert {0} in [set(point.values.values()) for point in rest.points]
