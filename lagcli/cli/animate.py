@@ -4,17 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from lagcli.cli.options import Output, State, gathered, samples_option
+from lagcli.cli.options import Output, State, flag, gathered, option
 from lagcli.cli.plot import Dark
 from lagcli.cli.simulate import Accuracy, File, Method, Project, Set, StopWhen, Until
 
-Samples = Annotated[int, samples_option("Frames of the page.", 20_000)]
-Forces = Annotated[
-    bool,
-    typer.Option("--forces", help="Show forces, also of constraints, as arrows."),
-]
+Samples = Annotated[int, option("--samples", "N", "Frames of the page.", min=2, max=20_000)]
+Forces = Annotated[bool, flag("--forces", "Show forces, also of constraints, as arrows.")]
 
 
 def animate(

@@ -6,9 +6,9 @@ import os
 import sys
 from typing import Annotated
 
-import typer
+from lagcli.cli.options import flag
 
-Clear = Annotated[bool, typer.Option("--clear", help="Remove every answer that is kept.")]
+Clear = Annotated[bool, flag("--clear", "Remove every answer that is kept.")]
 
 
 def cache(clear: Clear = False) -> None:

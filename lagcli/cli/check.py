@@ -4,30 +4,23 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from lagcli.cli.choices import complete_problem, complete_report
-from lagcli.cli.options import Jobs, format_option
+from lagcli.cli.choices import REPORTS, problems
+from lagcli.cli.options import Jobs, argument, option
 
 Paths = Annotated[
     list[str],
-    typer.Argument(
-        metavar="PATH...",
-        help="Problems, folders with problems, names of the library; - is stdin.",
-        autocompletion=complete_problem,
+    argument(
+        "PATH...", "Problems, folders with problems, names of the library; - is stdin.", problems
     ),
 ]
-Format = Annotated[str, format_option("text, json, junit, github or sarif.", complete_report)]
-Timeout = Annotated[
-    float, typer.Option("--timeout", metavar="SECONDS", min=0.01, help="For each problem.")
+Format = Annotated[
+    str, option("--format -f", "NAME", "text, json, junit, github or sarif.", REPORTS)
 ]
+Timeout = Annotated[float, option("--timeout", "SECONDS", "For each problem.", min=0.01)]
 
 
 Shard = Annotated[
-    str | None,
-    typer.Option(
-        "--shard", metavar="I/N", help="Only every N-th problem from the I-th: for N machines."
-    ),
+    str | None, option("--shard", "I/N", "Only every N-th problem from the I-th: for N machines.")
 ]
 
 

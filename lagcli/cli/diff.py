@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
+from lagcli.cli.options import argument
 
-Old = Annotated[str, typer.Argument(metavar="OLD", help="A problem, or its name in the library.")]
-New = Annotated[str, typer.Argument(metavar="NEW", help="Another one.")]
+Old = Annotated[str, argument("OLD", "A problem, or its name in the library.")]
+New = Annotated[str, argument("NEW", "Another one.")]
 
 
 def diff(old: Old, new: New) -> int:

@@ -4,22 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from lagcli.cli.choices import complete_page_format, complete_section
-from lagcli.cli.options import BY_ENDING, Latex, Output, WithMotion, format_option
+from lagcli.cli.choices import page_formats, sections
+from lagcli.cli.options import BY_ENDING, Latex, Output, WithMotion, option
 from lagcli.cli.solve import Files, NoCache, Set, Standalone, Width
 
 _FORMATS = "text, latex, markdown, html, json or pdf." + BY_ENDING.format("text")
-Format = Annotated[str | None, format_option(_FORMATS, complete_page_format)]
+Format = Annotated[str | None, option("--format -f", "NAME", _FORMATS, page_formats)]
 Also = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--also",
-        metavar="A,B",
-        help="Print these steps as well: {told}.",
-        autocompletion=complete_section,
-    ),
+    list[str] | None, option("--also", "A,B", "Print these steps as well: {told}.", sections)
 ]
 
 

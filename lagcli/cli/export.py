@@ -6,18 +6,18 @@ from typing import Annotated
 
 import typer
 
-from lagcli.cli.choices import complete_language
-from lagcli.cli.options import Output
+from lagcli.cli.choices import LANGUAGES
+from lagcli.cli.options import Output, option
 from lagcli.cli.simulate import File, Set
 
 To = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--to",
-        metavar="LANGUAGE",
-        help="python, c, julia, fortran, matlab, modelica, sympy or mathematica.  "
+        "LANGUAGE",
+        "python, c, julia, fortran, matlab, modelica, sympy or mathematica.  "
         "[default: by the ending of -o]",
-        autocompletion=complete_language,
+        LANGUAGES,
     ),
 ]
 

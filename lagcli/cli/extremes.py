@@ -4,29 +4,27 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from lagcli.cli.options import Output, State, StudyFormat, gathered, limit_option
+from lagcli.cli.options import Output, State, StudyFormat, gathered, option
 from lagcli.cli.simulate import Accuracy, File, Set
 
 Until = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--until",
-        metavar="T",
-        help="The longest span of a run.  [default: the file's; short where it moves quickly]",
+        "T",
+        "The longest span of a run.  [default: the file's; short where it moves quickly]",
     ),
 ]
 Cases = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--cases",
-        metavar="A,B,C",
-        help="Only these: given, ratios, angles, singular, separatrix, light, zero, spans, or "
+        "A,B,C",
+        "Only these: given, ratios, angles, singular, separatrix, light, zero, spans, or "
         "names with * for anything.  [default: all]",
     ),
 ]
-Limit = Annotated[float, limit_option("one case")]
+Limit = Annotated[float, option("--limit", "SECONDS", "Processor time of one case.", min=0.1)]
 
 
 def extremes(

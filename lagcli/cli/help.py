@@ -5,22 +5,17 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
-from lagcli.cli.choices import complete_manual_format, complete_topic
-from lagcli.cli.options import Output, format_option
+from lagcli.cli.choices import MANUAL_FORMATS, topics
+from lagcli.cli.options import Output, argument, flag, option
 
 if TYPE_CHECKING:
     from lagcli.manual import Page
 
-Topic = Annotated[
-    str | None,
-    typer.Argument(metavar="[TOPIC]", help="A topic.", autocompletion=complete_topic),
-]
+Topic = Annotated[str | None, argument("[TOPIC]", "A topic.", topics)]
 _FORMATS = "text, markdown, html, or man for a man page of every command."
 _USUAL = "  [default: text on a terminal, else markdown]"
-Format = Annotated[str | None, format_option(_FORMATS + _USUAL, complete_manual_format)]
-Open = Annotated[bool, typer.Option("--open", help="Show the page in a web browser.")]
+Format = Annotated[str | None, option("--format -f", "NAME", _FORMATS + _USUAL, MANUAL_FORMATS)]
+Open = Annotated[bool, flag("--open", "Show the page in a web browser.")]
 
 
 def help(  # noqa: A001 - the command's name

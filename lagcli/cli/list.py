@@ -5,12 +5,9 @@ from __future__ import annotations
 import sys
 from typing import Annotated
 
-import typer
+from lagcli.cli.options import argument
 
-Words = Annotated[
-    list[str] | None,
-    typer.Argument(metavar="[WORD...]", help="Only problems with these words."),
-]
+Words = Annotated[list[str] | None, argument("[WORD...]", "Only problems with these words.")]
 
 
 def list(words: Words = None) -> int:  # noqa: A001 - the command's name

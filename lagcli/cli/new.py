@@ -4,19 +4,17 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
+from lagcli.cli.choices import templates
+from lagcli.cli.options import argument, option
 
-from lagcli.cli.choices import complete_template
-
-Name = Annotated[str, typer.Argument(metavar="NAME", help="Name of the file, without .yaml.")]
+Name = Annotated[str, argument("NAME", "Name of the file, without .yaml.")]
 Template = Annotated[
     str,
-    typer.Option(
-        "--template",
-        "-t",
-        metavar="NAME",
-        help="pendulum, constrained, rolling, symmetry, driven or contact.",
-        autocompletion=complete_template,
+    option(
+        "--template -t",
+        "NAME",
+        "pendulum, constrained, rolling, symmetry, driven or contact.",
+        templates,
     ),
 ]
 

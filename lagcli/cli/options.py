@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
 import typer
 
-from lagcli.cli.choices import complete_study
+from lagcli.cli.choices import STUDIES
 from lagcli.cli.files import STANDARD
 
 Wish = TypeVar("Wish")
+
+#: Words that the shell completes, or what looks them up.
+Names = tuple[str, ...] | Callable[[], Iterable[str]]
 
 
 def _to_file(output: Path | None) -> Path | None:
@@ -27,50 +30,57 @@ def gathered(options: type[Wish], given: Mapping[str, Any], **others: Any) -> Wi
     return options(**values | lists | others)
 
 
-def format_option(names: str, complete: Callable[[str], list[str]]) -> Any:
-    """`--format`, one of these names."""
-    return typer.Option("--format", "-f", metavar="NAME", help=names, autocompletion=complete)
+def argument(metavar: str, text: str, names: Names = ()) -> Any:
+    """What is given without a name, one of these."""
+    return typer.Argument(metavar=metavar, help=text, autocompletion=_completion(names))
 
 
-def samples_option(what: str, most: int = 1_000_000) -> Any:
-    """`--samples`, the number of these."""
-    return typer.Option("--samples", metavar="N", min=2, max=most, help=what)
+def flag(name: str, text: str) -> Any:
+    """What is set or not."""
+    return typer.Option(name, help=text)
 
 
-def limit_option(of_what: str) -> Any:
-    """`--limit`, the processor time of one part of a study."""
-    return typer.Option("--limit", metavar="SECONDS", min=0.1, help=f"Processor time of {of_what}.")
+def option(option_names: str, metavar: str, text: str, names: Names = (), **more: Any) -> Any:
+    """What takes a value, one of these names, or several with commas."""
+    completion = _completion(names, listed="," in metavar)
+    return typer.Option(
+        *option_names.split(), metavar=metavar, help=text, autocompletion=completion, **more
+    )
+
+
+def _completion(names: Names, *, listed: bool = False) -> Callable[[str], list[str]] | None:
+    """What the shell asks: the names that begin so; `listed`: the last word of `a,b,c`."""
+
+    def complete(incomplete: str) -> list[str]:
+        before, comma, word = incomplete.rpartition(",") if listed else ("", "", incomplete)
+        known = names() if callable(names) else names
+        return [before + comma + name for name in known if name.startswith(word)]
+
+    return complete if names else None
 
 
 #: The end of the help of an option `--format` whose file says it as well.
 BY_ENDING = "  [default: by the ending of -o, else {}]"
-Jobs = Annotated[
-    int | None,
-    typer.Option("--jobs", "-j", metavar="N", min=1, help="Processes.  [default: one per core]"),
-]
+Jobs = Annotated[int | None, option("--jobs -j", "N", "Processes.  [default: one per core]", min=1)]
 Output = Annotated[
-    Path | None,
-    typer.Option(
-        "--output", "-o", metavar="PATH", help="Write to a file instead.", callback=_to_file
-    ),
+    Path | None, option("--output -o", "PATH", "Write to a file instead.", callback=_to_file)
 ]
 State = Annotated[
-    list[str] | None,
-    typer.Option("--at", metavar="X=VALUE", help='Begin elsewhere or faster: --at "x\'=1".'),
+    list[str] | None, option("--at", "X=VALUE", 'Begin elsewhere or faster: --at "x\'=1".')
 ]
 Latex = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--latex",
-        metavar="A,B",
-        help="Of LaTeX and PDF: labels or labels=PREFIX, equation (instead of align), varphi, "
+        "A,B",
+        "Of LaTeX and PDF: labels or labels=PREFIX, equation (instead of align), varphi, "
         "varepsilon, vartheta, varrho, varpi, varsigma.",
     ),
 ]
 WithMotion = Annotated[
-    bool,
-    typer.Option("--with-motion", help="Of HTML: plot and animation, where the file has an end."),
+    bool, flag("--with-motion", "Of HTML: plot and animation, where the file has an end.")
 ]
 StudyFormat = Annotated[
-    str | None, format_option("text, json or csv." + BY_ENDING.format("text"), complete_study)
+    str | None,
+    option("--format -f", "NAME", "text, json or csv." + BY_ENDING.format("text"), STUDIES),
 ]

@@ -4,43 +4,35 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from lagcli.cli.choices import complete_kind
-from lagcli.cli.options import Output, State, gathered, samples_option
+from lagcli.cli.choices import KINDS
+from lagcli.cli.options import Output, State, flag, gathered, option
 from lagcli.cli.simulate import Accuracy, File, Method, Project, Set, Show, StopWhen, Until
 
 Kind = Annotated[
     str | None,
-    typer.Option(
-        "--kind",
-        "-k",
-        metavar="NAME",
-        help="series, phase, path, potential, poincare, drift, error.  [default: series; "
+    option(
+        "--kind -k",
+        "NAME",
+        "series, phase, path, potential, poincare, drift, error.  [default: series; "
         "phase without an end]",
-        autocompletion=complete_kind,
+        KINDS,
     ),
 ]
-Samples = Annotated[int, samples_option("Points of a curve.")]
-Dark = Annotated[bool, typer.Option("--dark", help="Light lines on a dark page.")]
+Samples = Annotated[int, option("--samples", "N", "Points of a curve.", min=2, max=1_000_000)]
+Dark = Annotated[bool, flag("--dark", "Light lines on a dark page.")]
 Section = Annotated[
     str | None,
-    typer.Option(
+    option(
         "--section",
-        metavar="X=VALUE",
-        help="Of poincare: where it is passed upwards, or t=T.  [default: the first "
-        "coordinate = 0]",
+        "X=VALUE",
+        "Of poincare: where it is passed upwards, or t=T.  [default: the first coordinate = 0]",
     ),
 ]
-Orbits = Annotated[
-    int,
-    typer.Option("--orbits", metavar="N", min=1, max=200, help="Of poincare: motions."),
-]
+Orbits = Annotated[int, option("--orbits", "N", "Of poincare: motions.", min=1, max=200)]
 Width = Annotated[
-    int | None,
-    typer.Option("--width", metavar="COLUMNS", min=40, max=400, help="Of a picture in characters."),
+    int | None, option("--width", "COLUMNS", "Of a picture in characters.", min=40, max=400)
 ]
-Ascii = Annotated[bool, typer.Option("--ascii", help="Draw with letters, not with Braille.")]
+Ascii = Annotated[bool, flag("--ascii", "Draw with letters, not with Braille.")]
 
 
 def plot(

@@ -4,15 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
+from lagcli.cli.choices import SCHEMAS
+from lagcli.cli.options import Output, argument
 
-from lagcli.cli.choices import complete_schema
-from lagcli.cli.options import Output
-
-What = Annotated[
-    str,
-    typer.Argument(metavar="[WHAT]", help="problem or answers.", autocompletion=complete_schema),
-]
+What = Annotated[str, argument("[WHAT]", "problem or answers.", SCHEMAS)]
 
 
 def schema(what: What = "problem", output: Output = None) -> int:

@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
+from lagcli.cli.choices import problems
+from lagcli.cli.options import argument
 
-from lagcli.cli.choices import complete_problem
-
-Name = Annotated[
-    str,
-    typer.Argument(metavar="NAME", help="See: lagcli list.", autocompletion=complete_problem),
-]
+Name = Annotated[str, argument("NAME", "See: lagcli list.", problems)]
 
 
 def show(name: Name) -> int:

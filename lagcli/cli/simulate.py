@@ -4,99 +4,55 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from lagcli.cli.choices import complete_column, complete_method, complete_problem, complete_table
-from lagcli.cli.options import BY_ENDING, Output, State, format_option, gathered, samples_option
+from lagcli.cli.choices import COLUMNS, TABLES, methods, problems
+from lagcli.cli.options import BY_ENDING, Output, State, argument, flag, gathered, option
 
 File = Annotated[
-    str,
-    typer.Argument(
-        metavar="FILE",
-        help="A problem, or its name in the library; - is stdin.",
-        autocompletion=complete_problem,
-    ),
+    str, argument("FILE", "A problem, or its name in the library; - is stdin.", problems)
 ]
 Files = Annotated[
-    list[str],
-    typer.Argument(
-        metavar="FILE...",
-        help="Problems, or their names in the library; - is stdin.",
-        autocompletion=complete_problem,
-    ),
+    list[str], argument("FILE...", "Problems, or their names in the library; - is stdin.", problems)
 ]
-Until = Annotated[
-    str | None, typer.Option("--until", metavar="T", help="The end, also 2*pi.  [default: file's]")
-]
+Until = Annotated[str | None, option("--until", "T", "The end, also 2*pi.  [default: file's]")]
 Accuracy = Annotated[
-    str | None,
-    typer.Option(
-        "--accuracy",
-        metavar="A",
-        help="Bound on all errors.  [default: file's, or 1e-9]",
-    ),
+    str | None, option("--accuracy", "A", "Bound on all errors.  [default: file's, or 1e-9]")
 ]
-Samples = Annotated[int, samples_option("Rows.")]
-Set = Annotated[
-    list[str] | None,
-    typer.Option("--set", metavar="NAME=VALUE", help="Give a parameter a value."),
-]
+Samples = Annotated[int, option("--samples", "N", "Rows.", min=2, max=1_000_000)]
+Set = Annotated[list[str] | None, option("--set", "NAME=VALUE", "Give a parameter a value.")]
 Show = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--show",
-        metavar="A,B,C",
-        help="Columns: any expression, energy, p_x, rod.x (a force), or all coordinates, "
+        "A,B,C",
+        "Columns: any expression, energy, p_x, rod.x (a force), or all coordinates, "
         "velocities, accelerations, multipliers, constraint_forces, momenta, charges.",
-        autocompletion=complete_column,
+        COLUMNS,
     ),
 ]
 Format = Annotated[
     str | None,
-    format_option("table, json, csv, npz or parquet." + BY_ENDING.format("table"), complete_table),
+    option(
+        "--format -f",
+        "NAME",
+        "table, json, csv, npz or parquet." + BY_ENDING.format("table"),
+        TABLES,
+    ),
 ]
-Project = Annotated[
-    bool, typer.Option("--project", help="Start from the nearest state on the constraints.")
-]
+Project = Annotated[bool, flag("--project", "Start from the nearest state on the constraints.")]
 Precision = Annotated[
-    int | None,
-    typer.Option(
-        "--precision", metavar="DIGITS", min=20, max=1000, help="Go beyond doubles where needed."
-    ),
+    int | None, option("--precision", "DIGITS", "Go beyond doubles where needed.", min=20, max=1000)
 ]
-Method = Annotated[
-    str,
-    typer.Option(
-        "--method",
-        metavar="NAME",
-        help="See `lagcli help simulate`.",
-        autocompletion=complete_method,
-    ),
-]
+Method = Annotated[str, option("--method", "NAME", "See `lagcli help simulate`.", methods)]
 StopWhen = Annotated[
-    str | None,
-    typer.Option("--stop-when", metavar="EXPRESSION", help="Stop where it changes its sign."),
+    str | None, option("--stop-when", "EXPRESSION", "Stop where it changes its sign.")
 ]
-WholeModel = Annotated[
-    bool,
-    typer.Option(
-        "--whole-model",
-        help="Integrate every coordinate of the file.",
-    ),
-]
+WholeModel = Annotated[bool, flag("--whole-model", "Integrate every coordinate of the file.")]
 
 Rigorous = Annotated[
-    bool,
-    typer.Option("--rigorous", help="Prove every digit by enclosures of the exact motion."),
+    bool, flag("--rigorous", "Prove every digit by enclosures of the exact motion.")
 ]
-Shadow = Annotated[
-    bool,
-    typer.Option("--shadow", help="Prove that a nearby motion stays at these rows."),
-]
-Beyond = Annotated[
-    bool,
-    typer.Option("--beyond", help="Print rows without a certificate as well, marked."),
-]
+Shadow = Annotated[bool, flag("--shadow", "Prove that a nearby motion stays at these rows.")]
+Beyond = Annotated[bool, flag("--beyond", "Print rows without a certificate as well, marked.")]
 
 
 def simulate(

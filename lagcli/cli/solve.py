@@ -4,57 +4,43 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from lagcli.cli.choices import complete_format, complete_problem, complete_section
-from lagcli.cli.options import BY_ENDING, Latex, Output, WithMotion, format_option
+from lagcli.cli.choices import formats, problems, sections
+from lagcli.cli.options import BY_ENDING, Latex, Output, WithMotion, argument, flag, option
 
 Files = Annotated[
     list[str],
-    typer.Argument(
-        metavar="FILE...",
-        help="Problems, folders with problems, names of the library; - is stdin.",
-        autocompletion=complete_problem,
+    argument(
+        "FILE...", "Problems, folders with problems, names of the library; - is stdin.", problems
     ),
 ]
 Format = Annotated[
-    str | None, format_option("See: lagcli formats." + BY_ENDING.format("text"), complete_format)
+    str | None,
+    option("--format -f", "NAME", "See: lagcli formats." + BY_ENDING.format("text"), formats),
 ]
 Show = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--show",
-        metavar="A,B,C",
-        help="Only these sections.  There are: {sections}.  "
-        "Without it: those that a first look needs.",
-        autocompletion=complete_section,
+        "A,B,C",
+        "Only these sections.  There are: {sections}.  Without it: those that a first look needs.",
+        sections,
     ),
 ]
 Set = Annotated[
     list[str] | None,
-    typer.Option(
-        "--set", metavar="NAME=VALUE", help="Put a value (also an expression) in for a parameter."
-    ),
+    option("--set", "NAME=VALUE", "Put a value (also an expression) in for a parameter."),
 ]
-Numeric = Annotated[
-    bool, typer.Option("--numeric", help="Put in the file's values and give decimal numbers.")
-]
-Expand = Annotated[
-    bool, typer.Option("--expand", help="Write out the abbreviations of long formulas.")
-]
+Numeric = Annotated[bool, flag("--numeric", "Put in the file's values and give decimal numbers.")]
+Expand = Annotated[bool, flag("--expand", "Write out the abbreviations of long formulas.")]
 Standalone = Annotated[
-    bool, typer.Option("--standalone", help="A whole LaTeX or HTML document, not a fragment.")
+    bool, flag("--standalone", "A whole LaTeX or HTML document, not a fragment.")
 ]
 Width = Annotated[
-    int | None,
-    typer.Option("--width", metavar="N", min=20, help="Columns.  [default: the terminal's, or 80]"),
+    int | None, option("--width", "N", "Columns.  [default: the terminal's, or 80]", min=20)
 ]
-Watch = Annotated[
-    bool, typer.Option("--watch", help="Answer again whenever a file changes, until Ctrl-C.")
-]
+Watch = Annotated[bool, flag("--watch", "Answer again whenever a file changes, until Ctrl-C.")]
 NoCache = Annotated[
-    bool,
-    typer.Option("--no-cache", help="Neither look up the answer nor keep it.  See: lagcli cache."),
+    bool, flag("--no-cache", "Neither look up the answer nor keep it.  See: lagcli cache.")
 ]
 
 

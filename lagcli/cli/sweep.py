@@ -4,42 +4,29 @@ from __future__ import annotations
 
 from typing import Annotated
 
-import typer
-
-from lagcli.cli.options import Jobs, Output, State, gathered, samples_option
+from lagcli.cli.options import Jobs, Output, State, flag, gathered, option
 from lagcli.cli.simulate import Accuracy, File, Format, Method, Set, Show, StopWhen, Until
 
 Vary = Annotated[
     list[str] | None,
-    typer.Option(
+    option(
         "--vary",
-        metavar="NAME=RANGE",
-        help="A parameter, coordinate or velocity: 0:3.14:200 (first, last, count), "
+        "NAME=RANGE",
+        "A parameter, coordinate or velocity: 0:3.14:200 (first, last, count), "
         "1e-3:1:50:log, or 1,2,4.  Several make all combinations.",
     ),
 ]
 Random = Annotated[
-    int | None,
-    typer.Option("--random", metavar="N", min=1, help="N draws between FIRST:LAST instead."),
+    int | None, option("--random", "N", "N draws between FIRST:LAST instead.", min=1)
 ]
-Seed = Annotated[int, typer.Option("--seed", metavar="N", help="Of the draws.")]
-Samples = Annotated[int, samples_option("With --along: rows.")]
-Along = Annotated[bool, typer.Option("--along", help="Every row of each motion, not its end.")]
+Seed = Annotated[int, option("--seed", "N", "Of the draws.")]
+Samples = Annotated[int, option("--samples", "N", "With --along: rows.", min=2, max=1_000_000)]
+Along = Annotated[bool, flag("--along", "Every row of each motion, not its end.")]
 Times = Annotated[
-    str | None,
-    typer.Option(
-        "--times",
-        metavar="T,T",
-        help="Rows at these times: 100:250:25, or 1,2,5.",
-    ),
+    str | None, option("--times", "T,T", "Rows at these times: 100:250:25, or 1,2,5.")
 ]
 Scheduler = Annotated[
-    str | None,
-    typer.Option(
-        "--scheduler",
-        metavar="ADDRESS",
-        help="A Dask cluster: tcp://host:8786.",
-    ),
+    str | None, option("--scheduler", "ADDRESS", "A Dask cluster: tcp://host:8786.")
 ]
 
 

@@ -5,44 +5,42 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
-import typer
-
-from lagcli.cli.choices import complete_cost, complete_methods
-from lagcli.cli.options import Output, State, StudyFormat, gathered, limit_option, samples_option
+from lagcli.cli.choices import COSTS, methods
+from lagcli.cli.options import Output, State, StudyFormat, gathered, option
 from lagcli.cli.simulate import File, Project, Set, Until
 
-Samples = Annotated[int, samples_option("Times at which errors are taken.")]
+Samples = Annotated[
+    int, option("--samples", "N", "Times at which errors are taken.", min=2, max=1_000_000)
+]
 Plot = Annotated[
     Path | None,
-    typer.Option(
-        "--plot",
-        metavar="FILE.svg",
-        help="Draw cost against error, a line for each method, as SVG, PDF or PNG.",
+    option(
+        "--plot", "FILE.svg", "Draw cost against error, a line for each method, as SVG, PDF or PNG."
     ),
 ]
 Methods = Annotated[
     str | None,
-    typer.Option(
-        "--methods",
-        metavar="A,B,C",
-        help="Only these.  [default: all]",
-        autocompletion=complete_methods,
-    ),
+    option("--methods", "A,B,C", "Only these.  [default: all]", lambda: [*methods()][1:]),
 ]
 CostOption = Annotated[
     str,
-    typer.Option(
+    option(
         "--cost",
-        metavar="NAME",
-        help="What the front and the plot weigh: total, integration or evaluations.",
-        autocompletion=complete_cost,
+        "NAME",
+        "What the front and the plot weigh: total, integration or evaluations.",
+        COSTS,
     ),
 ]
-Repeat = Annotated[
-    int,
-    typer.Option("--repeat", metavar="N", min=1, help="Make each run N times; the best counts."),
+Repeat = Annotated[int, option("--repeat", "N", "Make each run N times; the best counts.", min=1)]
+Limit = Annotated[
+    float,
+    option(
+        "--limit",
+        "SECONDS",
+        "Processor time of one run; all together take 20 times as much.",
+        min=0.1,
+    ),
 ]
-Limit = Annotated[float, limit_option("one run; all together take 20 times as much")]
 
 
 def tradeoff(
