@@ -2,13 +2,22 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from lagcli.cli.choices import LANGUAGES
+from lagcli.cli.error_output import report, report_line
+from lagcli.cli.motion_commands import is_known, problem_of
 from lagcli.cli.options import Output, option
+from lagcli.cli.output import has_place, place
 from lagcli.cli.simulate import File, Set
+from lagcli.cli.status import Status
+from lagcli.diagnostics import ProblemError
+from lagcli.pipeline import Request, derive, state
+from lagcli.platform.stack import with_deep_stack
+from lagcli.problem_data import Problem
 
 To = Annotated[
     str | None,
@@ -35,7 +44,6 @@ def export(file: File, to: To = None, output: Output = None, settings: Set = Non
       lagcli export kepler --to julia
     """  # noqa: D301 - click reads the control character \b
     from lagcli.cli.endings import format_of
-    from lagcli.cli.exporting import export_file
     from lagcli.export import LANGUAGES
 
     # of the two that write .py, the first
@@ -43,4 +51,33 @@ def export(file: File, to: To = None, output: Output = None, settings: Set = Non
     language = format_of(to, output, endings, "", "--to")
     if not language:
         raise typer.BadParameter(f"give one of {', '.join(LANGUAGES)}", param_hint="--to")
-    return export_file(file, language, output, tuple(settings or ()))
+    if not is_known("--to", language, tuple(LANGUAGES)) & has_place(output, file):
+        return Status.USAGE
+    problem = problem_of(file, Request(settings=tuple(settings or ())))
+    if problem is None:
+        return Status.USAGE
+    return with_deep_stack(lambda: _export(problem, file, language, output))
+
+
+def _export(problem: Problem, name: str, language: str, output: Path | None) -> Status:
+    from lagcli.export import NoCode, code_of, render
+    from lagcli.export.routines import SECTIONS
+
+    try:
+        derivation = derive(problem)
+        answers = state(derivation, Request(sections=SECTIONS))
+        module = output.stem if output else Path(name).stem
+        code = code_of(derivation.problem, answers, module if name != "-" else "problem")
+        text = render(code, language)
+    except ProblemError as error:
+        report(error.source, error.diagnostics)
+        return Status.USAGE
+    except NoCode as error:
+        report_line(f"{name}: {error}")
+        return Status.NOT_FOUND
+    if not place(text.encode(), output):
+        return Status.USAGE
+    if code.missing:
+        report_line(f"{name}: only the matrices were written: {code.missing}")
+        return Status.NOT_FOUND
+    return Status.WELL
