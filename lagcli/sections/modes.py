@@ -18,7 +18,7 @@ from lagcli.record import replace
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, ModesOfFrequency, ModesSection
 from lagcli.statements.declaration import Declaration, Told, step
-from lagcli.statements.plus_minus import is_pair, pairs
+from lagcli.statements.plus_minus import is_pair, modes_in_pairs, pairs
 from lagcli.statements.wording import state_blocks
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
         on = modes[0].on
         place = "equilibrium" if on is None and not is_pair(at) else "equilibria"
         yield from state_blocks(at, f"Angular frequencies and shapes about the {place} ", on)
-        for mode in modes:
+        for mode in modes_in_pairs(modes):
             if rows := tuple(_mode(mode)):
                 yield Equations(rows)
             else:

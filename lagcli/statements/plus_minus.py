@@ -21,6 +21,7 @@ from lagcli.expression import (
 from lagcli.notation.likeness import signed_key
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt
+from lagcli.statements.answers import ModesOfFrequency
 
 Rest = TypeVar("Rest")
 State = Mapping[str, Expression]
@@ -68,6 +69,33 @@ def is_pair(at: State) -> bool:
 
 def _has_both(node: Expression) -> bool:
     return any(isinstance(part, PlusMinus) for part in walk(node))
+
+
+def modes_in_pairs(modes: Iterable[ModesOfFrequency]) -> list[ModesOfFrequency]:
+    """The modes about one equilibrium, two that differ in the sign of a root as one with ±."""
+    found: list[ModesOfFrequency] = []
+    for mode in modes:
+        for place, other in enumerate(found):
+            if (both := _one_mode(other, mode)) is not None:
+                found[place] = both
+                break
+        else:
+            found.append(mode)
+    return found
+
+
+def _one_mode(one: ModesOfFrequency, other: ModesOfFrequency) -> ModesOfFrequency | None:
+    root = "frequency_squared" if one.frequency is None else "frequency"
+    like = {name: getattr(one, name) for name in ("frequency", "frequency_squared", "shape")}
+    roots, shapes = (getattr(one, root), getattr(other, root)), (one.shape or {}, other.shape or {})
+    if replace(other, **like) != one or None in roots or list(shapes[0]) != list(shapes[1]):
+        return None
+    formulas = ((value, *shape.values()) for value, shape in zip(roots, shapes, strict=True))
+    both = joined(*formulas)
+    if both is None:
+        return None
+    shape = one.shape and dict(zip(one.shape, both[1:], strict=True))
+    return replace(one, **{root: both[0]}, shape=shape)
 
 
 def joined(one: Sequence[Expression], other: Sequence[Expression]) -> list[Expression] | None:

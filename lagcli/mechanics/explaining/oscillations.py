@@ -16,6 +16,7 @@ from lagcli.mechanics.conditions import above
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
+from lagcli.statements.plus_minus import modes_in_pairs
 from lagcli.statements.wording import linear_equations, place_rows
 
 if TYPE_CHECKING:
@@ -93,7 +94,7 @@ def _undamped(teller: Teller, modes: Sequence[ModesOfFrequency], place: Place) -
         return
     yield says("An oscillation with the angular frequency ", omega,
                " needs the determinant of ", form, " to vanish. The roots are")  # fmt: skip
-    for mode in modes:
+    for mode in modes_in_pairs(modes):
         yield from _mode(mode, omega, place)
 
 
