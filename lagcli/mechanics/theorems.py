@@ -42,6 +42,7 @@ _BY_NAME = {theorem.name: theorem for theorem in THEOREMS}
 LAGRANGE_DIRICHLET = _BY_NAME["Lagrange and Dirichlet"]
 ROUTH = _BY_NAME["Routh"]
 KELVIN_TAIT_CHETAEV = _BY_NAME["Kelvin, Tait and Chetaev"]
+LASALLE = _BY_NAME["LaSalle"]
 KOZLOV = _BY_NAME["Kozlov"]
 HURWITZ = _BY_NAME["Hurwitz"]
 LYAPUNOV_MALKIN = _BY_NAME["Lyapunov and Malkin"]

@@ -89,7 +89,7 @@ def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
 def _without_rows(mode: ModesOfFrequency) -> str:
     """What is said of frequencies that are no formulas."""
     if mode.damped:
-        return "Damped: exponents s of exp(s t) take the place of frequencies (lagcli explain)."
+        return "Exponents s of exp(s t) take the place of frequencies (lagcli explain)."
     if mode.negative:
         return "No other root ω² is real: the amplitudes of some displacements grow."
     count = (

@@ -66,3 +66,42 @@ def test_a_sign_that_is_open_is_the_condition():
     told = verdict_of("(x^4 + y^4)/4 + c*x^2*y^2/2")
     [stable], [reversed_] = told.minimum or (), told.unstable
     assert (stable.left, stable.right) == (reversed_.right, reversed_.left)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_quadratic_direction_of_open_sign_decides(seed):
+    """V = a x⁴ + b y⁶ + c z²/2, also with friction along x alone, which takes no stability."""
+    source = random.Random(seed)
+    a, b = source.randint(1, 5), source.randint(1, 5)
+    degree, friction = source.choice((4, 6)), source.choice(("0", "x'^2"))
+    text = (
+        "{coordinates: [x, y, z], parameters: {c: {}}, T: x'^2 + y'^2 + z'^2 + x'*z',"
+        f" V: {a}*x^4 + {b}*y^{degree} + c*z^2/2 + x^2*y*z, dissipation: {friction}}}"
+    )
+    found = equilibria(derive(text).dynamics).equilibria or ()
+    [told] = [e.verdict for e in found if {to_grammar(v) for v in e.at.values()} == {"0"}]
+    assert [(to_grammar(e.left), to_grammar(e.right)) for e in told.minimum or ()] == [("c", "0")]
+    assert told.stable is None
+    assert not told.asymptotic
+
+
+FRICTION = {
+    "forces: {x: -x'^3 - x'*y'^2, y: -y'^5 - x'^2*y'}": True,
+    "forces: {x: -abs(x')*x', y: -3*y'^3}": True,
+    "forces: {x: -sqrt(1 + x^2)*x'*(x'^2 + y'^2), y: -y'*(x'^2 + y'^2)}": True,
+    "forces: {x: -x'^3}": False,
+    "forces: {x: -x^2*x'^3, y: -y'^3}": False,
+    "forces: {x: -(x' - y')^3, y: (x' - y')^3}": False,
+}
+
+
+@pytest.mark.parametrize(("forces", "every"), FRICTION.items())
+def test_friction_beyond_first_order_takes_energy_out_of_every_motion(forces, every):
+    """Where it does, a minimum is approached (LaSalle), and what is none is left."""
+    told = verdict_of("2*x^2 + x*y + y^2 + x^4", f", {forces}")
+    assert told.stable
+    assert told.asymptotic is every
+    told = verdict_of("x^4 - y^4", f", {forces}")
+    assert told.stable is (False if every else None)
+    assert ("LaSalle" in told.reason) is every
+    assert "Kozlov" not in told.reason

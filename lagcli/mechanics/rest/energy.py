@@ -9,7 +9,7 @@ power of the rest, sum q_j' (F_j(q, q') - F_j(q, 0)), must be nowhere positive.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations
+from itertools import combinations, product
 
 from sympy import Abs, Add, Expr, Integer, S, Symbol
 from sympy import sign as sign_function
@@ -22,23 +22,52 @@ from lagcli.algebra.signs import sign
 from lagcli.mechanics.dynamics import Dynamics
 
 _MOST = 6
+_MOST_SIGNS = 3  # velocities: 26 directions
 
 
 def never_grows(dynamics: Dynamics) -> bool:
     """Whether this is proved of all forces, the dissipation and the constraints."""
+    lost = _lost(dynamics)
+    return lost is not None and _never_negative(*lost)
+
+
+def always_shrinks(dynamics: Dynamics) -> bool:
+    """Whether forces take energy out of every motion: their power is 0 at rest alone."""
+    loss, velocities = _lost(dynamics) or (S.Zero, ())
+    if loss == 0 or not velocities or len(velocities) > _MOST_SIGNS:
+        return False
+    sizes = {v: Symbol(f"#{v.name}", positive=True) for v in velocities}
+    directions = (d for d in product((0, 1, -1), repeat=len(sizes)) if any(d))
+    return all(
+        sign(
+            simplify(loss.xreplace({v: k * x for k, (v, x) in zip(d, sizes.items(), strict=True)}))
+        )
+        == 1
+        for d in directions
+    )
+
+
+def is_kept(dynamics: Dynamics) -> bool:
+    """Whether no power is taken out and none is fed in."""
+    lost = _lost(dynamics)
+    return lost is not None and is_zero(lost[0]) is True
+
+
+def _lost(dynamics: Dynamics) -> tuple[Expr, Sequence[Symbol]] | None:
+    """The power that forces take out, in independent velocities; None: h has no such rate."""
     system, constraints = dynamics.system, dynamics.constraints
     if any(is_zero(e.drift) is not True for e in constraints.equations):
-        return False
+        return None
     forces = [_near_rest(force, system.qdot) for force in system.applied_forces]
     if all(is_zero(force) is True for force in forces):
-        return True
+        return S.Zero, ()
     rows = constraints.jacobian
     along = nullspace(rows) if rows else _axes(len(forces))
     still = dict.fromkeys(system.qdot, S.Zero)
     at_rest = [force.xreplace(still) for force in forces]
-    return _have_potential(at_rest, system.q, along) and _never_negative(
-        *_loss(forces, at_rest, system.qdot, along)
-    )
+    if not _have_potential(at_rest, system.q, along):
+        return None
+    return _loss(forces, at_rest, system.qdot, along)
 
 
 def _near_rest(force: Expr, velocities: Sequence[Symbol]) -> Expr:

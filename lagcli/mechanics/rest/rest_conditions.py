@@ -110,6 +110,20 @@ class RestConditions:
         return self.growth == 1 and never_grows(self.dynamics)
 
     @cached_property
+    def energy_always_shrinks(self) -> bool:
+        """Whether forces take energy out of every motion near rest."""
+        from lagcli.mechanics.rest.energy import always_shrinks
+
+        return self.growth == 1 and always_shrinks(self.dynamics)
+
+    @cached_property
+    def energy_is_kept(self) -> bool:
+        """Whether forces take no energy out of any motion, and feed none."""
+        from lagcli.mechanics.rest.energy import is_kept
+
+        return self.growth == 1 and is_kept(self.dynamics)
+
+    @cached_property
     def forces_at_rest(self) -> tuple[Expr, ...]:
         """forcing(q, q' = 0)."""
         still = dict.fromkeys(self.system.qdot, S.Zero)

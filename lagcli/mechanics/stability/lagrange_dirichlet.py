@@ -35,6 +35,7 @@ from lagcli.mechanics.theorems import (
     HURWITZ,
     KELVIN_TAIT_CHETAEV,
     LAGRANGE_DIRICHLET,
+    LASALLE,
     ROUTH,
     Theorem,
 )
@@ -66,12 +67,12 @@ def by_minimum(near: Near) -> Stability | None:
         if not contradictory(left, near.positive):
             open_.append(left)
     if not open_:
-        return None
+        return by_lowest_form(near) if near.zeros > 2 * near.dimension_released else None
     shortest = min(open_, key=lambda left: sum(int(count_ops(e)) for e in left))
     derivatives = potential_derivatives(near.linear) if len(shortest) == 1 else []
     return Stability(
-        by=KELVIN_TAIT_CHETAEV if near.complete else LAGRANGE_DIRICHLET,
-        asymptotic=near.complete,
+        by=_theorem(near),
+        asymptotic=near.decays,
         minimum=shortest,
         reverses=near.potential_decides,
         across=near.dimension_released > 0,
@@ -101,11 +102,11 @@ def by_higher_order(near: Near) -> Stability | None:
         return by_lowest_form(near)
     derivatives = potential_derivatives(near.linear)
     found = by_derivatives(derivatives, near.hypotheses, near.positive) if derivatives else None
-    if found is not None and found.stable and near.complete:
+    if found is not None and found.stable and near.decays:
         damped = found.reason.replace(
             f" ({LAGRANGE_DIRICHLET.name})", ", and all motions are damped"
         )
-        return replace(_stable(damped, KELVIN_TAIT_CHETAEV), asymptotic=True)
+        return replace(_stable(damped, LASALLE), asymptotic=True)
     return None if found is None or found.is_open else found
 
 
@@ -148,7 +149,17 @@ def at_strict_minimum(near: Near) -> Stability:
     if near.linear.damped and near.zeros == 0 and by_roots(near).stable:
         reached = f"{_STRICT} there, and the damping reaches all motions"
         return replace(_stable(reached, HURWITZ), asymptotic=True)
+    if near.decays and not near.linear.nonholonomic:
+        falling = f"{_STRICT} there, and every motion loses energy"
+        return replace(_stable(falling, LASALLE), asymptotic=True)
     return _stable(f"{_STRICT} there")
+
+
+def _theorem(near: Near) -> Theorem:
+    """By which a strict minimum of V is stable, asymptotically where all motions are damped."""
+    if near.complete:
+        return KELVIN_TAIT_CHETAEV
+    return LASALLE if near.decays else LAGRANGE_DIRICHLET
 
 
 def _stable(why: str, by: Theorem = LAGRANGE_DIRICHLET) -> Stability:

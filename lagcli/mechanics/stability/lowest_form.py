@@ -6,8 +6,8 @@ minimum where no term weighs less: those that weigh more are small beside them.
 
 Where V takes negative values as near as one likes, it is unstable
 
-- with complete dissipation: of an analytic V all equilibria near it have its value 0, and motions
-  with less energy cannot end at one, nor stay (LaSalle's invariance);
+- where every motion loses energy: of an analytic V all equilibria near it have its value 0, and
+  motions with less energy cannot end at one, nor stay (LaSalle's invariance);
 - without dissipation and gyroscopic terms where the form of lowest degree takes negative values
   (Kozlov: a motion leaves it).
 
@@ -31,7 +31,7 @@ from lagcli.algebra.positivity import sign_of
 from lagcli.mechanics.stability.higher import HIGHEST, bent_there
 from lagcli.mechanics.stability.near import Near
 from lagcli.mechanics.stability.verdict import Stability, unstable
-from lagcli.mechanics.theorems import KELVIN_TAIT_CHETAEV, KOZLOV, LAGRANGE_DIRICHLET
+from lagcli.mechanics.theorems import KOZLOV, LAGRANGE_DIRICHLET, LASALLE
 
 _Terms = dict[tuple[int, ...], Expr]
 _LOWER = "{V} takes lower values as near to it as one likes"
@@ -41,7 +41,7 @@ _MINIMUM = "{V} has a strict minimum there by its terms of lowest degree"
 def by_lowest_form(near: Near) -> Stability | None:
     """Of several coordinates without constraints; None: not known."""
     terms = {} if near.hypotheses.lacking else _terms(near)
-    if not terms or (near.linear.damped and not near.complete):
+    if not terms:
         return None
     first = _first_powers(terms, len(near.linear.system.q))
     if first is None or min(_weight(e, first) for e in terms) < 1:
@@ -57,24 +57,29 @@ def by_lowest_form(near: Near) -> Stability | None:
     signs = near.signs(found)
     if not {-1, 0}.isdisjoint(signs):
         return _without_minimum(near, 0 not in signs, kozlov=of_one_degree)
-    by = KELVIN_TAIT_CHETAEV if near.complete else LAGRANGE_DIRICHLET
+    by = LASALLE if near.decays else LAGRANGE_DIRICHLET
     left = tuple(c for c, known in zip(found, signs, strict=True) if known is None)
-    damped = ", and all motions are damped" * near.complete
+    damped = ", and all motions are damped" * near.decays
     return Stability(
         stable=None if left else True,
-        reason="" if left else f"{_MINIMUM} ({by.name}){damped}",
+        reason="" if left else f"{_MINIMUM}{damped} ({by.name})",
         by=by,
-        asymptotic=near.complete,
+        asymptotic=near.decays,
         minimum=left,
-        reverses=near.complete or (of_one_degree and not near.linear.gyroscopic),
+        reverses=near.decays or (of_one_degree and _conservative(near)),
     )
 
 
 def _without_minimum(near: Near, negative: bool, *, kozlov: bool) -> Stability | None:
     """Unstable where V takes negative values, by LaSalle or (`kozlov`: of that form) by Kozlov."""
-    if not negative or not (near.complete or (kozlov and not near.linear.gyroscopic)):
+    if not negative or not (near.decays or (kozlov and _conservative(near))):
         return None
-    return unstable(_LOWER + ("" if near.complete else f" ({KOZLOV.name})"))
+    return unstable(f"{_LOWER} ({(LASALLE if near.decays else KOZLOV).name})")
+
+
+def _conservative(near: Near) -> bool:
+    """Kozlov's hypothesis: neither dissipation, also beyond first order, nor gyroscopic terms."""
+    return near.linear.rest.energy_is_kept and not near.linear.gyroscopic
 
 
 def _negative_somewhere(near: Near, form: _Terms) -> bool:

@@ -220,6 +220,12 @@ class Near:
         return linear.damped and positive_definite(linear.damping, self.positive)
 
     @cached_property
+    def decays(self) -> bool:
+        """Whether forces take energy out of every motion, to first order or beyond it (LaSalle)."""
+        linear = self.linear
+        return self.complete or (not linear.nonholonomic and linear.rest.energy_always_shrinks)
+
+    @cached_property
     def potential_decides(self) -> bool:
         """Whether it is unstable where K has a negative eigenvalue: see `lyapunov`."""
         symmetric = self.linear.has_potential and self.restoring is self.linear
