@@ -135,8 +135,9 @@ class EnergyFunction:
 
     def _from_term(self, term: Expr) -> Expr:
         """sum v dA/dv - A of a term A of L, part by part where its bracket has several degrees."""
-        bracket = next((f for f in sympy.Mul.make_args(term) if f.is_Add), None)
-        if bracket is not None and not free_of(bracket, self.dynamics.system.qdot):
+        v = self.dynamics.system.qdot
+        moving = [f for f in sympy.Mul.make_args(term) if not free_of(f, v)]
+        if len(moving) == 1 and (bracket := moving[0]).is_Add:
             rest = term / bracket
             by_degree: dict[Expr, Expr] = {}
             for part in bracket.args:

@@ -75,7 +75,8 @@ def _from_start(slope: Expr, variable: Symbol, later: Sequence[Symbol]) -> Expr 
         if _finite(fixed) and _finite(fixed.xreplace({variable: start})):
             whole = antiderivative(fixed, variable)
             if whole is None or not _finite(whole.xreplace({variable: start})):
-                return integral(fixed, variable, start, variable)
+                factor, rest = fixed.as_independent(variable, as_Add=False)
+                return factor * integral(rest, variable, start, variable)
             return whole - whole.xreplace({variable: start})
     return None
 

@@ -23,6 +23,7 @@ from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.discovery import limits
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.summary import summary
+from lagcli.reader import parse_text
 from tests.solved import solve
 
 from .derived import derive
@@ -204,3 +205,21 @@ def test_like_circuits_have_both_amplitudes_of_both_modes(inertia: str, coupling
     moves = [c.transformation for c in charges if c.transformation.time == 0]
     state = {*derivation.system.q, *derivation.system.qdot}
     assert sum(not any(x.free_symbols & state for x in move.changes) for move in moves) == 4
+
+
+@pytest.mark.parametrize("force", ["f(t)", "1/(1 + t^2)", "sin(t^2)"])
+@pytest.mark.parametrize("spring", ["0", "w^2*x"])
+def test_a_force_without_an_antiderivative_leaves_both_linear_charges(force: str, spring: str):
+    """m (x' u - x u') - int F u dt with u'' = -w^2 u (Duhamel's integral)."""
+    d = derive(
+        "coordinates: [x]\nparameters: {m: {assume: positive}, w: {assume: positive}}\n"
+        f'functions: {{f: [t]}}\nL: "m*x\'^2/2 - m*({spring})*x/2 + x*{force}"'
+    )
+    (x,), (v,), t = d.system.q, d.system.qdot, d.system.t
+    acceleration = d.system.build(parse_text(f"({force})/m - {spring}"))
+    charges = [c.charge for c in d.discovery.charges]
+    slopes = sympy.Matrix([[Q.diff(v), Q.diff(x)] for Q in charges])
+    assert slopes.shape == (2, 2)
+    assert is_zero(slopes.det()) is False
+    for Q in charges:
+        assert is_zero(Q.diff(t) + v * Q.diff(x) + acceleration * Q.diff(v)) is True

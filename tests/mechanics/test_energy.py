@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from lagcli.algebra import is_zero
 from lagcli.mechanics.statements import Statements
 from lagcli.notation.likeness import signed_key
 from lagcli.reader import parse_text
@@ -96,3 +97,18 @@ V: k*({stretched})/2
     h = Statements(found).by_terms(found.energy.readable_function, as_given=True)
     expected = f"m*(x'^2 + y'^2)/2 - m*w^2*(x^2 + y^2)/2 + k*({stretched})/2"
     assert signed_key(h) == signed_key(parse_text(expected))  # up to the order of terms
+
+
+@pytest.mark.parametrize(
+    "lagrangian",
+    [
+        "(1 + x')*(log(1 + x') - 1) - k*x^2",
+        "(x' + 2)*exp(x')",
+        "(x'^2 + x)*(x' + k)",
+        "k*(x'^2 + x)*(x' + 1)*cosh(x')",
+        "k*(x'^2 + x)/(2 + cos(x'))",
+    ],
+)
+def test_a_product_of_brackets_with_velocities_is_differentiated_as_a_whole(lagrangian):
+    d = derive(f'coordinates: [x]\nparameters: [k]\nL: "{lagrangian}"')
+    assert is_zero(d.energy.readable_function - d.energy.function) is True

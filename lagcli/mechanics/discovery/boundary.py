@@ -20,7 +20,7 @@ from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import with_gradient
 from lagcli.mechanics.discovery.tree import Tree
 from lagcli.mechanics.system import System
-from lagcli.mechanics.total_derivative import boundary_term
+from lagcli.mechanics.total_derivative import boundary_integral, boundary_term, euler_operator
 
 _MOST_CANDIDATES = 120
 _POINTS = 3
@@ -52,9 +52,12 @@ def gauge_of(
         found = with_gradient([by_t, *by_q], candidates, (t, *q), allowed)
         if found is not None:
             return simplify(found)
-    if any(not free_of(f, [t]) for f in change.atoms(*_OF_TIME)):
-        return None
-    return boundary_term(simplify(change), system)
+    change = simplify(change)
+    timed = any(not free_of(f, [t]) for f in change.atoms(*_OF_TIME))
+    found = None if timed else boundary_term(change, system)
+    if found is None and not any(euler_operator(change, system)):
+        return boundary_integral(change, system)
+    return found
 
 
 def _vanishes(change: Expr, variables: Sequence[Symbol], allowed: Allowance) -> bool:
