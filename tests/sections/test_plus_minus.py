@@ -70,9 +70,7 @@ def test_two_frequencies_with_their_shapes_are_one_row(seed):
     (mode,) = modes_in_pairs(solve(problem, ["modes"]).sections["modes"].modes)
     values = {name: draw.uniform(0.5, 2) for name in ("m", "M", "k", "c")}
     m, M, k, c = values.values()
-    squares, shapes = np.linalg.eig(
-        [[(k + c) / m, -c / m], [-c / (a * M), (b * k + c) / (a * M)]]
-    )
+    squares, shapes = np.linalg.eig([[(k + c) / m, -c / m], [-c / (a * M), (b * k + c) / (a * M)]])
     known = sorted((w**0.5, y / x) for w, (x, y) in zip(squares, shapes.T, strict=True))
     found = sorted(
         tuple(

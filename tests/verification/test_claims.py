@@ -247,6 +247,24 @@ V: {potential}
     assert not answers.warnings
 
 
+@pytest.mark.parametrize(("b", "c"), [(2, -1), (1, 1), (3, -2)])
+def test_where_coordinates_fold_a_force_of_the_springs_is_no_equilibrium(b, c):
+    """dL/dq = J^T F vanishes there by J alone: F^T F is that of the springs, which is not 0."""
+    first, second = "(x - y)", f"({b}*x + y + {c}*y^2)"
+    problem = read_problem(
+        "folded",
+        f"""
+coordinates: [x, y]
+parameters: {{m: {{assume: positive}}, k: {{assume: positive}}}}
+T: m*((x' - y')^2 + ({b}*x' + y' + 2*{c}*y*y')^2)/2
+V: k*({first}^2 + 3*{second}^2)/2
+""".encode(),
+    ).problem
+    answers = state(derive(problem), Request(sections=("equilibria",)))
+    assert len(answers.sections["equilibria"].equilibria) == 2
+    assert answers.complete
+
+
 ROLLING = """
 coordinates: [x, phi, theta]
 parameters: {M: {assume: positive}, m: {assume: positive}, R: {assume: positive},

@@ -32,8 +32,9 @@ _STEPS = 25
 _ARRIVED = 1e-24
 #: How near two places are the same.
 _SAME = 1e-9
-#: Distances to a pole: between them a square that vanishes falls by 2^-40, another by nothing.
-_NEAR, _NEARER, _FALLS, _WAYS = arb(2) ** -10, arb(2) ** -30, arb(2) ** -20, 3
+#: Distances to a pole: between them a square that vanishes falls by 2^-14, another by nothing.
+#: An M that falls with the square of the distance still has clear pivots there, above 2^-36.
+_NEAR, _NEARER, _FALLS, _WAYS = arb(2) ** -8, arb(2) ** -15, arb(2) ** -7, 3
 _SIGNS = {"positive": 1, "nonnegative": 1, "negative": -1}
 
 
