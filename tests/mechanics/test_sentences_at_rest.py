@@ -326,6 +326,18 @@ def test_a_kink_holds_what_its_force_suffices_for(turn):
     assert len(each.where) == 2
 
 
+@pytest.mark.parametrize("inertia", ["1", "1 + abs(x)", "2 + abs(y)", "2 + abs(x - 1)*abs(y)"])
+def test_a_kink_of_the_kinetic_energy_leaves_those_of_the_potential(inertia):
+    """At rest T has no force: the minima of c |sin x| + y^2 hold, whatever the inertia of y."""
+    text = (
+        "coordinates: [x, y]\nparameters: {c: {assume: positive}}\n"
+        f"T: x'^2/2 + y'^2*({inertia})/2\nV: c*abs(sin(x)) + y^2\n"
+    )
+    found = [e for e in equilibria(derive(text).dynamics).equilibria if e.kinked]
+    assert {to_grammar(e.at["x"]) for e in found} == {"0", "pi"}
+    assert all(each.verdict.stable for each in found)
+
+
 # -- forces that are 0/0 at rest ------------------------------------------------------------------
 
 

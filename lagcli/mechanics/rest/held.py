@@ -233,10 +233,12 @@ def _variant(
 def _kinks(dynamics: Dynamics) -> dict[str, Friction]:
     """The terms c |u(q)| of the potential with c > 0, by name; empty where other forces jump."""
     system, found = dynamics.system, {}
-    jumps = {node.args[0] for f in dynamics.lagrange.forcing for node in f.atoms(sympy.sign)}
+    still = dict.fromkeys(system.qdot, S.Zero)
+    forces = [f.xreplace(still) for f in dynamics.lagrange.forcing]
+    jumps = {node.args[0] for f in forces for node in f.atoms(sympy.sign)}
     place = sympy.Dummy("place", real=True)
     for k, u in enumerate(sorted((u for u in jumps if u.free_symbols & {*system.q}), key=str)):
-        slope = -system.L.xreplace({sympy.Abs(u): place}).diff(place)
+        slope = -system.L.xreplace(still).xreplace({sympy.Abs(u): place}).diff(place)
         plain = free_of(slope, [place]) and free_of(u, system.qdot)
         if (
             not plain
