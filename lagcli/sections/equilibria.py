@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Formula, Paragraph, vanishing
@@ -10,15 +11,18 @@ from lagcli.expression import Name
 from lagcli.formatters.json_values import Object, list_or_null, place, plain
 from lagcli.problem_data import ExpectEquilibrium
 from lagcli.reader.shapes import PLACE, STABILITY, by_coordinate, equation, list_of, record_of
+from lagcli.record import replace
 from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
 from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.plus_minus import once
 from lagcli.statements.stability import at_the_limit, holding, stability
 from lagcli.statements.wording import (
+    State,
+    alike_blocks,
     conditions,
+    listed,
     none_found,
-    state_blocks,
 )
 
 if TYPE_CHECKING:
@@ -55,19 +59,27 @@ def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
     elif not section.equilibria:
         complete, edge, where = section.complete, section.edge, section.where
         yield none_found("equilibrium", section.unless, complete=complete, edge=edge, where=where)
-    for equilibrium in once(section.equilibria or ()):
-        yield from state_blocks(equilibrium.at, on=equilibrium.on)
-        yield Paragraph(_stability(equilibrium))
+    for equilibrium, alike in groupby(once(section.equilibria or ()), key=_without_place):
+        states = [(each.at, each.on) for each in alike]
+        yield from alike_blocks(states)
+        yield Paragraph(_stability(equilibrium, states))
     if section.equilibria and not section.complete:
         yield Paragraph(("There may be others" + (", which solve" if section.open else "."),))
         if section.open:
             yield vanishing(section.open)
 
 
-def _stability(equilibrium: Equilibrium) -> tuple[str | Formula, ...]:
+def _without_place(equilibrium: Equilibrium) -> Equilibrium:
+    return replace(equilibrium, at={})
+
+
+def _stability(equilibrium: Equilibrium, states: Sequence[State]) -> tuple[str | Formula, ...]:
     parts: list[str | Formula] = []
     if equilibrium.where:
-        parts += ["It exists where ", *conditions(equilibrium.where), ". "]
+        exist: list[str | Formula] = ["They exist" if len(states) > 1 else "It exists"]
+        if states == [({}, None)]:
+            exist = ["Any ", *listed(equilibrium.free), " is an equilibrium"]
+        parts += [*exist, " where ", *conditions(equilibrium.where), ". "]
     parts += [holding(equilibrium.touching, sticking=equilibrium.sticking)]
     parts += stability(equilibrium.verdict, equilibrium.free, equilibrium.on)
     parts += [at_the_limit(equilibrium.where, sticking=equilibrium.sticking)]

@@ -19,7 +19,7 @@ from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, ModesOfFrequency, ModesSection
 from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.plus_minus import is_pair, modes_in_pairs, pairs
-from lagcli.statements.wording import state_blocks
+from lagcli.statements.wording import alike_blocks
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
@@ -48,11 +48,13 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
     if section.modes is None:
         yield Paragraph((f"Not found: {section.reason}.",))
     elif not section.modes:
-        yield Paragraph((f"There is none: {section.reason}.",))
-    for at, modes in pairs(_by_state(section.modes or ())):
-        on = modes[0].on
-        place = "equilibrium" if on is None and not is_pair(at) else "equilibria"
-        yield from state_blocks(at, f"Angular frequencies and shapes about the {place} ", on)
+        yield Paragraph((f"There are none: {section.reason}.",))
+    by_state = pairs(_by_state(section.modes or ()))
+    for modes, states in groupby(by_state, key=lambda pair: pair[1]):
+        several = [(at, modes[0].on) for at, _ in states]
+        one = len(several) == 1 and modes[0].on is None and not is_pair(several[0][0])
+        place = "equilibrium" if one else "equilibria"
+        yield from alike_blocks(several, f"Angular frequencies and shapes about the {place} ")
         for mode in modes_in_pairs(modes):
             if rows := tuple(_mode(mode)):
                 yield Equations(rows)
@@ -71,8 +73,8 @@ def _by_state(
         yield at, [replace(mode, at={}) for mode in group]
 
 
-_NO_OSCILLATION = {True: "negative: no oscillation", False: "an oscillation where this is positive"}
 _WHERE_REAL = "an oscillation where this is real and positive"
+_NO_OSCILLATION = {True: "negative: no oscillation", False: _WHERE_REAL}
 
 
 def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
@@ -91,7 +93,7 @@ def _without_rows(mode: ModesOfFrequency) -> str:
     if mode.damped:
         return "Exponents s of exp(s t) take the place of frequencies (lagcli explain)."
     if mode.negative:
-        return "No other root ω² is real: the amplitudes of some displacements grow."
+        return "No other root ω² is real and positive: the amplitudes of some displacements grow."
     count = (
         "One frequency has" if mode.multiplicity == 1 else f"{mode.multiplicity} frequencies have"
     )

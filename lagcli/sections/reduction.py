@@ -138,7 +138,7 @@ def _period(period: PeriodSeries, coordinate: str) -> Iterator[Block]:
         small = "" if period.order else "small "
         yield from state_blocks(period.at, f"{small}oscillations about ".capitalize())
     note = f"to order {period.order}" if period.order else ""
-    alike = "whatever the amplitude, " if note and not period.amplitude else ""
+    alike = "independent of the amplitude " if note and not period.amplitude else ""
     yield Equations((Row(Label("T"), period.period, alike + note),))
     if period.where:
         yield Paragraph(("where ", *conditions(period.where), "."))

@@ -16,7 +16,7 @@ from lagcli.document import (
     equations_of,
     vanishing,
 )
-from lagcli.expression import ZERO, Name, Number, Power
+from lagcli.expression import Name, Number, Power
 from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
 from lagcli.notation.letters import own
 from lagcli.problem_data import ExpectSteady
@@ -32,7 +32,7 @@ from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration, Told, step
 from lagcli.statements.motions import SteadyMotion, SteadySection
-from lagcli.statements.plus_minus import once, single
+from lagcli.statements.plus_minus import once, single, unlike
 from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     conditions,
@@ -65,7 +65,7 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
             )
         )
     if section.conditions:
-        wanted = [value for value in dict.fromkeys(section.conditions.values()) if value != ZERO]
+        wanted = unlike(section.conditions.values())
         held = "The conditions of a steady motion hold everywhere."
         lead = "A state of rest has" if section.resting else "A steady motion has"
         yield Paragraph((lead if wanted else held,))

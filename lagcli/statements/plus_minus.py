@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Protocol, TypeVar
 
 from lagcli.expression import (
+    ZERO,
     Call,
     Expression,
     Negative,
@@ -60,6 +61,14 @@ def once(items: Iterable[Item]) -> list[Item]:
 def single(values: Iterable[Expression]) -> list[Expression]:
     """The values, two that differ in a sign as one."""
     return [at["x"] for at, _ in pairs(({"x": value}, None) for value in values)]
+
+
+def unlike(values: Iterable[Expression]) -> list[Expression]:
+    """The values that vanish together, of opposite ones the first."""
+    found: dict[object, Expression] = {}
+    for value in values:
+        found.setdefault(signed_key(value)[1], value)
+    return [value for value in found.values() if value != ZERO]
 
 
 def is_pair(at: State) -> bool:

@@ -29,6 +29,8 @@ from lagcli.statements.motions import (
 from lagcli.statements.questions import Answer, Solutions
 
 Part = str | Formula
+#: The values of coordinates, and the equation of a family.
+State = tuple[Mapping[str, Expression], tuple[Expression, Expression] | None]
 
 #: Why h is conserved where dh/dt = -dL/dt + ... has no terms.
 CONSERVED = "L does not depend on t explicitly, no applied force and no constraint does work"
@@ -209,6 +211,7 @@ def state_blocks(
     at: Mapping[str, Expression],
     before: str = "",
     on: tuple[Expression, Expression] | None = None,
+    end: str = ":",
 ) -> Iterator[Block]:
     """A state, or a family: on one line where its values are short, else as equations."""
     rows = place_rows(at, on)
@@ -218,11 +221,21 @@ def state_blocks(
         for position, row in enumerate(rows):
             parts += [", " if position else "", row.left, " = ", row.right]
         if rows:
-            yield Paragraph((*parts, ":"))
+            yield Paragraph((*parts, end))
         return
     if before:
         yield Paragraph((before,))
     yield Equations(rows)
+
+
+def alike_blocks(
+    states: Sequence[State],
+    before: str = "",
+) -> Iterator[Block]:
+    """States of which the same is said, one below the other."""
+    for k, (at, on) in enumerate(states, 1):
+        yield from state_blocks(at, before, on, ":" if k == len(states) else "")
+        before = "and "
 
 
 def unit_rows(

@@ -17,7 +17,7 @@ from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.mechanics.statements import Statements
 from lagcli.statements.answers import EquilibriaSection, Section
 from lagcli.statements.explanation import ExplanationStep
-from lagcli.statements.plus_minus import once
+from lagcli.statements.plus_minus import once, unlike
 from lagcli.statements.registry import find_section
 from lagcli.statements.stability import at_the_limit, holding, stability
 from lagcli.statements.wording import conditions as inequalities
@@ -58,7 +58,7 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
     timed = rest.growth != 1
     sticking = any(each.sticking for each in found or ())
     solved = () if rest.has_no_value else rest.equations
-    conditions = dict.fromkeys(teller.readable.as_written(e) for e in solved)
+    conditions = unlike(teller.readable.as_written(e) for e in solved)
     end = (
         "."
         if sticking or rest.has_no_value

@@ -101,7 +101,7 @@ def _undamped(teller: Teller, modes: Sequence[ModesOfFrequency], place: Place) -
 def _mode(mode: ModesOfFrequency, omega: Name, place: Place) -> Iterator[Block]:
     value = mode.frequency if mode.frequency is not None else mode.frequency_squared
     if value is None and mode.negative:
-        yield says("No other root is real: the amplitudes of some displacements grow.")
+        yield says("No other root is real and positive: the amplitudes of some displacements grow.")
         return
     if value is None:
         count = mode.multiplicity

@@ -16,7 +16,7 @@ from lagcli.mechanics.explaining.words import Part, listed, names, says
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import Section
 from lagcli.statements.motions import SteadyMotion, SteadySection
-from lagcli.statements.plus_minus import once
+from lagcli.statements.plus_minus import once, unlike
 from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     POTENTIAL,
@@ -99,7 +99,7 @@ def _steady_without_momenta(teller: Teller, found: SteadySection) -> str:
 
 
 def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
-    wanted = [each for each in dict.fromkeys(found.conditions.values()) if each != ZERO]
+    wanted = unlike(found.conditions.values())
     if wanted:
         yield vanishing(wanted)
     elif found.conditions and not found.eliminated:

@@ -12,8 +12,9 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import nullspace, simplify
 from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
-from lagcli.algebra.positivity import weak_sign, without_moduli
+from lagcli.algebra.positivity import sign_of, weak_sign, without_moduli
 from lagcli.algebra.signs import sign
+from lagcli.mechanics.inequalities import one_is_negative
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.rest.characteristic import Characteristic
 from lagcli.mechanics.rest.linearization import Linearization
@@ -59,6 +60,9 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
             values_of = [(r, each) for r in roots or () for each in chosen]
             complex_ &= bool(values_of) and all(_is_complex(*pair) for pair in values_of)
             continue
+        if never_oscillates(roots, linear.point.positive):
+            unknown += multiplicity * degree
+            continue
         plain = [without_moduli(root, linear.point.positive) for root in roots]
         given, roots = roots, plain
         pair = beats(roots, chosen)
@@ -80,6 +84,19 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
     if unknown and (modes or not complex_):
         modes.append(NormalMode(None, None, (), unknown, complex_))
     return modes
+
+
+def never_oscillates(roots: Sequence[Expr], positive: Sequence[Expr]) -> bool:
+    """Whether neither of two roots W is ever real and positive: they are not real, or negative.
+
+    Of W² - s W + p with p > 0 both are where s² > 4 p and s > 0.
+    """
+    if len(roots) != 2:
+        return False
+    total, times = simplify(roots[0] + roots[1]), simplify(roots[0] * roots[1])
+    real = simplify(total**2 - 4 * times)
+    never = sign_of(total, positive) == -1 or one_is_negative((real, total), positive)
+    return sign_of(times, positive) == 1 and never
 
 
 def _frequency(

@@ -7,13 +7,17 @@ Routh, *Stability of a Given State of Motion*, chapter IV.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 
-from sympy import S
+from sympy import Expr, S, Symbol
 
+from lagcli.algebra import is_zero
 from lagcli.algebra.place import at
+from lagcli.algebra.positivity import is_positive
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady import SteadyMotions
 from lagcli.mechanics.reduction.steady_motion import Steady
@@ -21,7 +25,8 @@ from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.mechanics.rest.rest_conditions import RestPoint
 from lagcli.mechanics.stability.judge import judge
-from lagcli.mechanics.stability.lagrange_dirichlet import by_routh
+from lagcli.mechanics.stability.lagrange_dirichlet import by_derivatives, by_routh
+from lagcli.mechanics.stability.near import Hypotheses
 from lagcli.mechanics.stability.verdict import Stability
 from lagcli.record import replace
 
@@ -60,9 +65,30 @@ class ReducedVerdict:
         for p, j in zip(steady.routh.momenta, steady.routh.cyclic, strict=True):
             fixed[p] = at(full.momenta[j].xreplace(still), values)
         try:
+            axes = self._on_axes(fixed)
+            if axes is not None:
+                return by_routh(judge_on_axes(steady, axes))
             found = judge(Linearization(steady.rest, steady.point(Steady(fixed, None))))
         except ZeroDivisionError:
             return None
         if not self.cyclic:
             return None if found.is_open else found
         return by_routh(replace(found, across=True)) if found.minimum is not None else None
+
+    def _on_axes(self, fixed: Mapping[Symbol, Expr]) -> Steady | None:
+        """The steady motion there at these momenta, where the axes of cyclic angles coincide."""
+        assert self._steady is not None
+        if not self.cyclic:
+            return None
+        for each in CoincidingAxes(self._steady.routh).motions():
+            if all(is_zero(at(v, fixed) - fixed.get(s, s)) is True for s, v in each.values.items()):
+                return replace(each, derivatives=tuple(at(d, fixed) for d in each.derivatives))
+        return None
+
+
+def judge_on_axes(steady: SteadyMotions, motion: Steady) -> Stability:
+    """By the derivatives of U_eff, where the coordinates are singular."""
+    [[mass]] = steady.dynamics.lagrange.mass_matrix
+    definite = is_positive(at(mass, motion.values), motion.positive)
+    hypotheses = Hypotheses(steady.rest.energy_never_grows, definite)
+    return by_derivatives(motion.derivatives, hypotheses, motion.positive)

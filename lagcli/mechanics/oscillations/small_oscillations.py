@@ -26,7 +26,7 @@ from lagcli.expression import Expression, Power, Quotient, length, walk
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
-from lagcli.mechanics.oscillations.normal_modes import NormalMode, normal_modes
+from lagcli.mechanics.oscillations.normal_modes import NormalMode, never_oscillates, normal_modes
 from lagcli.mechanics.oscillations.reduced_verdict import ReducedVerdict
 from lagcli.mechanics.rest.characteristic import Characteristic
 from lagcli.mechanics.rest.equilibria import REACHED, TIMED, RestPoints
@@ -56,7 +56,7 @@ _HELD = "contacts, static friction or kinks of the potential hold what is at res
 _LIMIT = "a force is at its limit there"
 _NO_LINEAR_PART = "a force has a kink or a jump at the equilibrium, and no linear part"
 _NO_MODES = "the equilibria do not exist for the values of the file"
-_NO_REAL_SQUARE = "no root ω² of the characteristic polynomial is real"
+_NO_OSCILLATION = "no root ω² of the characteristic polynomial is real and positive"
 
 
 def equilibria(dynamics: Dynamics) -> EquilibriaSection:
@@ -101,7 +101,8 @@ def modes(dynamics: Dynamics) -> ModesSection:
     if not found and all(place.held.grazes(place.point) for place in chosen):
         return ModesSection(modes=(), reason=GRAZES)
     if not found:
-        return ModesSection(modes=None, reason=_why_none(chosen))
+        reason = _why_none(chosen)
+        return ModesSection(modes=() if reason == _NO_OSCILLATION else None, reason=reason)
     return ModesSection(modes=tuple(found))
 
 
@@ -112,10 +113,11 @@ def _why_none(places: Sequence[Place]) -> str:
         return f"{singular(places[0].linear.dynamics)} singular at the equilibria"
     if not all(place.linear.smooth for place in places):
         return _NO_LINEAR_PART
-    squares = [each for place in places for each in place.characteristic.squares or ()]
-    if squares and all(r is not None and all(W.has(I) for W in r) for r, *_ in squares):
-        known = all(sign(im(W)) in (1, -1) for r, *_ in squares for W in r or ())
-        return "in general " * (not known) + _NO_REAL_SQUARE
+    pairs = [(r, p.point.positive) for p in places for r, *_ in p.characteristic.squares or ()]
+    open_ = [r for r, positive in pairs if r is None or not never_oscillates(r, positive)]
+    if pairs and all(r is not None and all(W.has(I) for W in r) for r in open_):
+        known = all(sign(im(W)) in (1, -1) for r in open_ for W in r or ())
+        return "in general " * (not known) + _NO_OSCILLATION
     return _NO_MODES
 
 

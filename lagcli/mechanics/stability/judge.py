@@ -118,7 +118,8 @@ def _without_polynomial(near: Near) -> str:
 
 def _among_equilibria(near: Near) -> Stability | None:
     """Stable along them, where every position is one and the kinetic energy never grows."""
-    if near.hypotheses.lacking or not near.rests_everywhere:
+    stays = near.kinetic_energy_stays or not near.hypotheses.lacking
+    if not (stays and near.rests_everywhere):
         return None
     return Stability(stable=True, reason=_EVERYWHERE, across=True, minimum=())
 

@@ -21,10 +21,8 @@ from lagcli.mechanics.stability.spectrum import real_and_distinct
 from lagcli.record import record
 
 #: What the file leaves open, and how it would say it.
-NOT_DEFINITE = (
-    "the kinetic energy is not known to be positive definite (a parameter is declared positive "
-    "by {assume: positive})"
-)
+NOT_DEFINITE = "the kinetic energy is not known to be positive definite"
+_DECLARED = " (a parameter is declared positive by {assume: positive})"
 _INDEFINITE = "the kinetic energy is not positive definite"
 
 
@@ -35,6 +33,7 @@ class Hypotheses:
     energy_never_grows: bool
     definite: bool
     indefinite: bool = False
+    declared: bool = True  # no parameter of the kinetic energy is left of any sign
 
     @property
     def lacking(self) -> str:
@@ -42,7 +41,9 @@ class Hypotheses:
         if not self.energy_never_grows:
             return "a force may feed energy"
         if not self.definite:
-            return _INDEFINITE if self.indefinite else NOT_DEFINITE
+            return (
+                _INDEFINITE if self.indefinite else NOT_DEFINITE + _DECLARED * (not self.declared)
+            )
         return ""
 
 
@@ -182,7 +183,10 @@ class Near:
     def hypotheses(self) -> Hypotheses:
         """Of the theorems on a minimum of the potential."""
         definite = self.inertia_is_definite
-        return Hypotheses(self.has_energy, definite, not definite and self._inertia_is_indefinite)
+        parameters = {s for row in self.restoring.M for e in row for s in e.free_symbols}
+        declared = all(s.is_positive for s in parameters - {*self.linear.system.q})
+        indefinite = not definite and self._inertia_is_indefinite
+        return Hypotheses(self.has_energy, definite, indefinite, declared)
 
     @cached_property
     def curvatures(self) -> list[list[Expr]]:
@@ -210,6 +214,11 @@ class Near:
         if any(K[i][j] != 0 for i in range(n) for j in range(n) if i != j):
             return []
         return sorted((K[i][i] for i in range(n)), key=lambda k: k == 0)
+
+    @property
+    def kinetic_energy_stays(self) -> bool:
+        """Whether, where all rest, that of the velocities which constraints allow never grows."""
+        return self.has_energy and positive_definite(self.linear.M, self.positive)
 
     # -- velocity terms ----------------------------------------------------------------------------
 

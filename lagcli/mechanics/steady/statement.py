@@ -13,12 +13,13 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import rounded, written
 from lagcli.algebra.place import at
-from lagcli.algebra.positivity import is_positive, without_moduli
+from lagcli.algebra.positivity import without_moduli
 from lagcli.expression import Expression
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.normal_modes import beats, choices, shorter
+from lagcli.mechanics.oscillations.reduced_verdict import judge_on_axes
 from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
 from lagcli.mechanics.reduction.routh import Routh
@@ -31,8 +32,7 @@ from lagcli.mechanics.rest.exceptions import unless_written
 from lagcli.mechanics.rest.family import Family
 from lagcli.mechanics.rest.linearization import Linearization, Matrix
 from lagcli.mechanics.stability.judge import GRAZES, judge
-from lagcli.mechanics.stability.lagrange_dirichlet import by_derivatives, by_routh
-from lagcli.mechanics.stability.near import Hypotheses
+from lagcli.mechanics.stability.lagrange_dirichlet import by_routh
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.mechanics.stability.verdict import Stability, undecided
 from lagcli.mechanics.steady.rolling import RollingMotions
@@ -142,12 +142,8 @@ class _SteadyStatement:
                     squares, matrices = self._on_all(motion.family, squares, matrices)
             else:
                 [[mass]] = self.steady.dynamics.lagrange.mass_matrix
-                mass = at(mass, motion.values)
-                squares = (simplify(motion.derivatives[0] / mass),)
-                hypotheses = Hypotheses(
-                    self.steady.rest.energy_never_grows, is_positive(mass, motion.positive)
-                )
-                judged = by_derivatives(motion.derivatives, hypotheses, motion.positive)
+                squares = (simplify(motion.derivatives[0] / at(mass, motion.values)),)
+                judged = judge_on_axes(self.steady, motion)
         except ZeroDivisionError:
             pass
         potential = potential_of(self.steady.rest, "U_eff")

@@ -1,0 +1,91 @@
+"""What is said of oscillations, rest and steady motions: not void, once, of both sections alike."""
+
+from __future__ import annotations
+
+import random
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from lagcli.formatters.options import Options
+from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
+from lagcli.mechanics.steady.statement import steady_motions
+from lagcli.pipeline import Request, render, state
+
+from .derived import derive
+
+SEEDS = range(4)
+_POSITIVE = "parameters: {m: {assume: positive}, c: {assume: positive}, k: {assume: positive}}"
+
+
+def answered(text, section):
+    found = state(derive(text), Request(sections=(section,)))
+    return render([found], "text", Options(width=200))
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_roots_that_never_oscillate_are_no_frequencies(seed):
+    """(m s² + c s + k)(m s² − c s + k) = 0 in random coordinates, with an oscillator apart."""
+    source = random.Random(seed)
+    a, b = source.randint(1, 3), source.randint(1, 3)
+    text = (
+        f"coordinates: [x, y, z]\n{_POSITIVE}\n"
+        f"definitions: {{u: {a}*x + {b}*y, w: x - y}}\n"
+        "L: m*u'*w' + c*(u*w' - u'*w)/2 - k*u*w + m*z'^2/2 - k*z^2/2\n"
+    )
+    found = modes(derive(text).dynamics).modes or ()
+    assert [(each.frequency is None, each.negative) for each in found] == [
+        (False, False),
+        (True, True),
+    ]
+    for _ in range(200):
+        m, c, k = (10 ** source.uniform(-1, 1) for _ in range(3))
+        squares = [-(s**2) for s in np.roots([m, c, k])]
+        assert not any(abs(W.imag) < 1e-9 and W.real > 0 for W in squares)
+
+
+def test_where_no_root_oscillates_there_are_no_modes():
+    text = f"coordinates: [x, y]\n{_POSITIVE}\nL: m*x'*y' + c*(x*y' - x'*y)/2 - k*x*y\n"
+    section = modes(derive(text).dynamics)
+    assert section.modes == ()
+    assert "real and positive" in section.reason
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_pole_has_one_verdict_at_rest_and_among_the_steady_motions(seed):
+    """A charge on a sphere: inverted it is held by the magnetic field where q B² R > 4 m E."""
+    source = random.Random(seed)
+    a, b, c = (source.randint(1, 4) for _ in range(3))
+    text = (
+        "coordinates: [theta, phi]\nparameters: {E: {assume: positive}, B: {}}\n"
+        f"L: {a}*(theta'^2 + sin(theta)^2*phi'^2) + {b}*B*sin(theta)^2*phi' + {c}*E*cos(theta)\n"
+    )
+    derivation = derive(text)
+    [_, inverted] = equilibria(derivation.dynamics).equilibria
+    *_, steady = steady_motions(derivation)[0].motions
+    assert inverted.verdict.minimum
+    assert inverted.verdict.minimum == steady.verdict.minimum
+    assert inverted.verdict.unstable == steady.verdict.unstable
+
+
+@pytest.mark.parametrize("n", [2, 3])
+def test_conditions_that_are_opposite_are_printed_once(n):
+    names = [f"a{k}" for k in range(n)]
+    T = " + ".join(f"{k + 1}*{q}'^2" for k, q in enumerate(names))
+    V = " + ".join(f"k*({p} - {q})^2" for p, q in pairwise(names))
+    text = f"coordinates: [{', '.join(names)}]\nparameters: [k]\nT: {T}\nV: {V}\n"
+    told = answered(text, "steady_motions")
+    assert told.count("0 = ") == (1 if n == 2 else 3)
+
+
+def test_what_is_said_of_several_equilibria_is_said_once():
+    """Two rods of a slider-crank, in which the two branches differ in more than a sign."""
+    text = (
+        "coordinates: [a, b, x]\nparameters: {l: {assume: positive}, r: {assume: positive}}\n"
+        "T: a'^2 + b'^2 + x'^2\nV: sin(a)\n"
+        "constraints: {along: x = r*cos(a) + l*cos(b), across: r*sin(a) = l*sin(b)}\n"
+    )
+    told = answered(text, "equilibria")
+    assert told.count("They exist where") == told.count("\n  and ") == 4
+    assert "It exists" not in told
