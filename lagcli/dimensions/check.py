@@ -8,7 +8,7 @@ from itertools import chain, islice
 
 from lagcli.diagnostics import Diagnostic, Severity, Span
 from lagcli.dimensions.demands import LAGRANGIAN
-from lagcli.dimensions.forms import ENERGY, TIME, Form, Key, minus, plus, times, unknowns
+from lagcli.dimensions.forms import ENERGY, TIME, Form, minus, plus, times, unknowns
 from lagcli.dimensions.inference import Inference, gives_units, quantities
 from lagcli.dimensions.kinds import kind
 from lagcli.dimensions.system import Incoherent, dimension_of
@@ -197,7 +197,7 @@ class _Checker:
                 unit = self.inference.unit(names[name])
                 if (
                     unit is not None
-                    and _names_quantity(key)
+                    and key[0] in {"coordinate", "parameter"}
                     and key in self.inference.relations.origins
                 ):
                     origin = self.inference.relations.origins[key]
@@ -234,7 +234,3 @@ class _Checker:
 
 def _bare(node: Expression) -> Expression:
     return node.operand if isinstance(node, Negative) else node
-
-
-def _names_quantity(key: Key) -> bool:
-    return key[0] in {"coordinate", "parameter"}

@@ -191,7 +191,7 @@ class RandomStates:
     def _project(self, state: State) -> int | None:
         """Move the state onto the constraints; the index of one that fails, or None."""
         try:
-            failed = self._project_positions(state)
+            failed = self._newton(state, self.system.q, self._f_rows) if self._positions else None
             return failed if failed is not None else self._project_velocities(state)
         except (ArithmeticError, ValueError):
             return 0 if self.constraints.equations else -1
@@ -220,9 +220,6 @@ class RandomStates:
 
     def _independent(self, flat: Sequence[mpf], width: int) -> tuple[int, ...]:
         return independent_rows(rows_of(flat, width), mpf(10) ** -25).independent
-
-    def _project_positions(self, state: State) -> int | None:
-        return self._newton(state, self.system.q, self._f_rows) if self._positions else None
 
     def _newton(self, state: State, unknowns: Sequence[Symbol], gradients: Evaluator) -> int | None:
         """Newton steps of least norm in the unknowns; the index of a constraint that fails."""

@@ -9,7 +9,7 @@ from lagcli.document import Block, Paragraph
 from lagcli.formatters.json_values import FORMULA, Object, fields_of, map_of
 from lagcli.sections._expected import expected_by_coordinate
 from lagcli.statements.answers import AccelerationsSection, Answers
-from lagcli.statements.declaration import Declaration, always
+from lagcli.statements.declaration import always, declared
 from lagcli.statements.wording import listed, not_found, rows_by_name, substituted
 
 if TYPE_CHECKING:
@@ -71,14 +71,10 @@ def json(section: AccelerationsSection) -> Object:
     return fields_of(section, names)
 
 
-SECTION = Declaration(
-    name="accelerations",
+SECTION = declared(
+    globals(),
     heading="Accelerations",
     order=40,
-    derive=derive,
-    large=large,
-    blocks=blocks,
-    json=json,
     schema=map_of(FORMULA),
     unasked=always,
     abbreviated=True,

@@ -24,7 +24,7 @@ from lagcli.reader.shapes import (
 from lagcli.record import replace
 from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import AlgebraSection, Answers, SpecialValue
-from lagcli.statements.declaration import Declaration, Told, step
+from lagcli.statements.declaration import Told, declared, step
 from lagcli.statements.wording import rows_by_name
 
 if TYPE_CHECKING:
@@ -125,13 +125,10 @@ _EXPECTED = record_of(
     integrable=YES,
     special=list_of(_SPECIAL, "write [] where there are none"),
 )
-SECTION = Declaration(
-    name="algebra",
+SECTION = declared(
+    globals(),
     heading="Algebra of symmetries",
     order=160,
-    derive=derive,
-    blocks=blocks,
-    json=json,
     told=Told(title="The algebra of the symmetries", blocks=step("symmetries:algebra"), order=110),
     expected=(expected_of("algebra", _EXPECTED, judged("algebra:expected_algebra")),),
 )

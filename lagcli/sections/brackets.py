@@ -13,7 +13,7 @@ from lagcli.reader.phase_space import BRACKETED
 from lagcli.reader.shapes import formula, of_known
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Told, step
+from lagcli.statements.declaration import Told, declared, step
 from lagcli.statements.phase_space import BracketsSection
 from lagcli.values import substituted
 
@@ -77,13 +77,10 @@ def compare(
 _EXPECTED = of_known(
     "bracket", attrgetter("brackets"), formula("the expected bracket '{}'", BRACKETED)
 )
-SECTION = Declaration(
-    name="brackets",
+SECTION = declared(
+    globals(),
     heading="Poisson brackets",
     order=120,
-    derive=derive,
-    blocks=blocks,
-    json=json,
     phase_space=derive,
     unasked=attrgetter("brackets"),
     told=Told(title="Poisson brackets", blocks=step("phase_space:brackets"), order=70),

@@ -27,7 +27,7 @@ from lagcli.reader.schema_parts import FORMULA as EXPRESSION
 from lagcli.reader.shapes import YES, Shape, formula, of_known, one_of, record_of
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Told, step
+from lagcli.statements.declaration import Told, declared, step
 from lagcli.statements.phase_space import (
     ExaminedTransformation,
     GeneratingFunction,
@@ -182,13 +182,10 @@ _EXPECTED = of_known(
         hamiltonian=Shape(EXPRESSION, _read_hamiltonian),
     ),
 )
-SECTION = Declaration(
-    name="canonical",
+SECTION = declared(
+    globals(),
     heading="Canonical transformations",
     order=130,
-    derive=derive,
-    blocks=blocks,
-    json=json,
     phase_space=derive,
     unasked=attrgetter("canonical_transformations"),
     told=Told(

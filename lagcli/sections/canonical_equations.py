@@ -11,7 +11,7 @@ from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import FORMULA, map_of, record_of
 from lagcli.sections.hamiltonian import fold_of
 from lagcli.statements.answers import Answers, CanonicalPair, CanonicalSection
-from lagcli.statements.declaration import Declaration, Told, step
+from lagcli.statements.declaration import Told, declared, step
 from lagcli.statements.wording import fold, not_found
 
 if TYPE_CHECKING:
@@ -75,15 +75,11 @@ def blocks(section: CanonicalSection, _: Answers) -> Iterator[Block]:
     yield Equations(tuple(rows))
 
 
-SECTION = Declaration(
-    name="canonical_equations",
+SECTION = declared(
+    globals(),
     abbreviated=True,
     heading="Canonical equations",
     order=110,
-    derive=derive,
-    large=large,
-    phase_space=phase_space,
-    blocks=blocks,
     schema=map_of(record_of(("q", "p"), {"q": FORMULA, "p": FORMULA})),
     unasked=attrgetter("hamiltonian"),
     told=Told(

@@ -16,7 +16,7 @@ from lagcli.reader.scope import ANSWER
 from lagcli.reader.shapes import Shape, of_known
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, Charge, ChargesSection, EnergySection
-from lagcli.statements.declaration import Declaration, always
+from lagcli.statements.declaration import always, declared
 from lagcli.statements.wording import TRIVIAL, conditions, listed
 
 if TYPE_CHECKING:
@@ -244,14 +244,10 @@ def compare(
 
 
 EXPECTED_CHARGE = Shape(EXPRESSION, _read_charge)
-SECTION = Declaration(
-    name="charges",
+SECTION = declared(
+    globals(),
     heading="Symmetries and conserved quantities",
     order=140,
-    derive=derive,
-    blocks=blocks,
-    json=json,
-    large=large,
     schema=CHARGES,
     unasked=always,
     expected=(expected_of("charges", of_known("charge", _symmetries, EXPECTED_CHARGE), compare),),

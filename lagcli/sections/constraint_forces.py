@@ -14,7 +14,7 @@ from lagcli.reader.schema_parts import FORMULAS
 from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
 from lagcli.statements.answers import Answers, ConstraintForcesSection
-from lagcli.statements.declaration import Declaration, Expected
+from lagcli.statements.declaration import Expected, declared
 from lagcli.statements.wording import only_along_its_path
 
 if TYPE_CHECKING:
@@ -150,14 +150,10 @@ def compare(
         yield from check.compare_each(path, section.forces.get(name), forces)
 
 
-SECTION = Declaration(
-    name="constraint_forces",
+SECTION = declared(
+    globals(),
     heading="Constraint forces",
     order=60,
-    derive=derive,
-    large=large,
-    blocks=blocks,
-    json=json,
     schema=map_of({"type": ["object", "null"]}),
     unasked=attrgetter("constraints"),
     content="forces",

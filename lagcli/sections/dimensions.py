@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.statements.answers import Answers, DimensionsSection, QuantityUnit
-from lagcli.statements.declaration import Declaration, Told, step
+from lagcli.statements.declaration import Told, declared, step
 from lagcli.statements.wording import unit_rows
 
 if TYPE_CHECKING:
@@ -76,13 +76,10 @@ def json(section: DimensionsSection) -> Object:
     return {"dimensions": fields_of(section, names)}
 
 
-SECTION = Declaration(
-    name="dimensions",
+SECTION = declared(
+    globals(),
     heading="Dimensions",
     order=240,
-    derive=derive,
-    blocks=blocks,
-    json=json,
     large=derive,
     phase_space=derive,
     told=Told(title="Units", blocks=step("quantities:dimensions"), order=140),

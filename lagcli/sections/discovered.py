@@ -18,7 +18,7 @@ from lagcli.sections.charges import (
     stated_charge,
 )
 from lagcli.statements.answers import ChargesSection
-from lagcli.statements.declaration import Declaration, Told, step
+from lagcli.statements.declaration import Told, declared, step
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
@@ -47,14 +47,12 @@ def json(section: ChargesSection) -> Object:
     return {"discovered": charges_json(section)}
 
 
-SECTION = Declaration(
-    name="discovered",
+SECTION = declared(
+    globals(),
+    blocks=blocks,
     abbreviated=True,
     heading="Discovered symmetries",
     order=150,
-    derive=derive,
-    blocks=blocks,
-    json=json,
     schema=CHARGES,
     told=Told(title="Discovered symmetries", blocks=step("symmetries:discovered"), order=100),
     content="charges",

@@ -12,7 +12,7 @@ from lagcli.reader.scope import STATE
 from lagcli.reader.shapes import formula
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, EnergySection
-from lagcli.statements.declaration import Declaration, always
+from lagcli.statements.declaration import always, declared
 from lagcli.statements.wording import not_found, one_row
 
 if TYPE_CHECKING:
@@ -68,14 +68,10 @@ def compare(check: Expectations, section: EnergySection, expected: Expression) -
     yield check.compare(["energy"], section.function, expected)
 
 
-SECTION = Declaration(
-    name="energy",
+SECTION = declared(
+    globals(),
     heading="Energy",
     order=90,
-    derive=derive,
-    large=large,
-    blocks=blocks,
-    json=json,
     schema=record_of(
         ("function", "conserved", "is_total_energy", "reason"),
         {

@@ -13,7 +13,7 @@ from lagcli.reader.scope import EQUATION
 from lagcli.reader.shapes import equation, list_of
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, EquationsSection, LagrangeEquation
-from lagcli.statements.declaration import Declaration, always
+from lagcli.statements.declaration import always, declared
 from lagcli.statements.wording import not_found, with_constraints
 
 if TYPE_CHECKING:
@@ -152,14 +152,10 @@ def compare(check: Expectations, _: object, expected: Sequence[Equation]) -> Fou
 
 
 _EXPECTED = list_of(equation("an expected equation", EQUATION))
-SECTION = Declaration(
-    name="equations",
+SECTION = declared(
+    globals(),
     heading="Equations of motion",
     order=20,
-    derive=derive,
-    large=large,
-    blocks=blocks,
-    json=json,
     schema={
         "type": ["array", "null"],
         "items": record_of(

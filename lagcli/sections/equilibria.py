@@ -14,7 +14,7 @@ from lagcli.reader.shapes import PLACE, STABILITY, by_coordinate, equation, list
 from lagcli.record import replace
 from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
-from lagcli.statements.declaration import Declaration, Told, step
+from lagcli.statements.declaration import Told, declared, step
 from lagcli.statements.plus_minus import once
 from lagcli.statements.stability import at_the_limit, holding, stability
 from lagcli.statements.wording import (
@@ -128,14 +128,10 @@ _EXPECTED = list_of(
         stable=STABILITY,
     )
 )
-SECTION = Declaration(
-    name="equilibria",
+SECTION = declared(
+    globals(),
     heading="Equilibria",
     order=180,
-    derive=derive,
-    blocks=blocks,
-    json=json,
-    large=large,
     told=Told(title="Equilibria", blocks=step("further:equilibria"), order=20),
     expected=(expected_of("equilibria", _EXPECTED, judged("reductions:equilibria")),),
 )

@@ -28,7 +28,7 @@ from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
 from lagcli.record import replace
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Expected, Told, step
+from lagcli.statements.declaration import Expected, Told, declared, step
 from lagcli.statements.questions import (
     Answer,
     FindSection,
@@ -232,14 +232,10 @@ def expects(expect: Expect) -> bool:
     return bool(expect.find or expect.ranges)
 
 
-SECTION = Declaration(
-    name="find",
+SECTION = declared(
+    globals(),
     heading="Questions",
     order=170,
-    derive=derive,
-    blocks=blocks,
-    json=json,
-    large=large,
     unasked=attrgetter("find"),
     told=Told(title="Questions", blocks=step("questions:questions"), order=10),
     content="answers",

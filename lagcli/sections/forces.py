@@ -16,7 +16,7 @@ from lagcli.reader.scope import ANSWER
 from lagcli.reader.shapes import Shape, formula, of_known
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Told, step
+from lagcli.statements.declaration import Told, declared, step
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.statements.wording import only_along_its_path
 
@@ -212,13 +212,10 @@ _CONSTRAINTS = attrgetter("constraints")
 _FORCE = Shape({"anyOf": [FORMULA, list_of(FORMULA)]}, _read_force)
 _EXPECTED = of_known("constraint", _CONSTRAINTS, of_known("point", attrgetter("points"), _FORCE))
 _FRICTION = formula("the expected coefficient of friction at '{}'", ANSWER)
-SECTION = Declaration(
-    name="forces",
+SECTION = declared(
+    globals(),
     heading="Forces",
     order=70,
-    derive=derive,
-    blocks=blocks,
-    json=json,
     told=Told(title="Forces", blocks=step("real_forces:real_forces"), order=120),
     expected=(
         expected_of("forces", _EXPECTED, compare),

@@ -12,7 +12,7 @@ from lagcli.problem_data import ExpectHamiltonJacobi
 from lagcli.reader.shapes import YES, by_coordinate, record_of, with_constants
 from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Told, step
+from lagcli.statements.declaration import Told, declared, step
 from lagcli.statements.motions import ActionPart, HamiltonJacobiSection
 from lagcli.statements.wording import conditions, listed, not_found
 
@@ -132,13 +132,10 @@ _EXPECTED = with_constants(
         functions=by_coordinate("the expected part W of the action by '{}'"),
     )
 )
-SECTION = Declaration(
-    name="hamilton_jacobi",
+SECTION = declared(
+    globals(),
     heading="Hamilton-Jacobi",
     order=220,
-    derive=derive,
-    blocks=blocks,
-    json=json,
     told=Told(
         title="The Hamilton-Jacobi equation", blocks=step("phase_space:hamilton_jacobi"), order=90
     ),

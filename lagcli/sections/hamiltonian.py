@@ -14,7 +14,7 @@ from lagcli.reader.scope import PHASE_SPACE
 from lagcli.reader.shapes import formula
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, HamiltonianSection
-from lagcli.statements.declaration import Declaration
+from lagcli.statements.declaration import declared
 from lagcli.statements.wording import fold, not_found, one_row
 
 if TYPE_CHECKING:
@@ -90,14 +90,10 @@ def compare(check: Expectations, section: HamiltonianSection, expected: Expressi
     yield check.judge(path, verdict, to_grammar(expected), to_grammar(found))
 
 
-SECTION = Declaration(
-    name="hamiltonian",
+SECTION = declared(
+    globals(),
     heading="Hamiltonian",
     order=100,
-    derive=derive,
-    large=large,
-    phase_space=phase_space,
-    blocks=blocks,
     schema=OR_NULL,
     unasked=attrgetter("hamiltonian"),
     abbreviated=True,

@@ -9,7 +9,7 @@ from lagcli.document import Block, Label
 from lagcli.expression import sum_of
 from lagcli.formatters.json_values import OR_NULL
 from lagcli.statements.answers import Answers, LagrangianSection
-from lagcli.statements.declaration import Declaration, always
+from lagcli.statements.declaration import always, declared
 from lagcli.statements.wording import not_found, one_row
 
 if TYPE_CHECKING:
@@ -44,14 +44,10 @@ def blocks(section: LagrangianSection, _: Answers) -> Iterable[Block]:
     return [not_found() if found is None else one_row(Label("L"), found)]
 
 
-SECTION = Declaration(
-    name="lagrangian",
+SECTION = declared(
+    globals(),
     heading="Lagrangian",
     order=10,
-    derive=derive,
-    large=large,
-    phase_space=phase_space,
-    blocks=blocks,
     schema=OR_NULL,
     unasked=always,
 )

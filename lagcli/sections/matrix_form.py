@@ -9,7 +9,7 @@ from lagcli.document import Block, Formula, Label, Matrix, Paragraph
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import FORMULA, Object, Schema, map_of, plain, record_of
 from lagcli.statements.answers import Answers, MatrixFormSection
-from lagcli.statements.declaration import Declaration
+from lagcli.statements.declaration import declared
 from lagcli.statements.wording import not_found, rows_by_name
 
 if TYPE_CHECKING:
@@ -93,14 +93,10 @@ def json(section: MatrixFormSection) -> Object:
 _COLUMN: Schema = {"type": "array", "items": FORMULA}
 _MATRIX: Schema = {"type": "array", "items": _COLUMN}
 
-SECTION = Declaration(
-    name="matrix_form",
+SECTION = declared(
+    globals(),
     heading="Matrix form",
     order=30,
-    derive=derive,
-    large=large,
-    blocks=blocks,
-    json=json,
     schema=record_of(
         ("mass_matrix", "constraint_jacobian", "forcing", "constraint_bias", "shared"),
         {

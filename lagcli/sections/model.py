@@ -9,7 +9,7 @@ from lagcli.document import Block, Paragraph
 from lagcli.expression import Name
 from lagcli.formatters.json_values import Object, plain
 from lagcli.statements.answers import Answers, ModelSection
-from lagcli.statements.declaration import Declaration, Told, step
+from lagcli.statements.declaration import Told, declared, step
 from lagcli.statements.wording import listed, not_found, rows_by_name, with_names
 
 if TYPE_CHECKING:
@@ -53,13 +53,10 @@ def json(section: ModelSection) -> Object:
     return {"model": {**plain(section), "reason": reason}}
 
 
-SECTION = Declaration(
-    name="model",
+SECTION = declared(
+    globals(),
     heading="Model",
     order=230,
-    derive=derive,
     large=derive,
-    blocks=blocks,
-    json=json,
     told=Told(title="The model of a numerical run", blocks=step("quantities:model"), order=130),
 )

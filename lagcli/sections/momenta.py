@@ -9,7 +9,7 @@ from lagcli.document import Block, Paragraph
 from lagcli.formatters.json_values import FORMULA, map_of
 from lagcli.sections._expected import expected_by_coordinate
 from lagcli.statements.answers import Answers, MomentaSection
-from lagcli.statements.declaration import Declaration, always
+from lagcli.statements.declaration import always, declared
 from lagcli.statements.wording import listed, not_found, rows_by_name
 
 if TYPE_CHECKING:
@@ -48,13 +48,10 @@ def blocks(section: MomentaSection, _: Answers) -> Iterator[Block]:
         yield Paragraph(("Cyclic: ", *listed(section.cyclic), "."))
 
 
-SECTION = Declaration(
-    name="momenta",
+SECTION = declared(
+    globals(),
     heading="Momenta",
     order=80,
-    derive=derive,
-    large=large,
-    blocks=blocks,
     schema=map_of(FORMULA),
     unasked=always,
     expected=(expected_by_coordinate("momenta", "the expected momentum of '{}'"),),

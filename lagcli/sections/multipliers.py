@@ -13,7 +13,7 @@ from lagcli.reader.scope import ANSWER
 from lagcli.reader.shapes import formula, of_known
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, ConstraintKind, Multiplier, MultipliersSection
-from lagcli.statements.declaration import Declaration
+from lagcli.statements.declaration import declared
 from lagcli.statements.wording import substituted
 
 if TYPE_CHECKING:
@@ -133,14 +133,10 @@ def compare(
 _EXPECTED = of_known(
     "constraint", attrgetter("constraints"), formula("the expected multiplier of '{}'", ANSWER)
 )
-SECTION = Declaration(
-    name="multipliers",
+SECTION = declared(
+    globals(),
     heading="Multipliers",
     order=50,
-    derive=derive,
-    large=large,
-    blocks=blocks,
-    json=json,
     schema=map_of(
         record_of(
             ("symbol", "value", "kind"),

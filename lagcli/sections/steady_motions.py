@@ -30,7 +30,7 @@ from lagcli.reader.shapes import (
 )
 from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Declaration, Told, step
+from lagcli.statements.declaration import Told, declared, step
 from lagcli.statements.motions import SteadyMotion, SteadySection
 from lagcli.statements.plus_minus import once, single, unlike
 from lagcli.statements.stability import steady_stability
@@ -151,13 +151,10 @@ _EXPECTED = with_constants(
         )
     )
 )
-SECTION = Declaration(
-    name="steady_motions",
+SECTION = declared(
+    globals(),
     heading="Steady motions",
     order=210,
-    derive=derive,
-    blocks=blocks,
-    json=json,
     told=Told(title="Steady motions", blocks=step("steady:steady"), order=50),
     content="motions",
     abbreviated=True,

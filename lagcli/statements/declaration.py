@@ -140,3 +140,13 @@ class Declaration:
     expected: tuple[Expected, ...] = ()
     content: str = ""
     abbreviated: bool = False
+
+
+#: The functions that a module of a section names as the fields of a declaration.
+_FUNCTIONS = ("derive", "blocks", "json", "large", "phase_space")
+
+
+def declared(module: Mapping[str, Any], **others: Any) -> Declaration:
+    """The section of a module, under its name and with its functions of the names of the fields."""
+    found = {name: module[name] for name in _FUNCTIONS if name in module}
+    return Declaration(**{"name": module["__name__"].rpartition(".")[2], **found, **others})

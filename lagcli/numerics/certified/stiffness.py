@@ -17,6 +17,7 @@ from collections.abc import Sequence
 
 from lagcli.numerics.equations.jacobian import jacobian
 from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.null_space import dot
 from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.setup import Setup
 
@@ -44,11 +45,8 @@ def decay(simulation: Setup, modes: Modes) -> float:
         return 0.0
     x = [1.0 + j / (7 * n) for j in range(2 * n)]  # not at right angles to anything in particular
     for _ in range(_ROUNDS):
-        moved = x[n:] + [
-            sum(a * b for a, b in zip((*row, *other), x, strict=True))
-            for row, other in zip(by_q, by_v, strict=True)
-        ]
-        along = sum(a * b for a, b in zip(x, moved, strict=True)) / sum(a * a for a in x)
+        moved = x[n:] + [dot((*row, *other), x) for row, other in zip(by_q, by_v, strict=True)]
+        along = dot(x, moved) / dot(x, x)
         off = math.hypot(*(b - along * a for a, b in zip(x, moved, strict=True)))
         settled = off <= _SETTLED * abs(along) * math.hypot(*x)
         size = math.hypot(*moved)

@@ -76,15 +76,15 @@ def held_motion(mass: Matrix, forcing: Vector, rows: Matrix, bias: Vector) -> He
         null.append(direction)
     scaled = [[mass[i][j] * scales[i] * scales[j] for j in range(n)] for i in range(n)]
     force = [f * s for f, s in zip(forcing, scales, strict=True)]
-    rest = [f - _dot(row, particular) for f, row in zip(force, scaled, strict=True)]
-    moved = [[_dot(row, z) for row in scaled] for z in null]
-    weights = solved([[_dot(z, m) for m in moved] for z in null], [_dot(z, rest) for z in null])
+    rest = [f - dot(row, particular) for f, row in zip(force, scaled, strict=True)]
+    moved = [[dot(row, z) for row in scaled] for z in null]
+    weights = solved([[dot(z, m) for m in moved] for z in null], [dot(z, rest) for z in null])
     a = [
         p + sum(w * z[j] for w, z in zip(weights, null, strict=True))
         for j, p in enumerate(particular)
     ]
     # A^T lambda = M a - F, in the columns of the pivots: no square of a small pivot appears
-    pull = [_dot(row, a) - f for row, f in zip(scaled, force, strict=True)]
+    pull = [dot(row, a) - f for row, f in zip(scaled, force, strict=True)]
     used, columns = [i for i, _ in pivots], [j for _, j in pivots]
     block = [[unit[i][j] for i in used] for j in columns]
     held = solved(block, [pull[j] for j in columns], least=0.0)
@@ -115,12 +115,12 @@ def pivots_of(masses: Sequence[float], rows: Matrix) -> Vector:
     _, _, left = _scaled(masses, rows)
     found: Vector = []
     while left:
-        squares = [_dot(row, row) for row in left]
+        squares = [dot(row, row) for row in left]
         square = max(squares)
         found.append(math.sqrt(square))
         top = left.pop(squares.index(square))
         if square:
-            parts = [_dot(row, top) / square for row in left]
+            parts = [dot(row, top) / square for row in left]
             left = [
                 [x - part * y for x, y in zip(row, top, strict=True)]
                 for row, part in zip(left, parts, strict=True)
@@ -191,7 +191,7 @@ def solved(matrix: Matrix, right: Vector, least: float = _NO_MASS) -> Vector:
                 work[k][j] = 0.0
                 right[k] -= factor * right[i]
     for i, j in reversed(order):
-        x[j] = (right[i] - _dot(work[i], x)) / work[i][j]
+        x[j] = (right[i] - dot(work[i], x)) / work[i][j]
     return x
 
 
@@ -204,5 +204,6 @@ def _size(x: Any) -> Any:
     return abs(x if not hasattr(x, "coeffs") else x[0])
 
 
-def _dot(left: Sequence[Any], right: Sequence[Any]) -> Any:
+def dot(left: Sequence[Any], right: Sequence[Any]) -> Any:
+    """The scalar product."""
     return sum(map(mul, left, right), 0.0)

@@ -161,7 +161,7 @@ class _Completion:
             ) from None
         if max(surface.residuals) <= surface.rounding:
             return q, v
-        nearest = self._nearest(q, v)
+        nearest = Surface(self.motion).nearest(0.0, q, v, _ROUNDS, _ON_SURFACE)
         if off and not project:
             raise self._off(off[0], nearest)
         if nearest is None:
@@ -382,10 +382,6 @@ class _Completion:
             hint = f"the nearest state that does, which simulate --project takes: {{{told}}}"
         message = f"the initial state does not {what} the constraint '{constraint.name}'"
         return OffConstraints((Diagnostic(message, constraint.equation.span, hint),), state)
-
-    def _nearest(self, q: list[float], v: list[float]) -> tuple[list[float], list[float]] | None:
-        """The state on the constraints, by Newton steps in the metric M."""
-        return Surface(self.motion).nearest(0.0, q, v, _ROUNDS, _ON_SURFACE)
 
 
 def _connected(

@@ -22,11 +22,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 from lagcli.numerics.equations.contact import OneSided
 from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.equations.null_space import held_motion
+from lagcli.numerics.equations.null_space import dot, held_motion
 from lagcli.numerics.hybrid.complementarity import carrying
 
 Vector = list[float]
@@ -75,7 +74,7 @@ class Hinge:
         found = held_motion(
             self.mass, self.forcing, [self.rows[k] for k in order], [self.bias[k] for k in order]
         )
-        return {k: self._along(k, found.accelerations) + self.bias[k] for k in self.contacts}
+        return {k: dot(self.rows[k], found.accelerations) + self.bias[k] for k in self.contacts}
 
     def carried(self, always: frozenset[int], closed: frozenset[int]) -> frozenset[int] | None:
         """Which of the closed contacts carry: forces and gap accelerations are not negative."""
@@ -92,7 +91,9 @@ class Hinge:
                 [self.bias[k] for k in order],
             )
             force = dict(zip(order, found.multipliers, strict=True))
-            away = {k: self._along(k, found.accelerations) + self.bias[k] for k in closed - chosen}
+            away = {
+                k: dot(self.rows[k], found.accelerations) + self.bias[k] for k in closed - chosen
+            }
             quickest = max(
                 [quickest, *(abs(self.rows[k][j] * x) for k in closed
                              for j, x in enumerate(found.accelerations))]
@@ -127,7 +128,7 @@ class Hinge:
             found[chosen] = (jump.accelerations, impulse)
             heaviest = max([heaviest, *map(abs, map(float, jump.multipliers))])
             away = {
-                k: (self.rates[k] * (1 + e) + self._along(k, jump.accelerations)) / fastest
+                k: (self.rates[k] * (1 + e) + dot(self.rows[k], jump.accelerations)) / fastest
                 for k, e in closed.items()
                 if k not in chosen
             }
@@ -138,7 +139,7 @@ class Hinge:
             return None
         jump, impulse = found[chosen]
         lost = {
-            k: -float(impulse.get(k, 0.0) * (self.rates[k] + self._along(k, jump) / 2))
+            k: -float(impulse.get(k, 0.0) * (self.rates[k] + dot(self.rows[k], jump) / 2))
             for k in closed
         }
         return [x + d for x, d in zip(v, jump, strict=True)], lost
@@ -146,9 +147,6 @@ class Hinge:
     def along(self, k: int, errors: Sequence[float]) -> float:
         """How much errors of the coordinates change a gap."""
         return math.fsum(abs(a) * b for a, b in zip(self.rows[k], errors, strict=False))
-
-    def _along(self, k: int, vector: Sequence[Any]) -> Any:
-        return sum(a * b for a, b in zip(self.rows[k], vector, strict=True))
 
 
 def rests(speed: float, acceleration: float, restitution: float, time: float, least: float) -> bool:

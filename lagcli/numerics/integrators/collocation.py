@@ -19,6 +19,8 @@ from functools import cache
 from math import comb
 from typing import Any
 
+from lagcli.numerics.equations.null_space import dot
+
 #: Everything is worked out so exactly that the coefficients are right to the last bit.
 _BITS = 200
 
@@ -73,11 +75,8 @@ class Collocation:
     def interpolated(self, x: float, values: Sequence[Sequence[float]]) -> list[float]:
         """The polynomial through values at the nodes, at x."""
         powers = [x**k for k in range(self.size)]
-        weights = [sum(c * p for c, p in zip(b, powers, strict=True)) for b in self._basis]
-        return [
-            sum(w * row[j] for w, row in zip(weights, values, strict=True))
-            for j in range(len(values[0]))
-        ]
+        weights = [dot(b, powers) for b in self._basis]
+        return [dot(weights, along) for along in zip(*values, strict=True)]
 
 
 @cache

@@ -30,6 +30,7 @@ from lagcli.numerics.integrators.steps import (
     Inside,
     Method,
     MotionOfMode,
+    moved,
 )
 from lagcli.numerics.integrators.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES, Row
 
@@ -129,12 +130,7 @@ class Dop853(Controlled):
                 polynomials.extend(self._dense(t, h, q, v, rate, change, end, stages))
             x = (time - t) / h
             values, slopes = zip(*(_interpolated(p, x) for p in polynomials), strict=True)
-            n = self.n
-            return (
-                [a + b for a, b in zip(q, values[:n], strict=True)],
-                [a + b for a, b in zip(v, values[n:], strict=True)],
-                [s / h for s in slopes[n:]],
-            )
+            return *moved(q, v, values), [s / h for s in slopes[self.n :]]
 
         return at
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import told
@@ -27,6 +27,7 @@ from lagcli.numerics.integrators.steps import (
     Step,
     Stretch,
     Tolerance,
+    moved,
 )
 
 Vector = list[float]
@@ -138,11 +139,9 @@ class FixedStep(ABC):
         while t < until:
             whole = self.change(t, h, q, v)
             first = self.change(t, h / 2, q, v)
-            q_half = [x + d for x, d in zip(q, first[:n], strict=True)]
-            v_half = [x + d for x, d in zip(v, first[n:], strict=True)]
-            second = self.change(t + h / 2, h / 2, q_half, v_half)
-            q = [x + d for x, d in zip(q_half, second[:n], strict=True)]
-            v = [x + d for x, d in zip(v_half, second[n:], strict=True)]
+            half = moved(q, v, first)
+            second = self.change(t + h / 2, h / 2, *half)
+            q, v = moved(*half, second)
             t += h
             if self.surface is not None:
                 q, v = self.surface.project(t, q, v)
@@ -159,8 +158,8 @@ class FixedStep(ABC):
         """A shorter step from the same beginning."""
 
         def at(t: float) -> tuple[Vector, Vector, Vector]:
-            moved_q, moved_v = self._moved(start, t - start, q, v)
-            return moved_q, moved_v, list(self.motion.accelerations(t, *moved_q, *moved_v))
+            state = self._moved(start, t - start, q, v)
+            return *state, list(self.motion.accelerations(t, *state[0], *state[1]))
 
         return at
 
@@ -169,23 +168,13 @@ class FixedStep(ABC):
 
         def at(t: float) -> tuple[Vector, Vector, Vector]:
             d = _PART * length
-            moved_q, moved_v = self._moved(start, t - start, q, v)
             a, b, c, e = (self._moved(start, t - start + k * d, q, v)[1] for k in (-2, -1, 1, 2))
             slope = [
                 (8 * (z - y) - (w - x)) / (12 * d) for x, y, z, w in zip(a, b, c, e, strict=True)
             ]
-            return moved_q, moved_v, slope
+            return *self._moved(start, t - start, q, v), slope
 
         return at
 
-    def _moved(
-        self, start: float, h: float, q: Sequence[float], v: Sequence[float]
-    ) -> tuple[Vector, Vector]:
-        n = self.n
-        if not h:
-            return list(q), list(v)
-        change = self.change(start, h, list(q), list(v))
-        return (
-            [x + d for x, d in zip(q, change[:n], strict=True)],
-            [x + d for x, d in zip(v, change[n:], strict=True)],
-        )
+    def _moved(self, start: float, h: float, q: Vector, v: Vector) -> tuple[Vector, Vector]:
+        return moved(q, v, self.change(start, h, q, v)) if h else (q, v)

@@ -52,8 +52,7 @@ class Gauss8(FixedStep):
         guess = [list(rate) for _ in range(_STAGES)]
         k = stages.solve(t, h, q, v, guess, scales, _PRECISION)
         self.evaluations += 1 + stages.evaluations - before
-        by_q, by_v = stages.changes(h, v, k)
-        return [*by_q, *by_v]
+        return stages.changes(h, v, k)
 
 
 def gauss8(mode: MotionOfMode, surface: Surface | None) -> Method:

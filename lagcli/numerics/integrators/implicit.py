@@ -17,6 +17,7 @@ from collections.abc import Sequence
 
 from lagcli.numerics.equations.jacobian import Matrix, jacobian
 from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.null_space import dot
 from lagcli.numerics.integrators.collocation import Collocation
 from lagcli.numerics.integrators.linear import Factors
 
@@ -69,16 +70,13 @@ class Stages:
             self.factors.append(Factors(matrix))
         self._h = h
 
-    def filtered(self, h: float, at_q: Vector, at_v: Vector) -> tuple[Vector, Vector]:
+    def filtered(self, h: float, at_q: Vector, at_v: Vector) -> Vector:
         """(I - h mu J)^-1 of a vector of the state, for the real mu."""
         x = h * self.method.eigenvalues[0].real
         by_q = self._blocks[0]
-        right = [
-            b + x * sum(c * a for c, a in zip(row, at_q, strict=True))
-            for row, b in zip(by_q, at_v, strict=True)
-        ]
+        right = [b + x * dot(row, at_q) for row, b in zip(by_q, at_v, strict=True)]
         found = self.factors[0].solve(right)
-        return [a + x * b for a, b in zip(at_q, found, strict=True)], found
+        return [a + x * b for a, b in zip(at_q, found, strict=True)] + found
 
     def solve(
         self,
@@ -155,26 +153,16 @@ class Stages:
         """Velocities and positions of a stage."""
         method = self.method
         first, second, c = method.a[i], method.a_squared[i], method.nodes[i] * h
-        velocity = [
-            x + h * sum(a * row[j] for a, row in zip(first, k, strict=True))
-            for j, x in enumerate(v)
-        ]
-        position = [
-            x + c * v[j] + h * h * sum(a * row[j] for a, row in zip(second, k, strict=True))
-            for j, x in enumerate(q)
-        ]
+        rates = list(zip(*k, strict=True))
+        velocity = [x + h * dot(first, rates[j]) for j, x in enumerate(v)]
+        position = [x + c * v[j] + h * h * dot(second, rates[j]) for j, x in enumerate(q)]
         return velocity, position
 
-    def changes(self, h: float, v: Sequence[float], k: list[Vector]) -> tuple[Vector, Vector]:
-        """How much q and v change over the step."""
-        method = self.method
-        return [
-            h * (x + h * sum(b * row[j] for b, row in zip(method.weights_a, k, strict=True)))
-            for j, x in enumerate(v)
-        ], [
-            h * sum(b * row[j] for b, row in zip(method.weights, k, strict=True))
-            for j in range(self.n)
-        ]
+    def changes(self, h: float, v: Sequence[float], k: list[Vector]) -> Vector:
+        """How much q and then v change over the step."""
+        method, rates = self.method, list(zip(*k, strict=True))
+        by_q = [h * (x + h * dot(method.weights_a, rate)) for x, rate in zip(v, rates, strict=True)]
+        return by_q + [h * dot(method.weights, rate) for rate in rates]
 
     def velocities(self, h: float, q: Vector, v: Vector, k: list[Vector]) -> list[Vector]:
         """V of the stages, shape (s, n)."""

@@ -21,11 +21,7 @@ from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.collocation import radau
 from lagcli.numerics.integrators.controlled import Controlled, State, Trial, Vector
 from lagcli.numerics.integrators.implicit import Stages
-from lagcli.numerics.integrators.steps import (
-    Inside,
-    Method,
-    MotionOfMode,
-)
+from lagcli.numerics.integrators.steps import Inside, Method, MotionOfMode, moved
 
 ORDER = 5
 _STAGES = 3
@@ -78,13 +74,12 @@ class Radau5(Controlled):
             stages.linearize(t, q, v)
             self._fresh = False
         k = stages.solve(t, h, q, v, guess, tolerance.scales, _NEWTON * allowed)
-        by_q, by_v = stages.changes(h, v, k)
-        tolerance.see(q, v, [*by_q, *by_v])
+        change = stages.changes(h, v, k)
+        tolerance.see(q, v, change)
         error = self._error(t, h, state, k) / allowed
         if not error <= 1:
             return Trial(error)
-        end_q = [x + d for x, d in zip(q, by_q, strict=True)]
-        end_v = [x + d for x, d in zip(v, by_v, strict=True)]
+        end_q, end_v = moved(q, v, change)
         if self.surface is not None:
             end_q, end_v = self.surface.project(t + h, end_q, end_v)
         return Trial(error, (end_q, end_v, self.rate(t + h, end_q, end_v)), kept=k)
@@ -98,7 +93,7 @@ class Radau5(Controlled):
     def _error(self, t: float, h: float, state: State, k: list[Vector]) -> float:
         """(I - h g J)^-1 (g h f0 + h sum e_i f_i) in units of the scales."""
         q, v, rate = state
-        stages, n, g = self._stages, self.n, self._gamma
+        stages, g = self._stages, self._gamma
         velocities = stages.velocities(h, q, v, k)
 
         def combined(first: Sequence[float], others: list[Vector]) -> Vector:
@@ -107,20 +102,15 @@ class Radau5(Controlled):
                 for j, x in enumerate(first)
             ]
 
-        def size(parts: tuple[Vector, Vector]) -> float:
-            squares = sum(
-                (x / scale) ** 2
-                for x, scale in zip((*parts[0], *parts[1]), self.tolerance.scales, strict=True)
-            )
-            return math.sqrt(squares / (2 * n))
+        def size(parts: Vector) -> float:
+            scaled = zip(parts, self.tolerance.scales, strict=True)
+            return math.sqrt(sum((x / scale) ** 2 for x, scale in scaled) / (2 * self.n))
 
         found = stages.filtered(h, combined(v, velocities), combined(rate, k))
         error = size(found)
-        if (
-            self.size.is_shortened and error > 0.0
-        ):  # what is stiff and still there is filtered once more
-            moved_q = [x + d for x, d in zip(q, found[0], strict=True)]
-            moved_v = [x + d for x, d in zip(v, found[1], strict=True)]
+        if self.size.is_shortened and error > 0.0:
+            # what is stiff and still there is filtered once more
+            moved_q, moved_v = moved(q, v, found)
             other = self.rate(t, moved_q, moved_v)
             found = stages.filtered(h, combined(moved_v, velocities), combined(other, k))
             error = min(error, size(found))
@@ -140,12 +130,7 @@ class Radau5(Controlled):
             guess = [method.interpolated(c * x, k) for c in method.nodes]
             stages.linearize(t, q, v)
             found = stages.solve(t, short, q, v, guess, scales, precision) if short else guess
-            by_q, by_v = stages.changes(short, v, found)
-            return (
-                [a + b for a, b in zip(q, by_q, strict=True)],
-                [a + b for a, b in zip(v, by_v, strict=True)],
-                slope,
-            )
+            return *moved(q, v, stages.changes(short, v, found)), slope
 
         return at
 

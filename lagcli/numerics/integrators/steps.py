@@ -229,6 +229,14 @@ class Tolerance:
         self._failures = max(0, self._failures - 1)
 
 
+def moved(
+    q: Sequence[float], v: Sequence[float], change: Sequence[float]
+) -> tuple[list[float], list[float]]:
+    """q and v after a change of both."""
+    ends = [x + d for x, d in zip((*q, *v), change, strict=True)]
+    return ends[: len(q)], ends[len(q) :]
+
+
 def with_own_time(peaks: Sequence[Any], span: float) -> list[float]:
     """The peaks; that of a velocity is at least its coordinate's over the span."""
     sizes, n = [*map(float, peaks)], len(peaks) // 2

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import Any
 
+from lagcli.numerics.equations.null_space import dot
+
 #: What the enclosure of the derivative may mix of one axis into another, in a step.
 _MIXED = 1e-4
 
@@ -97,14 +99,10 @@ def orthonormal(turned: Any, order: Sequence[int]) -> tuple[Any, Any]:
     for candidate in [*(columns[j] for j in order), *units]:
         before = math.hypot(*candidate)
         for other in (*frame, *frame):  # twice is enough
-            along = _dot(candidate, other)
+            along = dot(candidate, other)
             candidate = [a - along * b for a, b in zip(candidate, other, strict=True)]
         after = math.hypot(*candidate)
         if len(frame) < n and after > 1e-8 * before:  # else the direction is there already
             frame.append([x / after for x in candidate])
     found = type(turned)(n, n, [frame[j][i] for i in range(n) for j in range(n)])
     return found, found.inv()
-
-
-def _dot(x: Sequence[float], y: Sequence[float]) -> float:
-    return sum(a * b for a, b in zip(x, y, strict=True))

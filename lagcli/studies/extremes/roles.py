@@ -14,6 +14,7 @@ from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Call, Constant, Node, Product, Sum, Symbol, ancestry, mask_of
 from lagcli.numerics.equations.jacobian import jacobian
 from lagcli.numerics.equations.motion import Function
+from lagcli.numerics.equations.null_space import dot, solved
 from lagcli.record import record
 from lagcli.studies.extremes.scene import ExtremeScene, Vector
 
@@ -228,8 +229,6 @@ def _rest(scene: ExtremeScene, blocks: object, q: Vector) -> Vector | None:
 
 def _solution(matrix: Sequence[Sequence[float]], right: Vector) -> Vector | None:
     """x of matrix x = right without the rows and columns that are 0."""
-    from lagcli.numerics.equations.null_space import solved
-
     n = len(right)
     kept = [j for j in range(n) if any(matrix[i][j] for i in range(n))]
     if any(right[i] for i in range(n) if i not in kept and any(matrix[i])):
@@ -249,10 +248,7 @@ def _fastest(matrix: Sequence[Sequence[float]]) -> tuple[float, Vector]:
     x = [1.0 + 0.1 * j for j in range(n)]
     value = 0.0
     for _ in range(2000):
-        y = [
-            shift * a + sum(m * b for m, b in zip(row, x, strict=True))
-            for a, row in zip(x, matrix, strict=True)
-        ]
+        y = [shift * a + dot(row, x) for a, row in zip(x, matrix, strict=True)]
         length = math.hypot(*y)
         if not length:
             return 0.0, x

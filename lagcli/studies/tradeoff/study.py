@@ -139,7 +139,7 @@ def study(
     problem, asked = asked_of(given)
     if progress is not None:
         progress(0, 1)
-    known = reference(problem, asked, _reference_limit(given))
+    known = reference(problem, asked, 3 * given.limit)  # more than what is measured against it
     maker = _RunMaker(given, known, repeat, (progress, teller), methods)
     points: list[RunPoint] = []
     unsuited: dict[str, str] = {}
@@ -168,11 +168,6 @@ def study(
         unsuited=unsuited,
         cost=cost,
     )
-
-
-def _reference_limit(given: Given) -> float:
-    """A reference may cost more than what is measured against it."""
-    return 3 * given.limit
 
 
 class _RunMaker:
