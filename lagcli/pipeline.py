@@ -213,9 +213,7 @@ def _with_given_decimals(problem: Problem, request: Request, answers: Answers) -
 
     write = GivenDecimals(given)
     return replace(
-        answers,
-        sections=rewritten(answers.sections, write),
-        where=rewritten(answers.where, write),
+        answers, sections=rewritten(answers.sections, write), where=rewritten(answers.where, write)
     )
 
 

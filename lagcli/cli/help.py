@@ -19,10 +19,7 @@ Open = Annotated[bool, flag("--open", "Show the page in a web browser.")]
 
 
 def help(  # noqa: A001 - the command's name
-    topic: Topic = None,
-    format_name: Format = None,
-    output: Output = None,
-    open_page: Open = False,
+    topic: Topic = None, format_name: Format = None, output: Output = None, open_page: Open = False
 ) -> int:
     """Read the manual, or its page on a topic.
 

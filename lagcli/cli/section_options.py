@@ -45,10 +45,7 @@ def read_section_options(
 
 
 def _sections(
-    show: Sequence[str],
-    mistakes: list[str],
-    option: str,
-    known: Known,
+    show: Sequence[str], mistakes: list[str], option: str, known: Known
 ) -> tuple[str, ...] | None:
     if not show:
         return None

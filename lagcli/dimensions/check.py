@@ -18,11 +18,7 @@ from lagcli.problem_data import JACOBI_FUNCTION, Problem, Quantity
 from lagcli.units import read_unit
 
 #: What T may be: an energy, or one by mass or by moment of inertia, which then are 1.
-_ENERGIES: tuple[Form, ...] = (
-    ENERGY,
-    {"m": Fraction(2), "s": Fraction(-2)},
-    {"s": Fraction(-2)},
-)
+_ENERGIES: tuple[Form, ...] = (ENERGY, {"m": Fraction(2), "s": Fraction(-2)}, {"s": Fraction(-2)})
 #: A term longer than this is quoted by its beginning.
 _QUOTED = 40
 _NAMES_IN_HINT = 5

@@ -11,16 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-from lagcli.dimensions.forms import (
-    ENERGY,
-    NUMBER,
-    TIME,
-    Form,
-    minus,
-    plus,
-    unknown,
-    unknowns,
-)
+from lagcli.dimensions.forms import ENERGY, NUMBER, TIME, Form, minus, plus, unknown, unknowns
 from lagcli.dimensions.system import dimension_of
 from lagcli.dimensions.terms import Group, Reader, Term, representative
 from lagcli.expression import Equation, Expression, Name, Power, walk

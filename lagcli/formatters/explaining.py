@@ -42,9 +42,5 @@ def to_document(explanation: Explanation) -> Document:
         blocks.append(Heading("Warnings"))
         blocks += [Paragraph((warning,)) for warning in explanation.warnings]
     return Document(
-        explanation.title,
-        tuple(blocks),
-        explanation.coordinates,
-        explanation.symbols,
-        prose=True,
+        explanation.title, tuple(blocks), explanation.coordinates, explanation.symbols, prose=True
     )

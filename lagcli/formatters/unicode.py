@@ -7,16 +7,7 @@ from __future__ import annotations
 import unicodedata
 
 from lagcli.document import Integral, Label
-from lagcli.expression import (
-    Call,
-    Diff,
-    Expression,
-    Name,
-    Number,
-    PartialCall,
-    Power,
-    Product,
-)
+from lagcli.expression import Call, Diff, Expression, Name, Number, PartialCall, Power, Product
 from lagcli.formatters.functions import ON_PAPER, TRIGONOMETRIC
 from lagcli.formatters.grammar import GrammarPrinter, text
 from lagcli.formatters.layout import PRODUCT, Layout, TextPiece, joined
@@ -107,12 +98,7 @@ class UnicodePrinter(GrammarPrinter):
 
     def diff(self, node: Diff) -> Layout:
         if isinstance(node.operand, Name):
-            return (
-                *text("∂"),
-                *self.show(node.operand),
-                *text("/∂"),
-                *self.show(node.variable),
-            )
+            return (*text("∂"), *self.show(node.operand), *text("/∂"), *self.show(node.variable))
         return (
             *text("∂"),
             *self.arguments((node.operand,)),

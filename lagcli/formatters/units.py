@@ -57,10 +57,7 @@ def _mathml_mark(mark: str) -> str:
 
 
 def _written(
-    unit: Unit,
-    raised: Callable[[str, Fraction], str],
-    between: str,
-    mark: Callable[[str], str],
+    unit: Unit, raised: Callable[[str, Fraction], str], between: str, mark: Callable[[str], str]
 ) -> str:
     """Numerator and denominator; several units below the line are in brackets."""
     above = [raised(name, power) for name, power in unit.factors if power > 0]

@@ -122,10 +122,7 @@ class Canvas:
     def _scaled(self, point: Point) -> tuple[float, float]:
         (x, y), (left, bottom), (right, top) = point, self.low, self.high
         across, down = self.dots
-        return (
-            (x - left) / (right - left) * (across - 1),
-            (top - y) / (top - bottom) * (down - 1),
-        )
+        return ((x - left) / (right - left) * (across - 1), (top - y) / (top - bottom) * (down - 1))
 
     def _place(self, point: Point) -> tuple[int, int] | None:
         column, row = self._scaled(point)

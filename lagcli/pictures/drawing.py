@@ -142,6 +142,9 @@ class Picture:
     notes: tuple[str, ...] = field(default=())
 
 
+#: A picture, and why its motion ends early; empty where it does not.
+Drawn = tuple[Picture, str]
+
 #: A width as small as this beside the values is their rounding.
 _ROUNDING = 1e-12
 

@@ -6,14 +6,15 @@ changes the energy; from there on it is compared with its value just after the i
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
 from lagcli.expression import Name
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import Asked, Progress
 from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,
     Curve,
+    Drawn,
     DrawnName,
     Item,
     Panel,
@@ -31,9 +32,7 @@ FLOOR = 1e-17
 _HEADROOM = 10.0
 
 
-def drift(
-    problem: Problem, asked: Asked, progress: Callable[[float], None] | None = None
-) -> tuple[Picture, str]:
+def drift(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
     """The drift of every charge that the run conserves.
 
     Raises

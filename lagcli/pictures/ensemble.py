@@ -169,7 +169,5 @@ def _in_equal_ratios(values: Sequence[float]) -> bool:
 
 def _at_start(label: DrawnName) -> DrawnName:
     return DrawnName(
-        plain=f"{label.plain}(0)",
-        ascii=f"{label.ascii}(0)",
-        tex=f"{label.tex.rstrip('$')}(0)$",
+        plain=f"{label.plain}(0)", ascii=f"{label.ascii}(0)", tex=f"{label.tex.rstrip('$')}(0)$"
     )

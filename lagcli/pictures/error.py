@@ -6,16 +6,8 @@ what the run of the file claims is compared with numbers that it has not seen.
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from lagcli.numerics.hybrid.request import Asked
-from lagcli.pictures.drawing import (
-    CannotDraw,
-    Picture,
-    Piece,
-    Rule,
-    words,
-)
+from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.pictures.drawing import CannotDraw, Drawn, Piece, Rule, words
 from lagcli.pictures.drift import FLOOR, largest_of_each
 from lagcli.pictures.run import PicturedRun, short
 from lagcli.problem_data import Problem
@@ -26,9 +18,7 @@ _FINER, _DIGITS = 1e-3, 40
 _MOST = 7
 
 
-def error(
-    problem: Problem, asked: Asked, progress: Callable[[float], None] | None = None
-) -> tuple[Picture, str]:
+def error(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
     """The error of each column, relative to its scale, and the largest bound.
 
     Raises

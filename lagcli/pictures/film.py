@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from io import BytesIO
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from lagcli.numerics.hybrid.request import Progress
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pictures.figure import settings
 from lagcli.pictures.palette import DARK, LIGHT, Style
@@ -25,13 +26,7 @@ _VIEW = (math.radians(-60), math.radians(20))
 _COILS = 9
 
 
-def to_film(
-    scene: Scene,
-    kind: str,
-    *,
-    dark: bool = False,
-    progress: Callable[[float], None] | None = None,
-) -> bytes:
+def to_film(scene: Scene, kind: str, *, dark: bool = False, progress: Progress = None) -> bytes:
     """The film as the bytes of its file.
 
     Parameters
@@ -67,7 +62,7 @@ def _times(scene: Scene, rate: int) -> list[float]:
     return [first + span * k / (count - 1) for k in range(count)]
 
 
-def _told(times: Sequence[float], progress: Callable[[float], None] | None) -> Iterator[float]:
+def _told(times: Sequence[float], progress: Progress) -> Iterator[float]:
     for k, t in enumerate(times):
         if progress is not None:
             progress(k / len(times))
@@ -88,9 +83,7 @@ def _gif(pictures: Iterable[Any]) -> bytes:
     return into.getvalue()
 
 
-def _mp4(
-    drawing: _Drawing, times: Sequence[float], progress: Callable[[float], None] | None
-) -> bytes:
+def _mp4(drawing: _Drawing, times: Sequence[float], progress: Progress) -> bytes:
     from subprocess import CalledProcessError
 
     from matplotlib.animation import FFMpegWriter

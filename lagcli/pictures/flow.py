@@ -12,23 +12,16 @@ Strogatz, *Nonlinear Dynamics and Chaos*, 2nd ed., section 6.4.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 
 from lagcli.expression import Expression, Name, Negative, signed
 from lagcli.graph.nodes import mask_of
 from lagcli.numerics.equations.contact import with_contacts
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import Asked, Progress
 from lagcli.pictures.contours import grid, quiet, roots
-from lagcli.pictures.drawing import (
-    CannotDraw,
-    Curve,
-    Item,
-    Picture,
-    equilibria,
-    words,
-)
+from lagcli.pictures.drawing import CannotDraw, Curve, Drawn, Item, Picture, equilibria, words
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.run import PicturedRun, run_with
 from lagcli.pictures.starts import begun
@@ -37,8 +30,6 @@ from lagcli.problem_data import Expect, Problem
 from lagcli.reader.columns import Column, phase_columns
 from lagcli.record import record, replace
 from lagcli.rewriting import rebuilt, rewritten
-
-Progress = Callable[[float], None]
 
 #: Motions that enter through each edge, their accuracy and their rows.
 _EDGE, _ACCURACY, _ROWS = 6, 1e-6, 301
@@ -113,7 +104,7 @@ class Flow:
         return Rest(q=q, stable=by_q < 0 and by_v <= h, eigenvalues=pair)
 
 
-def flow(problem: Problem, asked: Asked, progress: Progress | None = None) -> tuple[Picture, str]:
+def flow(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
     """The portrait, with the motion of the file where that has an end."""
     labels = Labels(problem)
     made = Flow(problem, labels)

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from lagcli.numerics.hybrid.request import Asked
-from lagcli.pictures.drawing import Picture
+from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.pictures.drawing import Drawn
 from lagcli.problem_data import Problem
 from lagcli.record import record
 
-Progress = Callable[[float], None]
 #: What can be drawn.
 NAMES = ("series", "phase", "path", "potential", "poincare", "drift", "error")
 
@@ -35,8 +32,8 @@ class PictureRequest:
 
 
 def picture_of(
-    problem: Problem, asked: Asked, request: PictureRequest, progress: Progress | None = None
-) -> tuple[Picture, str]:
+    problem: Problem, asked: Asked, request: PictureRequest, progress: Progress = None
+) -> Drawn:
     """The picture, and why the accuracy was not reached to the end; empty where it was.
 
     Raises

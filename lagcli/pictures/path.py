@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import Asked, Progress
 from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,
     Curve,
+    Drawn,
     DrawnName,
     Item,
     Marks,
@@ -31,9 +30,7 @@ _LEAST = 0.25
 _VIEWS = (("x", "z"), ("x", "y"))
 
 
-def path(
-    problem: Problem, asked: Asked, progress: Callable[[float], None] | None = None
-) -> tuple[Picture, str]:
+def path(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
     """The paths of all points.
 
     Raises

@@ -8,15 +8,15 @@ it is the motion in the plane of any two columns, without levels.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 from lagcli.expression import Name
 from lagcli.formatters.unicode import unicode_name
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import Asked, Progress
 from lagcli.pictures.contours import Contours, grid
 from lagcli.pictures.drawing import (
     CannotDraw,
     Curve,
+    Drawn,
     DrawnName,
     Item,
     Picture,
@@ -32,8 +32,6 @@ from lagcli.pictures.window import Window
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import Column
 
-Progress = Callable[[float], None]
-
 _ACROSS, _UP = 221, 161
 #: So many levels, closer where the energy is low; none where a separatrix is as near as this.
 _LEVELS, _TOO_NEAR = 10, 0.03
@@ -41,9 +39,7 @@ _IN_A_WELL = (0.11, 0.44)
 _SEPARATRIX = 1
 
 
-def portrait(
-    problem: Problem, asked: Asked, progress: Progress | None = None
-) -> tuple[Picture, str]:
+def portrait(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
     """The portrait with the motion in it, where that has an end.
 
     Raises
@@ -111,7 +107,7 @@ def _levels(freedom: RemainingFreedom, window: Window) -> list[Item]:
 # -- any two columns -----------------------------------------------------------------------------
 
 
-def plane(problem: Problem, asked: Asked, progress: Progress | None = None) -> tuple[Picture, str]:
+def plane(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
     """The motion in the plane of two columns; of one coordinate q, that of q and q'.
 
     Raises

@@ -7,6 +7,7 @@ from lagcli.pictures.contours import grid
 from lagcli.pictures.drawing import (
     Axis,
     Curve,
+    Drawn,
     DrawnName,
     Item,
     Marks,
@@ -28,7 +29,7 @@ _PLACES = 1201
 _BELOW = 0.15
 
 
-def potential(problem: Problem, asked: Asked) -> tuple[Picture, str]:
+def potential(problem: Problem, asked: Asked) -> Drawn:
     """U_eff over q, the energy of the initial state, and where the motion turns.
 
     Raises

@@ -7,12 +7,12 @@ of the motion and begin the next, so that no line is drawn between them.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import cached_property
 
 from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.hybrid.events import Event
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import Asked, Progress
 from lagcli.numerics.hybrid.result import Result
 from lagcli.pictures.drawing import (
     Axis,
@@ -34,7 +34,6 @@ from lagcli.reader.columns import Column
 from lagcli.record import replace
 
 Values = tuple[float | None, ...]
-Progress = Callable[[float], None]
 
 #: Beside 95 % of the values; what is cut short is rarely so large for another reason.
 WITHOUT_BOUND = 20.0
@@ -53,7 +52,7 @@ class PicturedRun:
         self,
         problem: Problem,
         asked: Asked,
-        progress: Progress | None = None,
+        progress: Progress = None,
         result: Result | None = None,
     ) -> None:
         self.problem, self.asked = problem, asked
@@ -209,7 +208,7 @@ def run_with(
     problem: Problem,
     asked: Asked,
     columns: Sequence[Column],
-    progress: Progress | None = None,
+    progress: Progress = None,
     **changed: object,
 ) -> PicturedRun:
     """A run with other columns than those asked for; the time is added."""

@@ -8,11 +8,11 @@ does not state that there is a body.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import combinations, starmap
 
 from lagcli.expression import Expression, Name
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import Asked, Progress
 from lagcli.pictures.drawing import Piece, widened
 from lagcli.pictures.forces import Arrow, arrows
 from lagcli.pictures.points import AXES, mass_of, tracks
@@ -107,11 +107,7 @@ class Scene:
 
 
 def scene(
-    problem: Problem,
-    asked: Asked,
-    progress: Callable[[float], None] | None = None,
-    *,
-    forces: bool = False,
+    problem: Problem, asked: Asked, progress: Progress = None, *, forces: bool = False
 ) -> tuple[Scene, str]:
     """The animation of a motion, and why it ends early; empty where it does not.
 
@@ -124,14 +120,7 @@ def scene(
 
 
 class _Maker:
-    def __init__(
-        self,
-        problem: Problem,
-        asked: Asked,
-        progress: Callable[[float], None] | None,
-        *,
-        forces: bool,
-    ) -> None:
+    def __init__(self, problem: Problem, asked: Asked, progress: Progress, *, forces: bool) -> None:
         self.problem = problem
         self.tracks = tracks(problem)
         self.axes = "".join(a for a in AXES if any(a in track.axes for track in self.tracks))
@@ -244,9 +233,7 @@ class _Maker:
         return Vector(name=arrow.name, on=arrow.on, values=tuple(self._vectors(name, track.axes)))
 
     def _links(
-        self,
-        places: Mapping[str, tuple[Place, ...]],
-        fixed: Mapping[str, tuple[Place, ...]],
+        self, places: Mapping[str, tuple[Place, ...]], fixed: Mapping[str, tuple[Place, ...]]
     ) -> tuple[Link, ...]:
         given = self.problem.picture
         links = [Link(first=a, second=b, kind="rod") for a, b in given.rods]
@@ -270,9 +257,7 @@ class _Maker:
 
 
 def _of(
-    name: str,
-    places: Mapping[str, tuple[Place, ...]],
-    fixed: Mapping[str, tuple[Place, ...]],
+    name: str, places: Mapping[str, tuple[Place, ...]], fixed: Mapping[str, tuple[Place, ...]]
 ) -> tuple[Place, ...]:
     return places[name] if name in places else fixed[name]
 

@@ -12,29 +12,21 @@ Hénon, Heiles, "The applicability of the third integral of motion", Astron. J. 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 from lagcli.expression import Expression, Name, Negative, Sum
 from lagcli.numerics.equations.parameter_formulas import numbers_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.extrema import crossing
-from lagcli.numerics.hybrid.request import Asked
-from lagcli.pictures.drawing import (
-    CannotDraw,
-    Marks,
-    Picture,
-    Point,
-    extent,
-)
+from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.pictures.drawing import CannotDraw, Drawn, Marks, Picture, Point, extent
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.run import PicturedRun, run_with, short
 from lagcli.pictures.starts import other_starts
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import Column, phase_columns, read_along
 from lagcli.record import record, replace
-
-Progress = Callable[[float], None]
 
 #: Rows between two passages at least, and rows at most.
 _BETWEEN, _MOST = 12, 200_000
@@ -58,10 +50,10 @@ def section(
     asked: Asked,
     where: str | None,
     orbits: int = 1,
-    progress: Progress | None = None,
+    progress: Progress = None,
     *,
     chosen: bool = False,
-) -> tuple[Picture, str]:
+) -> Drawn:
     """The section of a motion, and of others of the same energy.
 
     Parameters
@@ -149,7 +141,7 @@ def _passages(
     asked: Asked,
     surface: SectionSurface,
     columns: Sequence[Column],
-    progress: Progress | None,
+    progress: Progress,
 ) -> tuple[list[tuple[float | None, ...]], PicturedRun]:
     """The rows in the section, and the run they are of."""
     if surface.expression is None:
@@ -172,7 +164,7 @@ def _crossings(
     asked: Asked,
     expression: Expression,
     columns: Sequence[Column],
-    progress: Progress | None,
+    progress: Progress,
 ) -> tuple[list[tuple[float | None, ...]], PicturedRun] | None:
     """The columns where the expression passes 0 upwards; None where it never does."""
     column = Column(_SECTION, expression)
@@ -199,7 +191,7 @@ def _at(times: Sequence[float], values: Sequence[float | None], t: float) -> flo
 
 
 def _intervals(
-    problem: Problem, asked: Asked, column: list[Column], progress: Progress | None
+    problem: Problem, asked: Asked, column: list[Column], progress: Progress
 ) -> list[tuple[float, float]]:
     """Neighbouring rows between which the sign changes from minus to plus."""
     samples = max(asked.samples, 1001)

@@ -3,15 +3,7 @@
 from __future__ import annotations
 
 from lagcli.expression import Name
-from lagcli.pictures.drawing import (
-    Axis,
-    CannotDraw,
-    Curve,
-    DrawnName,
-    Item,
-    Panel,
-    Picture,
-)
+from lagcli.pictures.drawing import Axis, CannotDraw, Curve, DrawnName, Item, Panel, Picture
 from lagcli.pictures.labels import Labels, with_unit
 from lagcli.pictures.run import PicturedRun
 from lagcli.reader.columns import Column

@@ -105,11 +105,7 @@ def _generator(generator: GeneratingFunction, each: ExaminedTransformation) -> I
         if each.valence is not None and each.valence != _ONE:
             scale = [each.valence, " times "]
         yield Paragraph(
-            (
-                "At constant time, ",
-                *scale,
-                "the sum of p dq minus the sum of P dQ is dF with",
-            )
+            ("At constant time, ", *scale, "the sum of p dq minus the sum of P dQ is dF with")
         )
         yield Equations((Row(Label("F"), generator.function),))
         return
@@ -120,12 +116,7 @@ def _generator(generator: GeneratingFunction, each: ExaminedTransformation) -> I
     elif generator.generates is None:
         yield Paragraph(("Whether ", label, " generates it is undecided."))
     else:
-        yield Paragraph(
-            (
-                label,
-                " does not generate it: its derivatives would make equal",
-            )
-        )
+        yield Paragraph((label, " does not generate it: its derivatives would make equal"))
         yield equations_of((left, right) for left, right in generator.failing)
 
 

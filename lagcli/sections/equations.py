@@ -41,8 +41,7 @@ def derive(statements: Statements) -> EquationsSection:
         for j, (name, left, force) in enumerate(sides)
     )
     return EquationsSection(
-        equations=equations,
-        constraints={e.name: _as_given(statements, e) for e in constraints},
+        equations=equations, constraints={e.name: _as_given(statements, e) for e in constraints}
     )
 
 

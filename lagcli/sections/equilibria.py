@@ -17,13 +17,7 @@ from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
 from lagcli.statements.declaration import Told, declared, step
 from lagcli.statements.plus_minus import once
 from lagcli.statements.stability import at_the_limit, holding, stability
-from lagcli.statements.wording import (
-    State,
-    alike_blocks,
-    conditions,
-    listed,
-    none_found,
-)
+from lagcli.statements.wording import State, alike_blocks, conditions, listed, none_found
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements

@@ -213,10 +213,7 @@ def _compared(
 
 
 def _compared_ranges(
-    check: Expectations,
-    path: list[str],
-    answer: Ranges,
-    expected: Sequence[Sequence[Inequality]],
+    check: Expectations, path: list[str], answer: Ranges, expected: Sequence[Sequence[Inequality]]
 ) -> Finding | None:
     from lagcli.studies.check.ranges import in_words, same_ranges
 

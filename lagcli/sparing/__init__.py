@@ -21,11 +21,7 @@ def spare_sympy() -> None:
     Nothing is spared with `LAGCLI_WHOLE_SYMPY` set, with SymPy imported already, or with a
     version that this was not made for: all works as well, and starts more slowly.
     """
-    from lagcli.sparing.packages import (
-        known_sympy,
-        serve_names_lazily,
-        serve_singletons_lazily,
-    )
+    from lagcli.sparing.packages import known_sympy, serve_names_lazily, serve_singletons_lazily
 
     if not os.environ.get("LAGCLI_WHOLE_SYMPY") and known_sympy():
         serve_names_lazily()

@@ -12,12 +12,7 @@ from typing import Any, Literal
 
 from lagcli.expression import Expression
 from lagcli.record import field, record
-from lagcli.statements.motions import (
-    Above,
-    Irreducible,
-    OneFreedom,
-    Verdict,
-)
+from lagcli.statements.motions import Above, Irreducible, OneFreedom, Verdict
 from lagcli.units import Unit
 
 #: How an answer was checked before it was printed: "exact", or at 50 digits.

@@ -18,9 +18,7 @@ _THEOREM = "(Kelvin, Tait and Chetaev)"
 
 
 def stability(
-    verdict: Verdict,
-    free: Sequence[str] = (),
-    on: tuple[Expression, Expression] | None = None,
+    verdict: Verdict, free: Sequence[str] = (), on: tuple[Expression, Expression] | None = None
 ) -> list[Part]:
     """Whether an equilibrium or a steady motion is stable, and by which conditions, in sentences.
 

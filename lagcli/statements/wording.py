@@ -20,12 +20,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.statements.answers import QuantityUnit, Verification
-from lagcli.statements.motions import (
-    Above,
-    Irreducible,
-    OneFreedom,
-    SteadySection,
-)
+from lagcli.statements.motions import Above, Irreducible, OneFreedom, SteadySection
 from lagcli.statements.questions import Answer, Solutions
 
 Part = str | Formula
@@ -228,10 +223,7 @@ def state_blocks(
     yield Equations(rows)
 
 
-def alike_blocks(
-    states: Sequence[State],
-    before: str = "",
-) -> Iterator[Block]:
+def alike_blocks(states: Sequence[State], before: str = "") -> Iterator[Block]:
     """States of which the same is said, one below the other."""
     for k, (at, on) in enumerate(states, 1):
         yield from state_blocks(at, before, on, ":" if k == len(states) else "")

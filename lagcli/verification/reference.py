@@ -306,10 +306,7 @@ class DynamicsAtState:
     @cached_property
     def flow(self) -> dict[int, arb]:
         """The direction of time along the motion, of t, q and q'."""
-        return {
-            **self._coasting,
-            **dict(zip(self.reference.v, self.accelerations, strict=True)),
-        }
+        return {**self._coasting, **dict(zip(self.reference.v, self.accelerations, strict=True))}
 
     def rate(self, place: int) -> arb:
         """d/dt of a function of t, q, q' along the motion."""

@@ -57,8 +57,7 @@ def collocation(method):
     def change(t, h, q, v):
         stages.linearize(t, q, v)
         guess = [list(stages.motion.accelerations(t, *q, *v))] * method.size
-        by_q, by_v = stages.changes(h, v, stages.solve(t, h, q, v, guess, [1.0] * 4, 1e-16))
-        return [*by_q, *by_v]
+        return stages.changes(h, v, stages.solve(t, h, q, v, guess, [1.0] * 4, 1e-16))
 
     return change
 

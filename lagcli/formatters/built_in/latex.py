@@ -4,16 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lagcli.document import (
-    Block,
-    Document,
-    Equations,
-    Formula,
-    Heading,
-    Items,
-    Matrix,
-    Paragraph,
-)
+from lagcli.document import Block, Document, Equations, Formula, Heading, Items, Matrix, Paragraph
 from lagcli.formatters.latex_display import LatexDisplay
 from lagcli.formatters.latex_environments import Environments
 from lagcli.formatters.latex_math import LatexPrinter

@@ -5,16 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from lagcli.document import (
-    Block,
-    Document,
-    Equations,
-    Formula,
-    Heading,
-    Items,
-    Matrix,
-    Paragraph,
-)
+from lagcli.document import Block, Document, Equations, Formula, Heading, Items, Matrix, Paragraph
 from lagcli.formatters.latex_display import Display, LatexDisplay, lines_of
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_names import LatexNames

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
 from typing import Any
@@ -21,8 +21,9 @@ from lagcli.numerics.equations.start import refined_state, rounded_components
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.compiled_taylor import CompiledTaylor
 from lagcli.numerics.hybrid.modes import MakeMethod, Mode, Modes
+from lagcli.numerics.hybrid.request import Progress
 from lagcli.numerics.hybrid.run import Phase, Run
-from lagcli.numerics.hybrid.setup import Progress, Setup
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.hybrid.subsystems import Apart, MakeMachine, apart
 from lagcli.numerics.hybrid.transitions import Transitions
 from lagcli.numerics.integrators.steps import Method, NotPossible, Tolerance
@@ -104,7 +105,7 @@ class Runs:
         self.simulation, self._otherwise = simulation, otherwise
         self._machine, self._make = machine, make
         #: told how many steps a long run will take
-        self.foreseen: Callable[[float], None] | None = None
+        self.foreseen: Progress = None
         #: the subsystems, once it is known whether steps of their own pay
         self._apart: Apart | None = None
         self._is_weighed = make is None or simulation.asked.whole
@@ -138,7 +139,7 @@ class Runs:
         times: Sequence[Any],
         bound: Tolerance,
         every: int,
-        progress: Callable[[float], None] | None,
+        progress: Progress,
     ) -> Run:
         """One run from a state."""
         asked, mode = self.simulation.asked, self.modes.first
@@ -179,7 +180,7 @@ def prepared_doubles(simulation: Setup, doubles: Modes) -> Prepared | str:
     def prepared(other: Runs, beside: tuple[twin.State, twin.State]) -> Prepared:
         both, states = (usual, other), (simulation.start, *beside)
 
-        def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: int) -> Run:
+        def run(bound: Tolerance, every: int, progress: Progress, *, moved: int) -> Run:
             runs, times = both[moved != 0], twin.clocked(simulation.times, moved)
             runs.foreseen = lambda steps: too_many(steps / _CERTAINLY)
             done = runs.run(states[moved], times, bound, every, progress)
@@ -277,7 +278,7 @@ def _prepared(
     )
     states = (exact_q, exact_v), *beside
 
-    def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: int) -> Run:
+    def run(bound: Tolerance, every: int, progress: Progress, *, moved: int) -> Run:
         times: list[Any] = simulation.times
         if moved:  # by a clock that is a rounding fast, or slow
             clock = 1 + 2 * moved * Fraction(numbers.rounding)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 from lagcli.numerics.certified.prepared import Prepared
@@ -13,6 +13,7 @@ from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import refined_state
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.modes import Mode, Modes
+from lagcli.numerics.hybrid.request import Progress
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.hybrid.transitions import Transitions
@@ -66,9 +67,7 @@ def prepared(simulation: Setup, doubles: Modes, digits: int | None = None) -> Pr
     except Refusal as refusal:
         return str(refusal)
 
-    def run(
-        bound: Tolerance, every: int, progress: Callable[[float], None] | None, *, moved: bool
-    ) -> Run:
+    def run(bound: Tolerance, every: int, progress: Progress, *, moved: bool) -> Run:
         del every, moved  # nothing lies between its stages, and its rounding is its own
         made = Run(Transitions(modes, asked.accuracy, asked.until), bound, asked.accuracy)
         made.step_limit = min(limit, simulation.most_steps or limit)

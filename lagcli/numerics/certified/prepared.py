@@ -17,8 +17,9 @@ from lagcli.numerics.certified.perturbed_twin import (
 )
 from lagcli.numerics.certified.scales import Scales
 from lagcli.numerics.hybrid.modes import MakeMethod, Modes
+from lagcli.numerics.hybrid.request import Progress
 from lagcli.numerics.hybrid.run import Run
-from lagcli.numerics.hybrid.setup import Progress, Setup
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.hybrid.transitions import Transitions
 from lagcli.numerics.integrators.steps import Tolerance
 from lagcli.record import record
@@ -89,7 +90,7 @@ def in_doubles(make: MakeMethod, simulation: Setup, modes: Modes, rounded: float
     def prepared(other: Modes, beside: tuple[State, State]) -> Prepared:
         both, states = (usual, other), (simulation.start, *beside)
 
-        def run(bound: Tolerance, every: int, progress: Progress | None, *, moved: int) -> Run:
+        def run(bound: Tolerance, every: int, progress: Progress, *, moved: int) -> Run:
             made = Run(
                 Transitions(both[moved != 0], asked.accuracy, asked.until), bound, asked.accuracy
             )

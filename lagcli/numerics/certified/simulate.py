@@ -31,9 +31,9 @@ from lagcli.numerics.equations.refusal import Refusal, told
 from lagcli.numerics.equations.start import initial_state
 from lagcli.numerics.equations.surface import ROUNDING
 from lagcli.numerics.hybrid.modes import Modes
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import Asked, Progress
 from lagcli.numerics.hybrid.result import Result
-from lagcli.numerics.hybrid.setup import Progress, Setup
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.dop853 import dop853
 from lagcli.numerics.integrators.steps import Grazes, NotPossible
 from lagcli.problem_data import Problem
@@ -45,7 +45,7 @@ _SAME_TIME = 1e-12
 _FINER, _FINEST = 1e-3, 1e-12
 
 
-def simulate(problem: Problem, asked: Asked, progress: Progress | None = None) -> Result:
+def simulate(problem: Problem, asked: Asked, progress: Progress = None) -> Result:
     """Run a problem.
 
     Parameters

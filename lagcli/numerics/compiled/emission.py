@@ -218,12 +218,7 @@ class Series:
         return text.made(f"call {real} @inner(ptr {a}, ptr {b}, i64 %known)")
 
     def _order(
-        self,
-        place: int,
-        op: Op,
-        zero: Sequence[str],
-        now: list[str],
-        pending: dict[int, str],
+        self, place: int, op: Op, zero: Sequence[str], now: list[str], pending: dict[int, str]
     ) -> str:
         text, two, inner = self._text, self._text.two, self._inner
         x = op.operands

@@ -64,10 +64,7 @@ class Equations:
     """
 
     def __init__(
-        self,
-        problem: Problem,
-        whole: Equations | None = None,
-        held: frozenset[int] | None = None,
+        self, problem: Problem, whole: Equations | None = None, held: frozenset[int] | None = None
     ) -> None:
         self.problem = problem
         self.whole = whole or self

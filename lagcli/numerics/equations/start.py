@@ -74,12 +74,7 @@ def initial_state(motion: Motion, *, project: bool = False) -> tuple[list[float]
 
 
 def refined_state(
-    motion: Motion,
-    surface: Surface | None,
-    q: Sequence[float],
-    v: Sequence[float],
-    *,
-    anew: bool,
+    motion: Motion, surface: Surface | None, q: Sequence[float], v: Sequence[float], *, anew: bool
 ) -> tuple[list[Any], list[Any]]:
     """The same state in the numbers of another motion, what the file gives worked out anew.
 

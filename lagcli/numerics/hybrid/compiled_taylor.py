@@ -10,7 +10,7 @@ compensated.  A whole run stays in machine code between the calls that tell how 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from ctypes import addressof, c_double, c_int64, memmove, memset, sizeof
 from typing import Any
 
@@ -21,6 +21,7 @@ from lagcli.numerics.compiled.numbers import Extended
 from lagcli.numerics.compiled.text import exact
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.mark import Mark
+from lagcli.numerics.hybrid.request import Progress
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.integrators.steps import CannotGoOn, NotPossible, Step, Stretch, Tolerance
 from lagcli.numerics.integrators.switching import Kinks
@@ -338,9 +339,9 @@ class CompiledTaylor:
         times: Sequence[float],
         *,
         probes: int,
-        progress: Callable[[float], None] | None,
+        progress: Progress,
         most: int | None = None,
-        foreseen: Callable[[float], None] | None = None,
+        foreseen: Progress = None,
     ) -> Run:
         """A run without conditions and kinks; at least `probes` places are looked at.
 

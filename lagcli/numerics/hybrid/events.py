@@ -200,11 +200,7 @@ class Watch:
         )
 
     def _look(
-        self,
-        k: int,
-        condition: Condition,
-        step: Step,
-        states: Mapping[float, tuple[float, State]],
+        self, k: int, condition: Condition, step: Step, states: Mapping[float, tuple[float, State]]
     ) -> Occurrence | None:
         def at(x: float) -> float:
             if x in states and x > 0:
@@ -241,11 +237,7 @@ class Watch:
         return self._dip(k, condition, step, at, places[risen:], values[risen:])
 
     def _failed(
-        self,
-        condition: Condition,
-        step: Step,
-        at: Callable[[float], float],
-        x: float,
+        self, condition: Condition, step: Step, at: Callable[[float], float], x: float
     ) -> Occurrence:
         """It fails at x, unless it comes back before anybody can tell it from a touch."""
         high = min(1.0, x + 0.25)

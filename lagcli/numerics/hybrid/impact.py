@@ -106,10 +106,7 @@ class Hinge:
         return carrying(closed, trial, _ROUNDING)
 
     def struck(
-        self,
-        v: Sequence[float],
-        always: frozenset[int],
-        closed: Mapping[int, float],
+        self, v: Sequence[float], always: frozenset[int], closed: Mapping[int, float]
     ) -> tuple[Vector, dict[int, float]] | None:
         """v+ and the energy lost at each contact; `closed` gives e of each with an impulse.
 

@@ -8,6 +8,9 @@ from lagcli.expression import Expression
 from lagcli.reader.columns import Column
 from lagcli.record import record
 
+#: Called with the part of a work that is done, where somebody looks.
+Progress = Callable[[float], None] | None
+
 
 @record(kw_only=True)
 class Asked:

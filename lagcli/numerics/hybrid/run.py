@@ -12,6 +12,7 @@ from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.events import Condition, Event, Occurrence, Watch
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.modes import Mode
+from lagcli.numerics.hybrid.request import Progress
 from lagcli.numerics.hybrid.transitions import Transitions, Turn
 from lagcli.numerics.integrators.sight import seen_steps
 from lagcli.numerics.integrators.steps import (
@@ -142,7 +143,7 @@ class Run:
         times: Sequence[float],
         *,
         probe_every: int = 0,
-        progress: Callable[[float], None] | None = None,
+        progress: Progress = None,
     ) -> Run:
         """Run through the times, of which the last is the end."""
         self._times, self._pending = times, 0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from copy import copy
 from functools import lru_cache
 from itertools import pairwise
@@ -13,7 +13,7 @@ from lagcli.numerics.equations.columns import Reading
 from lagcli.numerics.equations.contact import one_sided, with_contacts
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import Asked, Progress
 from lagcli.numerics.hybrid.result import Cut
 from lagcli.problem_data import Problem, charge_of
 from lagcli.reader.columns import Column
@@ -24,13 +24,11 @@ _GOLDEN = 0.6180339887498949
 #: Intervals that are compared between two rows where the accuracy is lost.
 _CLOSER = 64
 
-Progress = Callable[[float], None]
-
 
 class Setup:
     """One problem with its columns and conditions as nodes."""
 
-    def __init__(self, problem: Problem, asked: Asked, progress: Progress | None = None) -> None:
+    def __init__(self, problem: Problem, asked: Asked, progress: Progress = None) -> None:
         self.problem, self.asked, self.progress = problem, asked, progress
         #: with the contacts among the constraints
         self.whole = with_contacts(problem)

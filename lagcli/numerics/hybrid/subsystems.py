@@ -20,6 +20,7 @@ from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.compiled_taylor import CompiledTaylor
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.modes import Mode
+from lagcli.numerics.hybrid.request import Progress
 from lagcli.numerics.hybrid.run import Phase, Run
 from lagcli.numerics.integrators.steps import CannotGoOn, NotPossible, Stretch, Tolerance
 from lagcli.record import record
@@ -82,7 +83,7 @@ class Apart:
         times: Sequence[float],
         *,
         probes: int,
-        progress: Callable[[float], None] | None,
+        progress: Progress,
     ) -> bool:
         """A run part by part; False where one of them ends early.
 

@@ -215,11 +215,7 @@ class Transitions:
         closed: frozenset[int],
         struck: frozenset[int],
     ) -> tuple[
-        Vector,
-        dict[int, float],
-        dict[int, float],
-        list[tuple[float, int, bool]],
-        frozenset[int],
+        Vector, dict[int, float], dict[int, float], list[tuple[float, int, bool]], frozenset[int]
     ]:
         """v+; energy lost; what comes to rest and within which time; bounces; what is left.
 

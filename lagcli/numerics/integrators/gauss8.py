@@ -29,10 +29,7 @@ class Gauss8(FixedStep):
     order = 2 * _STAGES
 
     def __init__(
-        self,
-        surface: Surface | None,
-        stages: Stages,
-        pilots: list[tuple[float, float]],
+        self, surface: Surface | None, stages: Stages, pilots: list[tuple[float, float]]
     ) -> None:
         super().__init__(stages.motion, surface, pilots)
         self._stages = stages

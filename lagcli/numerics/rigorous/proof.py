@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.constants import constants_of
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import Asked, Progress
 from lagcli.numerics.rigorous.accumulation import rest_after
 from lagcli.numerics.rigorous.crossings import UndecidedCrossing, Watched, behind, when
 from lagcli.numerics.rigorous.enclosure import NotEnclosed, ShortSteps
@@ -54,7 +54,6 @@ _SPARE = 8
 
 _WIDE = "the enclosures are wider than the accuracy {:g}"
 
-Progress = Callable[[float], None]
 #: Time, set, mode, and the orders of what is 0 there.
 Following = tuple[Any, LohnerSet, ProofMode, Mapping[Watched, int]]
 
@@ -62,7 +61,7 @@ Following = tuple[Any, LohnerSet, ProofMode, Mapping[Watched, int]]
 def prove(
     problem: Problem,
     asked: Asked,
-    progress: Progress | None = None,
+    progress: Progress = None,
     attempts: type[Attempt] | None = None,
     work: float = _WORK,
 ) -> Proof:
@@ -119,7 +118,7 @@ class Attempt:
         implied: frozenset[int],
         bits: int,
         most: float,
-        progress: Progress | None,
+        progress: Progress,
     ) -> None:
         self.setup, self.implied, self.bits, self.most = setup, implied, bits, most
         self.progress = progress

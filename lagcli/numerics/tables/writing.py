@@ -92,9 +92,7 @@ def to_csv(result: Result) -> str:
     return as_csv(*with_column_certified(result))
 
 
-def with_column_certified(
-    result: Result,
-) -> tuple[Sequence[str], Sequence[Sequence[float | None]]]:
+def with_column_certified(result: Result) -> tuple[Sequence[str], Sequence[Sequence[float | None]]]:
     """Columns and rows; those beyond the certified ones are told by a last column, 1 or 0."""
     if result.beyond is None:
         return result.columns, result.rows

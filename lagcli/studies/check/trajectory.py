@@ -110,12 +110,7 @@ class TrajectoryCheck:
 
     # -- comparisons -----------------------------------------------------------------------------
 
-    def _formula(
-        self,
-        known: Known,
-        rows: Rows,
-        tolerance: float,
-    ) -> Finding | None:
+    def _formula(self, known: Known, rows: Rows, tolerance: float) -> Finding | None:
         name = known.name
         times = list(rows)
         for t, (expected,) in zip(

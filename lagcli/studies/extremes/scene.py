@@ -162,10 +162,7 @@ class ExtremeScene:
         return Motion(self.equations, constants, arithmetic), state
 
     def at(
-        self,
-        q: Sequence[float],
-        v: Sequence[float],
-        exact: Mapping[Name, Expression] | None = None,
+        self, q: Sequence[float], v: Sequence[float], exact: Mapping[Name, Expression] | None = None
     ) -> dict[Name, Expression]:
         """A state as `initial` of the format; `exact` are values that are no doubles."""
         names = [c.name for c in self.problem.coordinates]

@@ -61,10 +61,7 @@ class NoSuchCase(Exception):
 
 
 def study(
-    problem: Problem,
-    wanted: Wanted,
-    words: Sequence[str] = (),
-    progress: Progress | None = None,
+    problem: Problem, wanted: Wanted, words: Sequence[str] = (), progress: Progress | None = None
 ) -> ExtremesStudy:
     """Make the cases and put each to the test.
 

@@ -86,11 +86,7 @@ def _rows(member: Member, found: Result, *, along: bool, given: bool) -> Iterato
 
 
 def _row(
-    member: Member,
-    row: Sequence[float | None],
-    reached: float,
-    until: float,
-    error: float | None,
+    member: Member, row: Sequence[float | None], reached: float, until: float, error: float | None
 ) -> Row:
     return [*member, *row, reached, until, error]
 

@@ -138,11 +138,7 @@ def to_json(study: Study) -> str:
         "until": study.until,
         "samples": study.samples,
         "cost": study.cost,
-        "reference": {
-            "kind": known.kind,
-            "error_bound": known.bound,
-            "seconds": known.seconds,
-        },
+        "reference": {"kind": known.kind, "error_bound": known.bound, "seconds": known.seconds},
         "runs": [{**_document(point), "front": point in front} for point in study.points],
         "certified": [
             {**_document(point), "accuracy": point.accuracy, "reached": point.reached}

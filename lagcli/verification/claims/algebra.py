@@ -16,11 +16,7 @@ from flint import arb, arb_mat
 from lagcli.expression import Name, walk
 from lagcli.record import replace
 from lagcli.statements.answers import AlgebraSection, Charge, ChargesSection
-from lagcli.verification.claims.canonical_samples import (
-    CanonicalSample,
-    around_states,
-    samples,
-)
+from lagcli.verification.claims.canonical_samples import CanonicalSample, around_states, samples
 from lagcli.verification.claims.near import eigenvalues
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, dot, rank, size

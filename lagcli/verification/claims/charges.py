@@ -64,10 +64,7 @@ def evident(x: Examination) -> Iterator[tuple[str, int, Callable[[Sequence[State
     reference = x.reference
     named = zip(reference.names, reference.q, reference.momenta, strict=True)
     moving = [(f"p_{n}", q, p) for n, q, p in named]
-    for what, symbol, place in (
-        *moving,
-        ("the energy function", reference.time, reference.energy),
-    ):
+    for what, symbol, place in (*moving, ("the energy function", reference.time, reference.energy)):
         slope = reference.by(reference.lagrangian, symbol)
 
         def conserved(states: Sequence[State], place: int = place, slope: int = slope) -> bool:

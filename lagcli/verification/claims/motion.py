@@ -89,10 +89,7 @@ def _regularity(x: Examination, section: AccelerationsSection) -> AccelerationsS
     states = x.states()
     if section.regular or x.reference.large or not states or not x.regular:
         return section
-    x.refute(
-        "that the equations do not determine the accelerations",
-        "they do at random states",
-    )
+    x.refute("that the equations do not determine the accelerations", "they do at random states")
     return replace(section, regular=True, degenerate=())
 
 
