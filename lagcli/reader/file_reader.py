@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
@@ -16,6 +16,7 @@ from lagcli.reader.habits import (
     is_constant,
     key_advice,
     key_meant,
+    key_of_stem,
     name_meant,
     unit_at_end,
     unit_behind,
@@ -27,6 +28,7 @@ from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.scope import NUMBERS, VALUES, Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.text import Mistake
+from lagcli.record import replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -47,6 +49,8 @@ _NAME = re.compile(r"[^\W\d]\w*")
 _GIVEN = re.compile(
     r"([^\W\d]\w*'*)(?:\(0\))?\s*[=:]\s*([^,;=:]+?)(?=\s*(?:$|[,;]|[^\W\d]\w*'*(?:\(0\))?\s*[=:]))"
 )
+#: A longer formula is not repeated in a hint.
+_IN_ALL = 120
 _NO_EQUATION = Equation(ZERO, ZERO)
 
 
@@ -105,7 +109,7 @@ class FileReader:
         """How a list or a text of values is written as a map by coordinate."""
         names = list(self.scope.of_kind("coordinate")) or ["x"]
         written = node.text.source.text[node.start : node.end].strip("[] \n")
-        stated = _GIVEN.findall(written)
+        stated = [(self._along(name), value) for name, value in _GIVEN.findall(written)]
         if len(stated) > 1 or (stated and isinstance(node, Sequence)):
             return "write {" + ", ".join(f"{name}: {value}" for name, value in stated) + "}"
         given = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
@@ -120,6 +124,14 @@ class FileReader:
         fits = len(values) == len(names)
         pairs = zip(names, values, strict=True) if fits else [(names[0], "…")]
         return "write " + ", ".join(f"{name}: {value}" for name, value in pairs)
+
+    def _along(self, name: str) -> str:
+        """The coordinate of a force that is called `F`, `F_x` or `Q_x`."""
+        coordinates = list(self.scope.of_kind("coordinate"))
+        bare = re.sub(r"^[FQf]_?", "", name)
+        if bare in coordinates or bare or len(coordinates) != 1:
+            return bare if bare in coordinates else name
+        return coordinates[0]
 
     def items(self, node: DocumentNode, what: str, hint: str = "") -> list[DocumentNode]:
         """The items of a list; a mistake when it is none."""
@@ -193,7 +205,10 @@ class FileReader:
         written = value.value if isinstance(value, Scalar) else ""
         meant = key_meant(key.label, names)
         advice = f"the key is {meant}" if meant else key_advice(key.label, written, names)
-        hint = advice or did_you_mean(key.label, names) or f"known are {', '.join(names)}"
+        hint = advice or did_you_mean(key.label, names)
+        if not hint and (meant := key_of_stem(key.label, names)):
+            hint = f"the key is {meant}"
+        hint = hint or f"known are {', '.join(names)}"
         if "=" in key.label:
             hint = f"write {name_meant(key.label)}"
         elif key.in_flow and value.is_empty:
@@ -223,11 +238,27 @@ class FileReader:
         if what.startswith("the value of") and self._is_unit(alone):
             self.error(f"the unit '{alone}' is not a value", node.span, f"write {{unit: {alone}}}")
             return UNREADABLE
+        mistakes = len(self.diagnostics)
         expression = self._read(node, what, read_expression)
-        if expression is None:
-            return UNREADABLE
-        self._check_names(expression, role, what, before)
-        return expression
+        if expression is not None:
+            self._check_names(expression, role, what, before)
+        self._say_in_all(mistakes, node, read_expression, role)
+        return UNREADABLE if expression is None else expression
+
+    def _say_in_all(
+        self, mistakes: int, node: DocumentNode, read: Callable[[Excerpt], Any], role: Role
+    ) -> None:
+        """Add the whole formula to the first hint behind so many, where it was understood."""
+        if self.is_full or len(self.diagnostics) == mistakes or not isinstance(node, Scalar):
+            return
+        from lagcli.reader.repair import in_all, repaired
+
+        first, *others = self.diagnostics[mistakes:]
+        spelling = all(each.hint.startswith("did you mean '") for each in (first, *others))
+        whole = "" if spelling else repaired(node.value, self.scope, role, read)
+        if whole and len(whole) < _IN_ALL and (others or whole not in first.hint):
+            hint = in_all(first.hint, whole)
+            self.diagnostics[mistakes:] = [replace(first, hint=hint)]
 
     def _is_unit(self, text: str) -> bool:
         """Whether a text is a unit, and none of its names is one of the file."""
@@ -251,19 +282,20 @@ class FileReader:
 
     def equation(self, node: DocumentNode, what: str, role: Role) -> Equation:
         """`left = right`, or an expression that is 0."""
+        mistakes = len(self.diagnostics)
         equation = self._read(node, what, read_equation)
-        if equation is None:
-            return _NO_EQUATION
-        for side in (equation.left, equation.right):
+        for side in () if equation is None else (equation.left, equation.right):
             self._check_names(side, role, what)
-        return equation
+        self._say_in_all(mistakes, node, read_equation, role)
+        return _NO_EQUATION if equation is None else equation
 
     def comparison(self, node: DocumentNode, what: str, role: Role) -> Inequality | None:
         """One inequality, or None."""
+        mistakes = len(self.diagnostics)
         inequality = self._read(node, what, read_comparison)
-        if inequality is not None:
-            for side in (inequality.left, inequality.right):
-                self._check_names(side, role, what)
+        for side in () if inequality is None else (inequality.left, inequality.right):
+            self._check_names(side, role, what)
+        self._say_in_all(mistakes, node, read_comparison, role)
         return inequality
 
     def name(self, node: DocumentNode, what: str, role: Role) -> Name | None:

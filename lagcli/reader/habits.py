@@ -84,6 +84,12 @@ def key_meant(word: str, known: tuple[str, ...]) -> str | None:
     return None
 
 
+def key_of_stem(word: str, known: tuple[str, ...]) -> str | None:
+    """The key whose stem is in a word: T for `E_kin`."""
+    found = [key for stem, key in habits()["stems"].items() if stem in word.casefold()]
+    return found[0] if found and found[0] in known else None
+
+
 def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
     """What to write instead of an unknown key with its value; nothing where that is unclear."""
     if word in get_args(Assumption) and "assume" in known:
@@ -178,7 +184,19 @@ def _on_the_line(character: str) -> str:
 def unit_behind(text: str) -> str:
     """The unit in `10 kg` or `9.81 m/s^2`; nothing where a number stands alone."""
     found = _WITH_UNIT.fullmatch(re.sub(r"\s*(?:\[(.*)\]|\((.*)\))$", r" \1\2", text.strip()))
-    return found["unit"] if found else ""
+    return found["unit"] if found and _is_unit(found["unit"]) else ""
+
+
+def _is_unit(text: str) -> bool:
+    from lagcli.units import UnitMistake, read_unit
+
+    if text in {"deg", "min", "h"}:
+        return True
+    try:
+        read_unit(text)
+    except UnitMistake:
+        return False
+    return True
 
 
 def unit_at_end(text: str) -> str:

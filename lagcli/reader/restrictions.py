@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.problem_data import Constraint, Symmetry, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
 from lagcli.reader.names import derivative_order
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import QUESTION, STATE
 from lagcli.reader.suggest import did_you_mean
 
@@ -29,9 +29,10 @@ _FORCES: dict[str, ForceKind] = {
 
 def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     """Enter the multipliers into the scope."""
-    entries = file.entries(
-        node, "constraints", "write name: equation, as in rolling: x' = R*theta'"
-    )
+    lines = node.items if isinstance(node, Sequence) else [node]
+    first = [each.value for each in lines if isinstance(each, Scalar) and "=" in each.value]
+    written = first[0] if first else "equation, as in rolling: x' = R*theta'"
+    entries = file.entries(node, "constraints", f"write name: {written}")
     given = (declared(file, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
     return [one for one in given if one is not None]
 

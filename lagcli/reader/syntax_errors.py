@@ -175,7 +175,12 @@ def _missing_product(
             "a power is written with '^'", span, f"write {before}{superscript(right)}"
         )
     after = _written(right) if right.type != "LPAR" else "(…)"
-    if right.type == "NAME" and following is not None and following.type == "LPAR":
+    if (
+        right.type == "NAME"
+        and following is not None
+        and following.type == "LPAR"
+        and (right.end_pos == following.start_pos)
+    ):
         after += "(…)"
     message = f"a '*' is missing between '{left}' and '{right}'"
     unit = left.type == "NUMBER" and len(right) > 1 and unit_behind(f"1 {right}")
@@ -213,6 +218,8 @@ def _unexpected(
         hint = f"leave out '{previous} ='" if alone else "leave out '=' and what follows it"
         return "'=' stands only in constraints and equations", hint
     if token.type == "COMMA" and previous is not None and previous.type in END_VALUE:
+        if CASES & {str(other) for other in before}:
+            return "a formula has no cases", CASE
         if inside is not None and not _called(before):
             return "a list is no value", "write one value, without parentheses"
         is_decimal = previous.type == "NUMBER" and not is_last

@@ -81,7 +81,7 @@ HABITS = [
     (text(V="2x"), "did you mean 2*x"),
     (text(V="k·x"), "write '*'"),
     (text(constraints="{a: x == 1}"), "one '='"),
-    (text(constraints="[x = 1]"), "write name: equation"),
+    (text(constraints="[x = 1]"), "write name: x = 1"),
     (text(initial="x = 1"), "write x: 1"),
     (text(simulate="{until: 3}"), "the key is simulation"),
     ("coordinates: [x]\nparameters: [m]\n T: m*x'^2/2\n", "indented like its neighbours"),
@@ -423,7 +423,7 @@ def test_random_members_of_a_habit_are_hinted_alike(seed):
     number = draw.choice(["1", "2.5", "9.81", "1e3"])
     unit = draw.choice(UNITS)
     raised = text(coordinates=f"[{name}]", T=f"m*{name}'{SUPERSCRIPTS[digit]}", V=None)
-    assert messages(raised)[0].endswith(f"write {name}'^{digit + 2}")
+    assert messages(raised)[0].endswith(f"write {name}'^{digit + 2}; in all: m*{name}'^{digit + 2}")
     valued = text(parameters=f"{{b: {number} {unit}}}", T="x'^2/2", V=None)
     assert messages(valued) == [
         f"the unit '{unit}' cannot stand behind a number; write {{value: {number}, unit: {unit}}}"

@@ -163,7 +163,8 @@ def test_a_call_in_brackets_is_written_with_parentheses(seed):
     name = draw.choice(["sin", "cos", "sqrt", "exp", "log"])
     inside = draw.choice(["x", "x[t]", "2*x[t]"])
     [only] = messages(text(V=f"k*{name.capitalize()}[{inside}]"))
-    assert only.endswith(f"write {name}({inside.replace('[t]', '')})")
+    call = f"{name}({inside.replace('[t]', '')})"
+    assert only.endswith(f"write {call}; in all: k*{call}")
 
 
 @pytest.mark.parametrize(
