@@ -6,6 +6,7 @@ reference to the node it names, and what the aliases expand to is counted.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import Any, NoReturn
 
@@ -49,6 +50,16 @@ def compose(text: SourceText) -> tuple[DocumentNode, list[Diagnostic]]:
             Diagnostic("the file is empty", where, "a problem has 'coordinates' at least")
         )
     return composer.root, composer.diagnostics
+
+
+def _one_of(key: Scalar, first: DocumentNode, second: DocumentNode) -> str:
+    """What to do where a key is given twice: two formulas are terms of a sum."""
+    hint = "leave out one of them"
+    values = [each.value for each in (first, second) if isinstance(each, Scalar)]
+    if len(values) == 2 and all(re.search(r"[*'^(]", each) for each in values):
+        total = " + ".join(values).replace("+ -", "- ")
+        return f"{hint}, or write the sum: {key.label}: {total}"
+    return hint
 
 
 @dataclass(slots=True, eq=False, repr=False)
@@ -144,7 +155,9 @@ class _Composer:
                 first = entries[key.label][0]
                 related = ((first.span, "first given here"),)
                 message = f"the key '{key.label}' is given twice"
-                self._report(key.start, key.end, message, "leave out one of them", related)
+                self._report(
+                    key.start, key.end, message, _one_of(*entries[key.label], value), related
+                )
             else:
                 entries[key.label] = (key, value)
         return list(entries.values())

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from lagcli.expression import ZERO, Equation
 from lagcli.problem_data import Contact
 from lagcli.reader.file_reader import Required
+from lagcli.reader.habits import name_meant
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.scope import POSITION, VALUES, Kind, name_mistake
@@ -43,6 +44,8 @@ def declared(
         message = f"'{key.label}' is not a valid name for a {what}"
         is_relation = re.search("[=<>≤≥]", key.label)
         rule = "a name has letters, digits and underscores"
+        if better := name_meant(key.label, one=True):
+            rule = f"write {better}"
         file.error(message, key.span, f"write name: {key.label}" if is_relation else rule)
         return None
     multiplier, place = f"lambda_{key.label}", key.span

@@ -22,13 +22,12 @@ from lagcli.reader.habits import (
     unit_behind,
 )
 from lagcli.reader.limits import MISTAKES
-from lagcli.reader.misshapen import as_list, as_map, as_text, one_sum
+from lagcli.reader.misshapen import as_list, as_map, as_text, by_its_name, one_sum
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.scope import NUMBERS, VALUES, Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.text import Mistake
-from lagcli.record import replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -49,8 +48,6 @@ _NAME = re.compile(r"[^\W\d]\w*")
 _GIVEN = re.compile(
     r"([^\W\d]\w*'*)(?:\(0\))?\s*[=:]\s*([^,;=:]+?)(?=\s*(?:$|[,;]|[^\W\d]\w*'*(?:\(0\))?\s*[=:]))"
 )
-#: A longer formula is not repeated in a hint.
-_IN_ALL = 120
 _NO_EQUATION = Equation(ZERO, ZERO)
 
 
@@ -103,13 +100,15 @@ class FileReader:
         else:
             if isinstance(node, Scalar) and node.value.casefold() in {"none", "null", *YES_OR_NO}:
                 hint = "leave out the key"
+            if isinstance(node, Sequence) and (named := by_its_name(node)):
+                hint = f"write {named}, without '-'"
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
 
     def by_name(self, node: DocumentNode) -> str:
         """How a list or a text of values is written as a map by coordinate."""
         names = list(self.scope.of_kind("coordinate")) or ["x"]
         written = node.text.source.text[node.start : node.end].strip("[] \n")
-        stated = [(self._along(name), value) for name, value in _GIVEN.findall(written)]
+        stated = [(self._meant(name), value) for name, value in _GIVEN.findall(written)]
         if len(stated) > 1 or (stated and isinstance(node, Sequence)):
             return "write {" + ", ".join(f"{name}: {value}" for name, value in stated) + "}"
         given = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
@@ -125,13 +124,18 @@ class FileReader:
         pairs = zip(names, values, strict=True) if fits else [(names[0], "…")]
         return "write " + ", ".join(f"{name}: {value}" for name, value in pairs)
 
-    def _along(self, name: str) -> str:
-        """The coordinate of a force that is called `F`, `F_x` or `Q_x`."""
+    def _meant(self, name: str) -> str:
+        """The coordinate of a force that is called `F`, `F_x` or `Q_x`; the velocity v."""
         coordinates = list(self.scope.of_kind("coordinate"))
         bare = re.sub(r"^[FQf]_?", "", name)
-        if bare in coordinates or bare or len(coordinates) != 1:
-            return bare if bare in coordinates else name
-        return coordinates[0]
+        if bare in coordinates:
+            return bare
+        if not bare and len(coordinates) == 1:
+            return coordinates[0]
+        from lagcli.reader.foreign.words import Vocabulary, rate_meant
+
+        rate = rate_meant(name, Vocabulary(tuple(coordinates), frozenset()))
+        return rate[0] + "'" * rate[1] if rate else name
 
     def items(self, node: DocumentNode, what: str, hint: str = "") -> list[DocumentNode]:
         """The items of a list; a mistake when it is none."""
@@ -204,10 +208,13 @@ class FileReader:
         """A mistake at a key; the one that was meant, where that is clear."""
         written = value.value if isinstance(value, Scalar) else ""
         meant = key_meant(key.label, names)
+        alike = [name for name in names if name.casefold() == key.label.casefold()]
+        meant = alike[0] if len(alike) == len(key.label) == 1 else meant
         advice = f"the key is {meant}" if meant else key_advice(key.label, written, names)
         hint = advice or did_you_mean(key.label, names)
-        if not hint and (meant := key_of_stem(key.label, names)):
-            hint = f"the key is {meant}"
+        stem = None if advice else key_of_stem(key.label, names)
+        if stem and stem != closest(key.label, names):
+            meant, hint = stem, f"the key is {stem}"
         hint = hint or f"known are {', '.join(names)}"
         if "=" in key.label:
             hint = f"write {name_meant(key.label)}"
@@ -242,23 +249,18 @@ class FileReader:
         expression = self._read(node, what, read_expression)
         if expression is not None:
             self._check_names(expression, role, what, before)
-        self._say_in_all(mistakes, node, read_expression, role)
+        self._say_in_all(node, what, role, read_expression, mistakes)
         return UNREADABLE if expression is None else expression
 
     def _say_in_all(
-        self, mistakes: int, node: DocumentNode, read: Callable[[Excerpt], Any], role: Role
+        self, node: DocumentNode, what: str, role: Role, read: Callable[[Excerpt], Any], before: int
     ) -> None:
-        """Add the whole formula to the first hint behind so many, where it was understood."""
-        if self.is_full or len(self.diagnostics) == mistakes or not isinstance(node, Scalar):
-            return
-        from lagcli.reader.repair import in_all, repaired
+        """The whole formula in the first hint behind so many, where it was understood."""
+        found = self.diagnostics[before:]
+        if found and not self.is_full and isinstance(node, Scalar):
+            from lagcli.reader.repair import with_whole
 
-        first, *others = self.diagnostics[mistakes:]
-        spelling = all(each.hint.startswith("did you mean '") for each in (first, *others))
-        whole = "" if spelling else repaired(node.value, self.scope, role, read)
-        if whole and len(whole) < _IN_ALL and (others or whole not in first.hint):
-            hint = in_all(first.hint, whole)
-            self.diagnostics[mistakes:] = [replace(first, hint=hint)]
+            self.diagnostics[before:] = with_whole(found, node, what, self.scope, role, read)
 
     def _is_unit(self, text: str) -> bool:
         """Whether a text is a unit, and none of its names is one of the file."""
@@ -286,7 +288,7 @@ class FileReader:
         equation = self._read(node, what, read_equation)
         for side in () if equation is None else (equation.left, equation.right):
             self._check_names(side, role, what)
-        self._say_in_all(mistakes, node, read_equation, role)
+        self._say_in_all(node, what, role, read_equation, mistakes)
         return _NO_EQUATION if equation is None else equation
 
     def comparison(self, node: DocumentNode, what: str, role: Role) -> Inequality | None:
@@ -295,7 +297,7 @@ class FileReader:
         inequality = self._read(node, what, read_comparison)
         for side in () if inequality is None else (inequality.left, inequality.right):
             self._check_names(side, role, what)
-        self._say_in_all(mistakes, node, read_comparison, role)
+        self._say_in_all(node, what, role, read_comparison, mistakes)
         return inequality
 
     def name(self, node: DocumentNode, what: str, role: Role) -> Name | None:
@@ -330,9 +332,9 @@ class FileReader:
 
     # Names.
 
-    def declare(self, name: str, kind: Kind, span: Span) -> bool:
+    def declare(self, name: str, kind: Kind, span: Span, *, one: bool = False) -> bool:
         """Enter a name into the scope; a mistake when it is none, or taken."""
-        wrong = name_mistake(name)
+        wrong = name_mistake(name, one=one)
         if wrong is not None:
             self.error(wrong[0], span, wrong[1])
             self.scope.refused.append(name)

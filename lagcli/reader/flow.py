@@ -58,6 +58,8 @@ def _mend(
             one = " ".join(whole.split())
             is_list = as_list(one) != f"[{one}]"
             hint = f"write a list as {as_list(one)}" if is_list else f'put it in quotes: "{one}"'
+            if pair := re.fullmatch(r"\(\s*['\"](\w+)['\"]\s*,\s*([\d.]+)\s*\)", one):
+                hint = f"write {pair[1]}: {pair[2]}, with braces {{ }} around all"
             for name, inside in re.findall(r"(\w+)\(([^()]*)\)", one):
                 hint = function_meant(name, [each.strip() for each in inside.split(",")]) or hint
             message = "inside { } and [ ] a comma ends the value"

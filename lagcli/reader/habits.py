@@ -124,7 +124,7 @@ _PROGRAM = re.compile(
 
 def colon_advice(line: str) -> str:
     """`write V: k*x` for a line such as `V k*x`, `V = k*x`, `V:k*x` or `V：k*x`."""
-    found = re.match(r"\s*([^\W\d]\w*)(?:\s*[=:：]\s*|\s+)([^-+*/^].*)", line)
+    found = re.match(r"\s*([^\W\d]\w*)(?:\s*(?:<-|←|[=:]?[=:：])\s*|\s+)([^-+*/^<].*)", line)
     if re.match(r"\s*(/[/*]|['\"]{3}|;|%|--|<!)", line):
         return COMMENT
     if item := re.match(r"\s*[–—•·*]\s+(.*)", line):
@@ -154,8 +154,11 @@ def is_constant(word: str, value: str) -> bool:
     return bool(named and _NUMBER.fullmatch(value.strip()))
 
 
-def name_meant(name: str) -> str:
-    """A valid name for one with raised or lowered digits, LaTeX or blanks; `theta_1` for θ₁."""
+def name_meant(name: str, *, one: bool = False) -> str:
+    """A valid name for one with raised or lowered digits, LaTeX or blanks; `theta_1` for θ₁.
+
+    With `one`, words with blanks between them are no list of names.
+    """
     if made := re.fullmatch(r"(?:\w+\.)?[a-zA-Z]+\(\s*['\"](\w+)['\"].*\)(?:\(t\))?", name):
         return made[1]
     if declared := re.fullmatch(r"\s*(\w+)\s*=\s*[\w.]+\(.*", name):
@@ -168,7 +171,7 @@ def name_meant(name: str) -> str:
     related = re.fullmatch(r"\s*(\w+)\s*(\W+?)\s*0\s*", name)
     if related and related[2] in SIGNS:
         return f"{related[1]}: {{assume: {SIGNS[related[2]]}}}"
-    if re.fullmatch(r"[^\W\d]\w*(\s*(\s-|\s|;)\s*[^\W\d]\w*)+", name):
+    if re.fullmatch(r"[^\W\d]\w*(\s*(\s-|\s|;)\s*[^\W\d]\w*)+", name) and not one:
         return ", ".join(re.findall(r"\w+", name))
     called = re.sub(r"\([^\W\d].*\)$", "", name)
     plain = "".join(map(_on_the_line, called)).lstrip("\\$").rstrip("$")
@@ -256,6 +259,11 @@ def function_meant(name: str, arguments: list[str]) -> str:
         two = f"(a + b {'+' if name == 'max' else '-'} abs(a - b))/2"
         return f"compare two at a time: {name}(a, b) is {two}"
     return ""
+
+
+def is_angle(name: str) -> bool:
+    """Whether a name is that of an angle in most books."""
+    return name.partition("_")[0] in _ANGLES
 
 
 def velocity_meant(name: str, coordinates: list[str]) -> str:

@@ -79,7 +79,12 @@ def as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
         return "leave it out: equilibria, frequencies and charges are found"
     if isinstance(node, Scalar) and names[0] == "where":
         return f"write {{value: {written or '…'}, in_terms_of: [x]}}"
-    if isinstance(node, Sequence) and names[0] == "until" and node.items:
+    if (
+        isinstance(node, Sequence)
+        and names[0] == "until"
+        and isinstance(node.items[-1:], list)
+        and all(isinstance(each, Scalar) for each in node.items)
+    ):
         return f"write {{until: {written.strip('[]').split(',')[-1].strip()}}}"
     if isinstance(node, Scalar) and names[0] == "position" and re.fullmatch(r"\(.*\)", written):
         return f"write {{position: [{written[1:-1]}]}}"
@@ -89,6 +94,8 @@ def as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
         return f"write {{accelerations: {{{known[1]}: {known[2]}}}}}"
     if names[0] == "until" and (known := re.match(r"(\d[\d.]*)\s*(?:s|sec|seconds?)\b", written)):
         return f"write {{until: {known[1]}}}"
+    if isinstance(node, Sequence) and all(isinstance(each, Mapping) for each in node.items):
+        return "leave out the '-' before each key"
     fits = {"until": Scalar, "position": Sequence}.get(names[0])
     if fits and isinstance(node, fits) and written:
         return f"write {{{names[0]}: {written}}}"
@@ -102,8 +109,8 @@ def as_text(node: DocumentNode) -> str:
     first = (*inner, *(key for key, _ in entries))[:1]
     if not (first and isinstance(first[0], Scalar)):
         return ""
-    written = [(key.label, value.value) for key, value in entries if isinstance(value, Scalar)]
-    if len(entries) < 2 or len(written) < len(entries):
+    written = [(key.label, _source(value)) for key, value in entries]
+    if len(entries) < 2:
         return f"write {first[0].value}"
     name, value = written[0]
     said = [f"{key}: {each}" for key, each in written[1:]]
@@ -112,3 +119,20 @@ def as_text(node: DocumentNode) -> str:
     elif value:
         said = [f"value: {value}", *said]
     return f"write {name}: {{{', '.join(said)}}}, without '-'"
+
+
+def by_its_name(node: Sequence) -> str:
+    """`bob: {mass: m}` for the first of a list of maps that have their names inside."""
+    first = node.items[0] if node.items else None
+    is_named = isinstance(first, Mapping) and {"name", "id"} & {
+        key.label for key, _ in first.entries
+    }
+    return (
+        as_text(first).removeprefix("write ").removesuffix(", without '-'")
+        if is_named and first
+        else ""
+    )
+
+
+def _source(node: DocumentNode) -> str:
+    return " ".join(node.text.source.text[node.start : node.end].split())

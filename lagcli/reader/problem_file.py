@@ -90,9 +90,25 @@ def read_problem(source_name: str, data: bytes) -> ProblemReading:
     if diagnostics:
         return ProblemReading(source, None, tuple(diagnostics))
     try:
-        root, diagnostics = compose(SourceText.of(source))
+        return _read_source(source)
     except Mistake as error:
-        return ProblemReading(source, None, error.diagnostics)
+        from lagcli.reader.line_repair import repaired_line
+
+        found = repaired_line(source.text, error.diagnostics[0], _mistakes)
+        return ProblemReading(source, None, (found, *error.diagnostics[1:]))
+
+
+def _mistakes(source: Source) -> tuple[bool, tuple[Diagnostic, ...]]:
+    """Whether YAML reads a text, and the mistakes in it."""
+    try:
+        return True, _read_source(source).diagnostics
+    except Mistake as error:
+        return False, error.diagnostics
+
+
+def _read_source(source: Source) -> ProblemReading:
+    """The problem that a text writes; `Mistake` where it is not YAML."""
+    root, diagnostics = compose(SourceText.of(source))
     file = FileReader(diagnostics=diagnostics)
     problem = _read(file, source, root)
     if problem is not None and not file.diagnostics:

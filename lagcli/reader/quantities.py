@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypedDict, cast, get_args
 
 from lagcli.expression import Expression, Name, walk
 from lagcli.problem_data import Assumption, Coordinate, Parameter
-from lagcli.reader.habits import SIGNS
+from lagcli.reader.habits import SIGNS, unit_behind
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
 from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.suggest import did_you_mean
@@ -70,7 +70,13 @@ def read_parameters(
             file.error(f"an assumption stands under 'assume' of '{key.label}'", key.span, hint)
         elif "value" in attributes:
             what = f"the value of '{key.label}'"
+            mistakes = len(file.diagnostics)
             value = file.expression(attributes["value"], what, VALUES)
+            if len(file.diagnostics) > mistakes and key.label in {"T", "V", "L", "H"}:
+                del file.diagnostics[mistakes:]
+                message = f"'{key.label}' stands inside of 'parameters'"
+                file.error(message, key.span, "begin its line where 'parameters' begins")
+                file.scope.refused.append("points")  # else the kinetic energy is missed
         integer = "integer" in attributes and file.yes_or_no(attributes["integer"], "integer")
         said = _said(file, attributes)
         parameters.append(
@@ -137,8 +143,20 @@ def _declared(
         if is_decimal_part(key, value):
             message = f"'{key.label}' is not a name"
             file.error(message, key.span, "a decimal point is written '.'")
-        elif file.declare(key.label, kind_, key.span):
+        elif with_unit := _with_unit(key, value):
+            file.error(f"the unit in '{key.label}' is not a part of its name", key.span, with_unit)
+            file.scope.refused.append(key.label)
+        elif file.declare(key.label, kind_, key.span, one=value is not None and not value.is_empty):
             yield key, value
+
+
+def _with_unit(key: Scalar, value: DocumentNode | None) -> str:
+    """`write m: {value: 2, unit: kg}` for `m [kg]: 2`; nothing for other names."""
+    found = re.fullmatch(r"(\w+)\s*[\[(]([^\])]+)[\])]", key.label)
+    if found is None or not unit_behind(f"1 {found[2]}"):
+        return ""
+    given = f"value: {value.value}, " if isinstance(value, Scalar) and value.value else ""
+    return f"write {found[1]}: {{{given}unit: {found[2]}}}"
 
 
 def is_decimal_part(key: Scalar, value: DocumentNode | None) -> bool:

@@ -15,7 +15,9 @@ from lagcli.problem_data import (
     SimulationDefaults,
     Where,
 )
-from lagcli.reader.habits import name_meant, velocity_meant
+from lagcli.reader.foreign.translation import translated
+from lagcli.reader.foreign.words import Unclear, Vocabulary
+from lagcli.reader.habits import name_meant
 from lagcli.reader.misshapen import range_end
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar
@@ -57,7 +59,7 @@ def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]
             message = f"'{key.label}' is not a coordinate"
             file.error(message, key.span, "a decimal point is written '.'")
             continue
-        name = _state_name(file, key, coordinates)
+        name = _state_name(file, key, value, coordinates)
         if name is None:
             continue
         expression = file.expression(value, what, VALUES)
@@ -67,16 +69,23 @@ def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]
     return initial
 
 
-def _state_name(file: FileReader, key: Scalar, coordinates: list[str]) -> Name | None:
+def _state_name(
+    file: FileReader, key: Scalar, value: DocumentNode, coordinates: list[str]
+) -> Name | None:
     letters = key.label.rstrip("'’′″")
     if letters not in coordinates and file.scope.refused:
         return None
     if letters not in coordinates:
-        hint = velocity_meant(letters, coordinates) or did_you_mean(letters, coordinates)
+        plain = re.sub(r"(\(\s*(?:t\s*=\s*)?0\s*\)|_?0)$", "", key.label)
+        meant = _translated(plain, coordinates)
+        hint = f"write {meant}" if meant else did_you_mean(letters, coordinates)
+        if meant.endswith("'") and plain == key.label:
+            hint = f"the velocity of {meant[:-1]} is {meant}"
         hint = hint or f"known are {', '.join(coordinates)} and velocities: {coordinates[0]}'"
-        plain = re.sub(r"(\(\s*0\s*\)|_?0)$", "", key.label)
-        if plain != key.label and plain.rstrip("'") in coordinates:
-            hint = f"write {plain}"
+        order = {"position": "", "angle": "", "velocity": "'", "speed": "'"}.get(key.label)
+        if order is not None:
+            entry = file.by_name(value)
+            hint = re.sub(r"(\w+)(?=:)", rf"\1{order}", entry)
         if re.search(r"[=→>]", key.label):
             hint = f"write {name_meant(key.label)}"
         if "rest" in key.label:
@@ -91,6 +100,15 @@ def _state_name(file: FileReader, key: Scalar, coordinates: list[str]) -> Name |
         file.error(message, key.span, "a state has coordinates x and velocities x'")
         return None
     return Name(letters, primes)
+
+
+def _translated(name: str, coordinates: list[str]) -> str:
+    """`x'` for dx/dt, v, xdot and x'(0); nothing for what is no coordinate and no velocity."""
+    try:
+        meant = translated(name, Vocabulary(tuple(coordinates), frozenset()))
+    except Unclear:
+        return ""
+    return meant if meant.rstrip("'") in coordinates else ""
 
 
 def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:

@@ -6,64 +6,105 @@ import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from lagcli.diagnostics import Source
+from lagcli.diagnostics import Diagnostic, Source
 from lagcli.expression import Equation, Expression
 from lagcli.problem_data import Inequality
-from lagcli.reader.habits import name_meant
+from lagcli.reader.expressions import read_expression
+from lagcli.reader.foreign.translation import translated
+from lagcli.reader.foreign.words import Unclear, Vocabulary
+from lagcli.reader.habits import COMMENT, name_meant
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.text import Mistake
-from lagcli.reader.translation import Unclear, Vocabulary, translated
 from lagcli.reader.undeclared import UNDECLARED
+from lagcli.record import replace
 
 if TYPE_CHECKING:
+    from lagcli.reader.nodes import Scalar
     from lagcli.reader.scope import Role, Scope
 
-#: A longer text is not tried.
-_LONGEST = 300
-#: What stands before a formula that is given as an equation: `T =`, `V(x) =`.
-_LEFT_SIDE = re.compile(r"^\s*[^\W\d]\w*(?:\(\w+\))?\s*:?=(?!=)")
+#: A longer formula is not repeated in a hint.
+_LONGEST = 120
+#: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
+_LEFT_SIDE = re.compile(r"^\s*[^\W\d][\w ]*(?:\(\w+\))?\s*:?=(?!=)")
 
 
-def repaired(
-    value: str,
+def with_whole(
+    found: list[Diagnostic],
+    node: Scalar,
+    what: str,
     scope: Scope,
     role: Role,
     read: Callable[[Excerpt], Expression | Equation | Inequality],
-) -> str:
-    """The text in the notation of the format; nothing where the reader refuses that, too.
+) -> list[Diagnostic]:
+    """The mistakes of a formula as one, with the whole of it as the reader accepts it.
 
-    A name that is not declared may be left in it: that is another mistake.
+    Parameters
+    ----------
+    found
+        The mistakes.
+    node
+        The text.
+    what
+        Its place, as in "unknown name 'k' in V".
+    scope, role
+        The names of the file, and what may stand there.
+    read
+        Reads an expression, an equation or a comparison.
     """
-    if len(value) > _LONGEST:
-        return ""
-    names = _vocabulary(scope, role)
-    for written in (value, _LEFT_SIDE.sub("", value)):
+    if all(each.hint.startswith("did you mean '") for each in found):
+        return found
+    for written in _written(node.value, scope, equation=read is not read_expression):
         try:
-            whole = translated(written, names)
-            found = read(Excerpt.whole(Source("", whole)))
+            whole = translated(written, _vocabulary(scope, role))
+            read_back = read(Excerpt.whole(Source("", whole)))
         except (Unclear, Mistake):
             continue
-        sides = (found,) if isinstance(found, Expression) else (found.left, found.right)
-        wrong = [each for side in sides for each in name_mistakes(side, scope, role, "")]
-        words = set(re.findall(r"\w+", value))
-        if all(
-            UNDECLARED in each.hint and set(re.findall(r"'(\w+)'", each.message)) <= words
-            for each in wrong
-        ):
-            return whole if whole != value.strip() else ""
-    return ""
+        sides = (
+            (read_back.left, read_back.right)
+            if isinstance(read_back, Equation | Inequality)
+            else (read_back,)
+        )
+        wrong = [each for side in sides for each in name_mistakes(side, scope, role, what)]
+        words = set(re.findall(r"\w+", node.value))
+        if len(whole) > _LONGEST or not all(_is_undeclared(each, role, words) for each in wrong):
+            return found
+        proposed = re.search(rf"(?:write|mean) {re.escape(whole)}(?:[?;,]|$)", found[0].hint)
+        if whole == node.value.strip() or (proposed and not found[1:]):
+            return found
+        first = replace(found[0], hint=_in_all(found[0].hint, whole))
+        return [first, *(replace(each, span=node.span) for each in wrong)]
+    return found
 
 
-def in_all(hint: str, whole: str) -> str:
-    """A hint on a part of a formula, with the whole of it."""
+def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
+    """The text with names that can be declared, and without `T =` before it."""
+    if len(value) > 2 * _LONGEST:
+        return []
+    for each in scope.refused:
+        if re.search(r"\w[ -]\w", each):
+            value = re.sub(rf"(?<!\w){re.escape(each)}(?!\w)", name_meant(each, one=True), value)
+    return [value] if equation else [value, _LEFT_SIDE.sub("", value)]
+
+
+def _is_undeclared(mistake: Diagnostic, role: Role, words: set[str]) -> bool:
+    """Whether a name is not declared that the author has written: another mistake."""
+    named = set(re.findall(r"'(\w+)'", mistake.message))
+    return role.order >= 0 and UNDECLARED in mistake.hint and named <= words
+
+
+def _in_all(hint: str, whole: str) -> str:
+    """A hint on a part of a formula, with the whole of it; that alone where they differ."""
+    part = re.fullmatch(r"(?:write|did you mean) ([^ …?]+|.* .*[*/^].*?|.*\*\(….*)\??", hint)
+    if hint in {"", COMMENT} or (part and part[1].strip("'") not in whole):
+        return f"write {whole}"
     between = " In all: " if hint.endswith("?") else "; in all: "
-    return f"{hint}{between}{whole}" if hint else f"write {whole}"
+    return f"{hint}{between}{whole}"
 
 
 def _vocabulary(scope: Scope, role: Role) -> Vocabulary:
     coordinates = tuple(scope.of_kind("coordinate"))
     functions = frozenset(scope.of_kind("function"))
-    refused = [name for each in scope.refused if (name := name_meant(each))]
+    refused = [name for each in scope.refused if (name := name_meant(each, one=True))]
     usable = {*scope.usable(role), *refused} - {*coordinates} - functions
     return Vocabulary(coordinates, frozenset(usable), functions, role.momenta)

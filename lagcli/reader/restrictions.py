@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 
 _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION,
                           "acts_as")  # fmt: skip
+#: `x -> x - eps*y`, and so on.
+_MOVED = re.compile(
+    r"(\w+)\s*(?:->|→|↦|=>|=)\s*\1\s*([-+])\s*(?:eps(?:ilon)?|ε|s|delta|a|alpha)\b\s*\*?\s*([^,;]*)"
+)
 _ON_LOSS = ("stop", "release")
 _FORCES: dict[str, ForceKind] = {
     "normal": "normal",
@@ -136,6 +140,9 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
         words = re.findall(r"\w+", value.value) if isinstance(value, Scalar) else []
         changed = [name for name in words if name in {*coordinates, "t"}]
         here = f"write {key.label}: {change_of(changed[0])}" if changed else hint
+        if isinstance(value, Scalar) and (moved := _MOVED.findall(value.value)):
+            pairs = [f"{name}: {'-' * (sign == '-')}{change or 1}" for name, sign, change in moved]
+            here = f"write {key.label}: {{{', '.join(pairs)}}}"
         for name, change in file.entries(value, what, here):
             if name.label in coordinates or name.label in {"t", "gauge"}:
                 changes[name.label] = file.expression(change, what, STATE)

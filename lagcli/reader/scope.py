@@ -139,8 +139,11 @@ class Scope:
         return [*names, "pi", *(["t"] if role.time else [])]
 
 
-def name_mistake(name: str) -> tuple[str, str] | None:
-    """Why `name` cannot be declared, and what to do; None when it can."""
+def name_mistake(name: str, *, one: bool = False) -> tuple[str, str] | None:
+    """Why `name` cannot be declared, and what to do; None when it can.
+
+    `one` says that it is a single name, whatever blanks are in it.
+    """
     if name in RESERVED:
         meaning = {"t": "the time", "pi": "the number", "diff": "the partial derivative"}
         meant = meaning.get(name, "a function")
@@ -156,7 +159,9 @@ def name_mistake(name: str) -> tuple[str, str] | None:
         hint = "a name does not begin with a digit"
         return f"'{name}' is not a name", f"{hint}: write {better}" if better else hint
     if not all(_is_name_character(character) for character in name):
-        better = name_meant(name) or ("every name in full" if set(name) <= {".", "…"} else "")
+        better = name_meant(name, one=one) or (
+            "every name in full" if set(name) <= {".", "…"} else ""
+        )
         message = f"'{name}' is not a name: a name has letters, digits and underscores"
         return message, f"write {better}" if better else ""
     return None

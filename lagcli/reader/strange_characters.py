@@ -23,7 +23,7 @@ def character_meant(rest: str, tokens: list[Token]) -> str:
         return COMMENT
     if rest.startswith(("!=", ":=")):
         return "write an equation with '='"
-    if rest[0] == "[" and before == "LPAR":
+    if rest[0] == "[" and before != "NAME" and re.match(r"\[[^\]]*[,;\[]", rest):
         return "a vector is written by its components"
     index = re.match(r"\[(\d+)\]|\{(\w+)\}", rest)
     if index and before == "NAME" and (index[1] or tokens[-1].endswith("_")):

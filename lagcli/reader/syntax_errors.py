@@ -90,7 +90,9 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
         if grouped and tokens and tokens[-1].type == "NUMBER":
             hint = f"write {tokens[-1]}{grouped[1].replace(character, '')}"
             return Diagnostic("digits are not grouped by a prime", span, hint)
-        return Diagnostic("a prime without a name", span, prime_meant(tokens))
+        behind = re.match(r"'([^\W\d]\w*)", excerpt.value[at:])
+        hint = f"write {behind[1]}'" if behind else prime_meant(tokens)
+        return Diagnostic("a prime without a name", span, hint)
     if not character.isprintable():
         return Diagnostic(f"{shown} has no meaning in an expression", span, "leave it out")
     if character in '"“”„' and not (tokens and tokens[-1].type == "NAME"):

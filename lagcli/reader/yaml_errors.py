@@ -72,7 +72,7 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         hint = "put it on a line above the key"
         return Diagnostic("a comment ends the value that goes on below it", span, hint)
     if quoted := _QUOTED.fullmatch(line):
-        hint = f"leave out the outer quotes: {quoted[1]}: {quoted[3]}"
+        hint = f"leave out the outer quotes: {quoted[1]}: {quoted[3].strip(quoted[2])}"
         return Diagnostic("this quote ends before the text does", span, hint)
     if "mapping values are not allowed" in said:
         return _second_colon(offset, text)

@@ -129,7 +129,7 @@ FILES = [
     (after("V: 2 x\n"), "9:4", "did you mean 2*x?"),
     (after("V: 2x\n"), "9:4", "did you mean 2*x?"),
     (after("V: x y\n"), "9:4", "did you mean x*y?"),
-    (after("V: 2(x)\n"), "9:4", "did you mean 2*(…)?"),
+    (after("V: 2(x)\n"), "9:4", "write 2*x"),
     (after("V: (x)(y)\n"), "9:6", "'*' is missing"),
     (after("V: sin x\n"), "9:4", "did you mean sin(x)?"),
     (after("V: sin^2(x)\n"), "9:4", "did you mean sin(…)^2?"),

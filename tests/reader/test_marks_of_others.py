@@ -48,7 +48,7 @@ HINTS = [
     (text(source="[Goldstein](http://example.org)"), "put the whole text in quotes"),
     ('"""A pendulum"""\n' + text(), "a comment begins with '#'"),
     ("import sympy\n" + text(), "leave it out"),
-    (text(V="{m*g}*x"), "group with parentheses ( )"),
+    (text(V="{m*g}*x"), "write V: (m*g)*x"),
     (text(V="&= k*x \\\\"), "leave out '&' and '='"),
     (text(V="\\arctan{x}"), "write atan"),
     (text(V="-\\partial U/\\partial x"), "write diff(expression, name)"),

@@ -1,0 +1,157 @@
+"""A line that YAML does not read, as it reads it: what a hint may propose.
+
+One change of one line is made after another, and the file is read again.  The first that the
+reader accepts is proposed, or the first after which YAML reads further.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+from lagcli.diagnostics import Diagnostic, Source, Span
+from lagcli.reader.habits import colon_advice, habits
+
+#: Longer files are not tried.
+_LONGEST = 20_000
+#: A key with its value.
+_ENTRY = re.compile(r"(?P<key>\s*(?:- )?[^\W\d][\w ']*:\s+)(?P<value>\S.*)")
+#: What other languages put before a formula: `@(x)`, `lambda x:`, and marks that YAML keeps.
+_BEFORE = re.compile(r"^(?:@\([\w, ]*\)|lambda\b[\w, ]*:|[`@%&!*>=]+(?=[\w( ]))\s*")
+#: A formula that begins with a group in brackets or quotes.
+_GROUP = re.compile(
+    r"(?:\[([^\]]*)\]|\{([^}:]*)\}|\"([^\"]*)\"|'([^']*)')(?P<rest>\s*[-+*/^(\w].*)"
+)
+#: Keys with a text that is no formula.
+_TEXTS = frozenset({"title", "source", "description"})
+_PAIRS = {"[": "]", "{": "}", '"': '"', "'": "'"}
+#: Advice that fits many lines; a repair is better.
+_GENERAL = frozenset({"", "put the whole value in quotes", "group with parentheses ( )"})
+
+
+def _closed(line: str) -> str:
+    """With the brackets and quotes that are open at its end."""
+    open_: list[str] = []
+    for each in line.rstrip().rstrip(","):
+        if open_ and each == open_[-1]:
+            open_.pop()
+        elif each in _PAIRS and not (each in "'\"" and open_ and open_[-1] in "'\""):
+            open_ += _PAIRS[each]
+    return line.rstrip().rstrip(",") + "".join(reversed(open_)) if open_ else line
+
+
+def _separated(line: str) -> str:
+    """`{m: 1, k: 2}` for `{m: 1 k: 2}`."""
+    return re.sub(r"([\w.)\]'\"])\s+(?=[\"']?[^\W\d]\w*[\"']?:\s)", r"\1, ", line)
+
+
+def _listed(line: str) -> str:
+    """`[x, y]` for `{x[t], y[t]}`."""
+    names = re.sub(r"[\[(]t[\])]", "", line)
+    return re.sub(r"(:\s+)\{([^{}:]*,[^{}:]*)\}", r"\1[\2]", names)
+
+
+def _formula(line: str) -> str:
+    """Without what other languages put before a formula."""
+    found = _ENTRY.fullmatch(line)
+    return line if found is None else found["key"] + _BEFORE.sub("", found["value"]).rstrip("`")
+
+
+def _grouped(line: str) -> str:
+    """`V: (m/2)*x` for `V: {m/2}*x`, `[m/2]*x` and `"m/2"*x`."""
+    found = _ENTRY.fullmatch(line)
+    group = None if found is None else _GROUP.fullmatch(found["value"])
+    if found is None or group is None:
+        return line
+    inner = next(each for each in group.groups()[:-1] if each is not None)
+    return f"{found['key']}({inner}){group['rest']}"
+
+
+def _quoted(line: str) -> str:
+    found = _ENTRY.fullmatch(line)
+    if found is None or found["key"].strip(" :") not in _TEXTS:
+        return line
+    value = found["value"].replace("\\", "\\\\").replace('"', '\\"')
+    return f'{found["key"]}"{value}"'
+
+
+#: In the order in which they are tried.
+_CHANGES: tuple[Callable[[str], str], ...] = (
+    lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
+    lambda line: re.sub(r"^(\s*[^\W\d]\w*)\s*(?:<-|←|:=|->|→|=>|=)\s*", r"\1: ", line),
+    _formula,
+    _grouped,
+    lambda line: re.sub(r"^(\s*)-\s+(?=[^\W\d]\w*:\s)", r"\1", line),
+    lambda line: line.replace(";", ",") if re.search(r"[\[{].*;", line) else line,
+    lambda line: re.sub(r"\s+(?://|%|--|;)\s*(?=\S)", "  # ", line, count=1),
+    lambda line: re.sub(r"\s*[;,]\s+(?=[^\W\d]\w*:\s)", "\n", line, count=1),
+    lambda line: re.sub(r"(?<=[:,\[] )[%@`&!*](?=\w)", "", line),
+    _listed,
+    _closed,
+    _separated,
+    lambda line: line if line.rstrip().endswith((":", ",")) else line.rstrip() + ",",
+    _quoted,
+)
+
+
+def repaired_line(
+    text: str, mistake: Diagnostic, read: Callable[[Source], tuple[bool, tuple[Diagnostic, ...]]]
+) -> Diagnostic:
+    """The mistake, with the line as it should be where one was found.
+
+    Parameters
+    ----------
+    text
+        The file.
+    mistake
+        What YAML complains about.
+    read
+        Whether YAML reads a text, and the mistakes in it.
+    """
+    lines = text.split("\n")
+    first = mistake.span.line - 1
+    shown = lines[first].strip() if first < len(lines) else ""
+    general = (
+        _GENERAL | {hint for *_, hint in habits()["yaml"]} | {f"write {shown}", colon_advice(shown)}
+    )
+    other = mistake.hint == "indent with spaces" or "U+" in mistake.message
+    if len(text) > _LONGEST or other or not (mistake.hint in general or re.match(r"-\w", shown)):
+        return mistake
+    for number, line in _tried(lines, first):
+        changed = "\n".join([*lines[:number], line, *lines[number + 1 :]])
+        is_read, found = read(Source("", changed))
+        here = [each for each in found if each.span.line == number + 1 and each.is_error]
+        if is_read and here and (whole := here[0].hint.rpartition("n all: ")[2]) != here[0].hint:
+            entry = _ENTRY.fullmatch(line)
+            line = line if entry is None else entry["key"] + whole
+            changed = "\n".join([*lines[:number], line, *lines[number + 1 :]])
+            is_read, found = read(Source("", changed))
+            here = [each for each in found if each.span.line == number + 1 and each.is_error]
+        further = found and found[0].span.line > max(first, number) + 1
+        if not here and (is_read or further):
+            span = mistake.span
+            if number != first:
+                begin = len(line) - len(line.lstrip()) + 1
+                span = Span(number + 1, begin, number + 1, len(lines[number]) + 1)
+            if line == f"  {lines[number]}":
+                return replace(mistake, hint="begin the line with blanks")
+            _, cut, key = line.partition("\n")
+            hint = (
+                f"begin a new line with '{key.partition(':')[0]}:'"
+                if cut
+                else f"write {line.strip()}"
+            )
+            return replace(mistake, span=span, hint=hint)
+    return mistake
+
+
+def _tried(lines: list[str], first: int) -> Iterator[tuple[int, str]]:
+    """The places of the lines near the mistake, each with what may have been meant."""
+    above = [k for k in range(min(first, len(lines) - 1), -1, -1) if lines[k].strip()][:4]
+    if above[1:] and re.fullmatch(r"(title|source|description):\s*", lines[above[1]]):
+        yield above[0], f"  {lines[above[0]]}"
+    for change in _CHANGES:
+        for number in above:
+            if (line := change(lines[number])) != lines[number]:
+                yield number, line

@@ -1,0 +1,144 @@
+"""Formulas in other notations: translated right, or not at all.
+
+SymPy's printers for other languages write the formulas of the library; what is translated back
+has the same values.
+"""
+
+from __future__ import annotations
+
+import random
+import re
+
+import pytest
+import sympy as sp
+
+from lagcli.expression import Call, Name, walk
+from lagcli.formatters.grammar import to_grammar
+from lagcli.library import entries
+from lagcli.reader import parse_text, read_problem
+from lagcli.reader.foreign.translation import translated
+from lagcli.reader.foreign.words import Unclear, Vocabulary
+
+WRITERS = {
+    "LaTeX": sp.latex,
+    "Mathematica": sp.mathematica_code,
+    "MATLAB": sp.octave_code,
+    "Maple": sp.maple_code,
+    "C": sp.ccode,
+    "Fortran": lambda formula: sp.fcode(formula, source_format="free", standard=95),
+    "Python": sp.pycode,
+    "Julia": sp.julia_code,
+}
+FUNCTIONS = "sin cos tan cot sqrt exp log abs sinh cosh tanh asin acos atan atan2 sign pi".split()
+
+
+def plain(formula):
+    """The formula with xdot for x', as SymPy reads it."""
+    text = re.sub(r"(\w+)'", r"\1dot", to_grammar(formula)).replace("^", "**")
+    names = set(re.findall(r"[^\W\d]\w*", text)) - {*FUNCTIONS}
+    return sp.sympify(text, locals={name: sp.Symbol(name) for name in names})
+
+
+def formulas():
+    for entry in list(entries())[::12]:
+        problem = read_problem(entry.name, entry.path.read_bytes()).problem
+        for formula in (problem.kinetic, problem.potential, problem.lagrangian):
+            calls = [n for n in walk(formula) if isinstance(n, Call)] if formula else []
+            if formula is not None and not any(n.function in problem.functions for n in calls):
+                yield problem, formula
+
+
+@pytest.mark.parametrize("language", WRITERS)
+def test_what_sympy_prints_for_another_language_is_translated_back(language):
+    draw, right, unclear = random.Random(language), 0, 0
+    for problem, formula in formulas():
+        given = plain(formula)
+        coordinates = tuple(each.name for each in problem.coordinates)
+        others = {node.name for node in walk(formula) if isinstance(node, Name)} | {"t", "pi"}
+        names = Vocabulary(coordinates, frozenset(others - {*coordinates}))
+        written = given
+        if language == "LaTeX":
+            dots = {x: sp.Symbol(rf"\dot{{{sp.latex(sp.Symbol(x))}}}") for x in coordinates}
+            written = given.subs({f"{x}dot": dot for x, dot in dots.items()})
+        text = WRITERS[language](written).replace("&\n", "")
+        try:
+            back = plain(parse_text(translated(text, names)))
+        except Unclear:
+            unclear += 1
+            continue
+        values = {name: draw.uniform(0.2, 0.9) for name in given.free_symbols}
+        assert back.free_symbols <= given.free_symbols, text
+        assert complex(back.subs(values)) == pytest.approx(complex(given.subs(values))), text
+        right += 1
+    assert right > 20
+    assert unclear <= 1
+
+
+NAMES = Vocabulary(("x", "theta"), frozenset({"m", "k", "g", "l", "a", "t", "pi"}))
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        (r"\frac12 m \dot x^2 + \tfrac{1}{2} k x^2", "1/2*m*x'^2 + 1/2*k*x^2"),
+        (r"-m g l \cos\theta", "-m*g*l*cos(theta)"),
+        (r"m\left(\frac{dx}{dt}\right)^2", "m*x'^2"),
+        ("½ m ẋ² − k·|x|", "(1/2)*m*x'^2 - k*abs(x)"),
+        ("m/2 (x'[t]^2 + l^2 Sin[theta[t]]^2)", "m/2*(x'^2 + l^2*sin(theta)^2)"),
+        ("m sin²θ", "m*sin(theta)^2"),
+        ("k*x.diff(t)**2 + np.sqrt(a)", "k*x'^2 + sqrt(a)"),
+        ("1/2mx'^2", "1/2*m*x'^2"),
+        ("a^2/2m", "a^2/(2*m)"),
+        ("k(1 - e^(-a x))^2", "k*(1 - exp(-a*x))^2"),
+        ("m*(dx/dt)^2 + m*d²x/dt²", "m*x'^2 + m*x''"),
+        ("9,81 x", "9.81*x"),
+        ("k*sin(30°)", "k*sin(30*pi/180)"),
+        ("x == l", "x = l"),
+    ],
+)
+def test_a_formula_is_read_as_its_author_reads_it(text, meant):
+    assert translated(text, NAMES) == meant
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a/l x", "cos a x", "sin x^2", "sin x/2", "e^2x", "1,000*x", "U(x)", "x(t - 1)", "k*(x", "x y)",
+     "a(t)", "x^2^2", "k*x if x > 0 else 0"],
+)  # fmt: skip
+def test_what_may_mean_two_things_is_not_translated(text):
+    with pytest.raises(Unclear):
+        translated(text, NAMES)
+
+
+def test_another_capital_is_another_name():
+    assert translated("M m", NAMES) == "M*m"
+
+
+def test_a_letter_for_the_velocity_beside_its_coordinate_is_not_translated():
+    one = Vocabulary(("theta",), frozenset({"m", "t", "pi"}))
+    assert translated("m ω²", one) == "m*theta'^2"
+    with pytest.raises(Unclear):
+        translated("m ω² θ²", one)
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "coordinates: [x, y",
+        "parameters: {m: 1, k: 2",
+        "parameters: {m: 1 k: 2}",
+        "T: @(x) x'^2",
+        "T: lambda x: x'^2",
+        "T: *x'^2",
+        "T: {1/2}*x'^2",
+        "title: A: b",
+        "coordinates: {x[t], y[t]}",
+    ],
+)
+def test_a_line_that_yaml_does_not_read_is_proposed_as_the_reader_accepts_it(line):
+    good = {"coordinates": "coordinates: [x, y]", "T": "T: x'^2 + y'^2"}
+    lines = [line, *(each for key, each in good.items() if not line.startswith(key))]
+    [only] = read_problem("p.yaml", "\n".join([*lines, ""]).encode()).diagnostics
+    assert only.hint.startswith("write ")
+    changed = [only.hint.removeprefix("write "), *lines[1:]]
+    assert read_problem("p.yaml", "\n".join([*changed, ""]).encode()).problem is not None
