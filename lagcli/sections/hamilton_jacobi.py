@@ -41,7 +41,7 @@ def blocks(section: HamiltonJacobiSection, _: Answers) -> Iterator[Block]:
     if section.time_rate is not None:
         yield from _driven(section, section.time_rate)
         return
-    yield Paragraph(("With each momentum the derivative of S by its coordinate:",))
+    yield Paragraph(("With each momentum the derivative of S with respect to its coordinate:",))
     yield Equations((Row(Name(section.energy), section.hamiltonian),))
     parts: list[str | Formula] = [_NAMED[section.separable]]
     if section.obstacle:

@@ -11,11 +11,13 @@ import pytest
 from lagcli.formatters.options import Options
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.mechanics.steady.statement import steady_motions
-from lagcli.pipeline import Request, render, state
+from lagcli.pipeline import Request, explain, render, state
 
 from .derived import derive
+from .test_explanation import words
 
 SEEDS = range(4)
+_HAMILTON_JACOBI = "The Hamilton-Jacobi equation"
 _POSITIVE = "parameters: {m: {assume: positive}, c: {assume: positive}, k: {assume: positive}}"
 
 
@@ -89,3 +91,46 @@ def test_what_is_said_of_several_equilibria_is_said_once():
     told = answered(text, "equilibria")
     assert told.count("They exist where") == told.count("\n  and ") == 4
     assert "It exists" not in told
+
+
+@pytest.mark.parametrize(("C", "word"), [("c", "decay"), ("-c", "grow")])
+def test_the_cases_of_a_damped_and_of_a_fed_oscillator(C, word):
+    """Its roots at random values, in the case that the sentence names."""
+    text = f"coordinates: [x]\n{_POSITIVE}\nT: m*x'^2/2\nV: k*x^2/2\nforces: {{x: -({C})*x'}}\n"
+    told = words(explain(derive(text), ["modes"]), "Small oscillations")
+    weak, strong = told.index("oscillates with"), told.index("a sum of two")
+    assert told[:weak].endswith("For … < … the displacement ")
+    assert told[weak:strong].endswith("For … > … it is ")
+    assert told.count(word) == 2
+    source = random.Random(1)
+    for _ in range(50):
+        m, c, k = (10 ** source.uniform(-1, 1) for _ in range(3))
+        roots = np.roots([m, c if C == "c" else -c, k])
+        assert bool(abs(roots[0].imag) > 1e-9) is (c**2 < 4 * m * k)
+        assert {bool(s.real < 0) for s in roots} == {word == "decay"}
+
+
+def test_one_coordinate_has_its_equation_once_but_for_a_root():
+    text = "coordinates: [x]\nL: x'^2/2 - x^2/2\n"
+    assert "0 = " not in words(explain(derive(text), ["hamilton_jacobi"]), _HAMILTON_JACOBI)
+    text = "coordinates: [x]\nL: -sqrt(1 - x'^2) - x^2/2\n"
+    assert "without its root" in words(explain(derive(text), ["hamilton_jacobi"]), _HAMILTON_JACOBI)
+
+
+def test_friction_that_is_0_at_rest_balances_nothing():
+    text = (
+        f"coordinates: [a, b]\n{_POSITIVE}\nT: m*(a'^2 + sin(a)^2*b'^2)/2\nV: -k*cos(a)\n"
+        "dissipation: c*a'^2/2\n"
+    )
+    told = words(explain(derive(text), ["steady_motions"]), "Steady motions")
+    assert "vanish, with the momenta" in told
+    assert "balance" not in told
+
+
+def test_a_cubic_momentum_leaves_a_hamilton_jacobi_equation():
+    """Equal powers of roots cancel where the shape of its second derivative is sought."""
+    text = (
+        "coordinates: [x]\nparameters: {a: {assume: positive}, k: {assume: positive}}\n"
+        "L: x'^4/4 + a*x'^2/2 - k*x^2/2\n"
+    )
+    assert "not quadratic in its momentum" in answered(text, "hamilton_jacobi")

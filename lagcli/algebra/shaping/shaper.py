@@ -278,9 +278,13 @@ class Shaper:
             return
         divisor = tuple(sorted(divisors))
         for terms in self.expansions.of(element.numerator):
-            divided: Terms = {}
-            for term, value in terms.items():
-                divided[multiply(term, divisor)] = Fraction(value) / below.coefficient
+            divided: Terms = {
+                multiply(term, divisor): Fraction(value) / below.coefficient
+                for term, value in terms.items()
+                if value  # powers of roots that are equal have cancelled
+            }
+            if not divided:
+                continue
             yield self.grouper.group(divided, spread=True)
             below_each = {tuple(pair for pair in term if pair[1] < 0) for term in divided}
             cancels = len(below_each) > 1 and element.numerator.term_content().is_constant()

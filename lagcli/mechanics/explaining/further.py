@@ -21,7 +21,7 @@ from lagcli.statements.plus_minus import once, unlike
 from lagcli.statements.registry import find_section
 from lagcli.statements.stability import at_the_limit, holding, stability
 from lagcli.statements.wording import conditions as inequalities
-from lagcli.statements.wording import place_rows, unless
+from lagcli.statements.wording import constraints_named, place_rows, unless
 
 if TYPE_CHECKING:
     from lagcli.mechanics.rest.equilibria import RestPoints
@@ -99,6 +99,7 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
         return
     if not found:
         yield says(*_none(rest, states))
+    given = {constraint.name for constraint in teller.system.problem.constraints}
     for number, each in enumerate(once(found), 1):
         yield Heading(f"Equilibrium {number}", 2)
         yield _state(each.at, each.on)
@@ -107,6 +108,9 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
         if each.indeterminate:
             plural = "has no value" if len(each.indeterminate) == 1 else "have no values"
             yield says(names(each.indeterminate), f" {plural} there.")
+        if lost := [name for name in each.open if name in given]:
+            yield says(f"Without {constraints_named('the constraint', lost)}, which it does not "
+                       "touch.")  # fmt: skip
         if each.where:
             yield says("It exists for ", *inequalities(each.where), ".")
         firm = holding(each.touching, sticking=each.sticking)

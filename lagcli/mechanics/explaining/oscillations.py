@@ -184,14 +184,16 @@ def _one(teller: Teller, M: Expr, C: Expr, K: Expr) -> Iterator[Block]:
             Row(omega, Call("sqrt", (difference(write(square), write(rate**2)),))),
         )
     )
-    if [sign(x) for x in (M, C, K)] != [1, 1, 1]:
+    signs = [sign(x) for x in (M, C, K)]
+    if signs not in ([1, 1, 1], [1, -1, 1]):
         return
-    decays = " and decays as exp(−"
-    weak: list[Part] = ["the displacement oscillates with the frequency ", omega, decays, delta,
-                        " t) (weak damping). "]  # fmt: skip
-    linear = " t) times a linear function of t (critical damping). "
-    critical: list[Part] = ["it is exp(−", delta, linear]
-    strong: list[Part] = ["it is a sum of two decaying exponentials (strong damping)."]
+    falls = signs[1] == 1
+    verb, kind = ("decays", "decaying") if falls else ("grows", "growing")
+    end = [f" ({each} damping)" * falls for each in ("weak", "critical", "strong")]
+    weak: list[Part] = ["the displacement oscillates with the frequency ", omega,
+                        f" and {verb} as exp(−", delta, f" t){end[0]}. "]  # fmt: skip
+    critical: list[Part] = ["it is exp(−", delta, f" t) times a linear function of t{end[1]}. "]
+    strong: list[Part] = [f"it is a sum of two {kind} exponentials{end[2]}."]
     rest = 4 * M * K - C**2
     known, compared = sign(rest), above(rest, teller.system.order)
     if known is not None or compared is None:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import cast
 
 from lagcli.document import Block, Bracket, Equations, Integral, Label, Row, equations_of
-from lagcli.expression import ZERO, Diff, Expression, Name, Negative, Product, walk
+from lagcli.expression import ZERO, Call, Diff, Expression, Name, Negative, Product, walk
 from lagcli.mechanics.explaining.reduction import used_to_eliminate
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
@@ -139,14 +139,16 @@ def hamilton_jacobi(teller: Teller, section: Section) -> Iterator[Block]:
             "constant together; the constants of separation are ",
             *(names(found.constants), "."),
         )
-    if found.equations:
+    if found.equations and (len(found.derivatives) > 1 or _has_root(found.hamiltonian)):
+        if len(found.derivatives) == 1:
+            yield says("or, without its root,")
         yield equations_of((ZERO, each) for each in found.equations.values())
     cyclic = [name for name in found.derivatives if name not in found.equations]
     if cyclic:
         yield says("A cyclic coordinate contributes its constant momentum times itself to ", W, ".")
     if found.equations:
         each = "Each of these" if len(found.equations) > 1 else "This"
-        yield says(f"{each} is solved for its momentum, with a square root of either sign:")
+        yield says(f"{each} is solved for the momentum, with a square root of either sign:")
     for name in found.equations:
         yield from _part(found, name)
     if found.energy not in found.constants:
@@ -161,6 +163,12 @@ def hamilton_jacobi(teller: Teller, section: Section) -> Iterator[Block]:
         *("The derivatives of ", S, " with respect to the constants are constant: that with "),
         *("respect to ", E, " gives the motion in time, the others the path."),
     )
+
+
+def _has_root(hamiltonian: Expression) -> bool:
+    """Whether momenta stand below a root, as in the relativistic one."""
+    roots = (x for x in walk(hamiltonian) if isinstance(x, Call) and x.function == "sqrt")
+    return any(isinstance(x, Name) and x.name.startswith("p_") for r in roots for x in walk(r))
 
 
 def _by_forces_of_time(found: HamiltonJacobiSection, rate: Expression) -> Iterator[Block]:

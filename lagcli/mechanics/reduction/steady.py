@@ -137,8 +137,9 @@ class SteadyMotions:
     @property
     def acting(self) -> tuple[str, ...]:
         """What stands in the balance beside dU_eff/dq."""
+        still = dict.fromkeys(self.system.qdot, S.Zero)
         forces = self._fed_by_time or any(
-            is_zero(f) is not True for f in self.system.applied_forces
+            is_zero(f.xreplace(still)) is not True for f in self.system.applied_forces
         )
         constrained = bool(self.dynamics.constraints.equations)
         return ("forces",) * forces + ("constraints",) * constrained
