@@ -147,8 +147,9 @@ def hamilton_jacobi(teller: Teller, section: Section) -> Iterator[Block]:
     if cyclic:
         yield says("A cyclic coordinate contributes its constant momentum times itself to ", W, ".")
     if found.equations:
-        each = "Each of these" if len(found.equations) > 1 else "This"
-        yield says(f"{each} is solved for the momentum, with a square root of either sign:")
+        several = len(found.equations) > 1
+        lead = "Each of these is solved for its" if several else "This is solved for the"
+        yield says(f"{lead} momentum, with a square root of either sign:")
     for name in found.equations:
         yield from _part(found, name)
     if found.energy not in found.constants:
