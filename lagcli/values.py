@@ -21,7 +21,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.notation.decimals import number
-from lagcli.problem_data import Lasting, Parameter, Problem, Question, Reaching, Rewrite
+from lagcli.problem_data import Parameter, Problem, Question, Rewrite
 from lagcli.rewriting import rebuilt, rewritten
 
 #: Beside the terms of a constraint, a residual that is rounding.
@@ -130,14 +130,11 @@ def substituted(value: Value, values: Values) -> Value:
 
 def _question(question: Question, values: Values) -> Question:
     """The question with values in it; what it is put in terms of keeps only names."""
-    if isinstance(question, Rewrite):
+    changed = substituted(question, values)
+    if isinstance(question, Rewrite) and isinstance(changed, Rewrite):
         names = tuple(n for n in question.in_terms_of if n.name not in values)
-        return replace(question, value=substituted(question.value, values), in_terms_of=names)
-    if isinstance(question, Lasting):
-        return replace(question, condition=substituted(question.condition, values))
-    if isinstance(question, Reaching):
-        return replace(question, value=substituted(question.value, values))
-    return replace(question, equation=substituted(question.equation, values))
+        return replace(changed, in_terms_of=names)
+    return changed
 
 
 def _unknowns(problem: Problem, names: Collection[str]) -> list[Diagnostic]:

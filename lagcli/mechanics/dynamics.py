@@ -100,8 +100,7 @@ class Dynamics:
             message = f"the derivatives of constraint '{constraint.name}' vanish where it holds"
             hint = "write it without the power"
         return ProblemError(
-            self.system.problem.source,
-            (Diagnostic(message, constraint.equation.span, hint),),
+            self.system.problem.source, (Diagnostic(message, constraint.equation.span, hint),)
         )
 
     @property

@@ -95,10 +95,7 @@ class FloatStates:
         positions = [row for row in rows if row.holonomic]
         self._count = len(positions)
         self._positions = Program(
-            [
-                *(row.f for row in positions),
-                *(entry for row in positions for entry in row.row),
-            ],
+            [*(row.f for row in positions), *(entry for row in positions for entry in row.row)],
             Floats(),
             functions,
         )

@@ -328,10 +328,7 @@ class MatrixForm:
                     along[i].append((u, graph.scaled(self.expand_rates(friction), -1)))
         return tuple(
             graph.sum(
-                [
-                    self.read(given[q.name]) if q.name in given else graph.zero,
-                    self._along(along[i]),
-                ]
+                [self.read(given[q.name]) if q.name in given else graph.zero, self._along(along[i])]
             )
             for i, q in enumerate(self.q)
         )

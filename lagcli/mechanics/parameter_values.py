@@ -19,29 +19,17 @@ def parameter_values(system: System) -> dict[Symbol, mpf]:
 
     A value may be a formula of other parameters, in any order.
     """
-    formulas = _given(system)
-    values: dict[Symbol, mpf] = {}
-    progress = True
-    while progress:
-        progress = False
-        for symbol, formula in formulas.items():
-            if symbol not in values and formula.free_symbols <= values.keys():
-                [values[symbol]] = Evaluator([formula], DIGITS)(values)
-                progress = True
-    return values
-
-
-def _given(system: System) -> dict[Symbol, Expr]:
-    return {
-        symbol: system.build(parameter.value)
-        for symbol, parameter in zip(system.parameters, system.problem.parameters, strict=True)
-        if parameter.value is not None
-    }
+    values = exact_values(system)
+    return dict(zip(values, Evaluator(list(values.values()), DIGITS)({}), strict=True))
 
 
 def exact_values(system: System) -> dict[Symbol, Expr]:
     """The values of the file as exact numbers, by parameter; those without one left out."""
-    formulas = _given(system)
+    formulas = {
+        symbol: system.build(parameter.value)
+        for symbol, parameter in zip(system.parameters, system.problem.parameters, strict=True)
+        if parameter.value is not None
+    }
     for _ in formulas:
         formulas = {symbol: formula.xreplace(formulas) for symbol, formula in formulas.items()}
     return {symbol: value for symbol, value in formulas.items() if not value.free_symbols}

@@ -16,10 +16,7 @@ from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.stating import Stating
 from lagcli.notation.manner import Manner
 from lagcli.record import replace
-from lagcli.statements.answers import (
-    Answers,
-    Section,
-)
+from lagcli.statements.answers import Answers, Section
 from lagcli.statements.declaration import Declaration
 
 if TYPE_CHECKING:

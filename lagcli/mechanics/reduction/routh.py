@@ -172,18 +172,11 @@ class Routh:
                 holds_while=None,
             )
             for old, equation in zip(
-                self.full.problem.constraints,
-                self.full.dynamics.constraints.equations,
-                strict=True,
+                self.full.problem.constraints, self.full.dynamics.constraints.equations, strict=True
             )
         )
         reduced = with_lagrangian(
-            self.full,
-            self.kept,
-            R,
-            forces,
-            (*self.full.problem.parameters, *momenta),
-            constraints,
+            self.full, self.kept, R, forces, (*self.full.problem.parameters, *momenta), constraints
         )
         if not self._equal(reduced):
             self.reason = "the reduced equations could not be verified by substitution"

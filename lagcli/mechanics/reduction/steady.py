@@ -24,12 +24,7 @@ from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_contacts import SteadyContacts
 from lagcli.mechanics.reduction.steady_families import SteadyFamilies
 from lagcli.mechanics.reduction.steady_motion import Steady
-from lagcli.mechanics.rest.equilibria import (
-    NO_VALUE_AT_REST,
-    REACHED,
-    TIMED,
-    RestPoints,
-)
+from lagcli.mechanics.rest.equilibria import NO_VALUE_AT_REST, REACHED, TIMED, RestPoints
 from lagcli.mechanics.rest.exceptions import without_unknowns
 from lagcli.mechanics.rest.held import held
 from lagcli.mechanics.rest.rest_conditions import RestPoint
