@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from lagcli.document import Block, Equations, Formula, Heading, Items, Label, Matrix, Paragraph
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
-from lagcli.formatters.json_values import SCHEMA, Object, written
+from lagcli.formatters.json_values import HEAD, SCHEMA, Object, fields_of, written
 from lagcli.formatters.options import Options
 from lagcli.notation.letters import in_ascii
 from lagcli.statements.explanation import Explanation
@@ -25,10 +25,7 @@ def render(explanations: Sequence[Explanation], options: Options) -> str:
 def _object(explanation: Explanation) -> Object:
     return {
         "schema": SCHEMA,
-        "title": explanation.title,
-        "coordinates": explanation.coordinates,
-        "parameters": explanation.parameters,
-        "degrees_of_freedom": explanation.degrees_of_freedom,
+        **fields_of(explanation, HEAD),
         "steps": [
             {"title": step.title, "content": [_block(block) for block in step.blocks]}
             for step in explanation.steps

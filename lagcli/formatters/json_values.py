@@ -16,6 +16,8 @@ from lagcli.units import Unit
 
 #: The version of the contract.
 SCHEMA = 1
+#: The fields with which an object begins.
+HEAD = "title coordinates parameters degrees_of_freedom"
 
 Value = None | bool | int | str | Sequence["Value"] | Mapping[str, "Value"]
 Object = dict[str, Value]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lagcli.formatters.json_values import SCHEMA, Object, plain, written
+from lagcli.formatters.json_values import HEAD, SCHEMA, Object, fields_of, plain, written
 from lagcli.formatters.options import Options
 from lagcli.statements.answers import Answers
 from lagcli.statements.registry import in_order
@@ -21,13 +21,7 @@ def render(answers: Sequence[Answers], options: Options) -> str:
 
 def to_object(answers: Answers) -> Object:
     """Put the answers to one file into a JSON object."""
-    result: Object = {
-        "schema": SCHEMA,
-        "title": answers.title,
-        "coordinates": answers.coordinates,
-        "parameters": answers.parameters,
-        "degrees_of_freedom": answers.degrees_of_freedom,
-    }
+    result: Object = {"schema": SCHEMA, **fields_of(answers, HEAD)}
     for each in in_order((*answers.sections, *answers.absent)):
         if each.name not in answers.sections:
             result[each.name] = None

@@ -132,12 +132,10 @@ def _without_double_blanks(lines: Sequence[str]) -> list[str]:
 def to_json(study: Study) -> str:
     """The machine's view; times in seconds of processor time."""
     known, front = study.reference, study.front
-    document = {
+    document: dict[str, Any] = {
         "schema": 1,
         "problem": study.name,
-        "until": study.until,
-        "samples": study.samples,
-        "cost": study.cost,
+        **fields_of(study, "until samples cost"),
         "reference": {"kind": known.kind, "error_bound": known.bound, "seconds": known.seconds},
         "runs": [{**_document(point), "front": point in front} for point in study.points],
         "certified": [

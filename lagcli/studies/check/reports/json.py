@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterable, Iterator
 
 from lagcli.diagnostics import NOWHERE, Span
+from lagcli.formatters.json_values import fields_of
 from lagcli.studies.check.findings import CheckOutcome, Report
 
 
@@ -41,8 +42,7 @@ def _problem(report: Report) -> dict[str, object]:
             {
                 "severity": diagnostic.severity,
                 **_place(diagnostic.span),
-                "message": diagnostic.message,
-                "hint": diagnostic.hint,
+                **fields_of(diagnostic, "message hint"),
             }
             for diagnostic in report.diagnostics
         ],
@@ -50,6 +50,5 @@ def _problem(report: Report) -> dict[str, object]:
 
 
 def _place(span: Span) -> dict[str, int | None]:
-    if span == NOWHERE:
-        return {"line": None, "column": None}
-    return {"line": span.line, "column": span.column}
+    known = span != NOWHERE
+    return {"line": span.line if known else None, "column": span.column if known else None}
