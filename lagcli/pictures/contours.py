@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 
+from lagcli.evaluation import bisected
 from lagcli.numerics.hybrid.extrema import crossing
 from lagcli.pictures.drawing import Piece, Point
 
@@ -114,6 +115,14 @@ def _chain(ties: dict[Edge, list[Edge]], first: Edge) -> list[Edge]:
         ties[there].remove(here)
         chain.append(there)
     return chain
+
+
+def first_root(f: Callable[[float], float], halvings: int) -> float:
+    """Where a function that is negative at 0 rises to 0: by doubling, then by halving."""
+    low, high = 0.0, 1e-6
+    while f(high) < 0 and high < 1e12:
+        low, high = high, 2 * high
+    return bisected(lambda x: f(x) < 0, low, high, halvings)[1]
 
 
 def roots(f: Callable[[float], float], places: Sequence[float]) -> list[float]:

@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 
-from lagcli.evaluation import bisected
 from lagcli.expression import Name, signed
 from lagcli.graph.nodes import Node
 from lagcli.numerics.equations.arithmetic import Doubles
@@ -22,8 +21,7 @@ from lagcli.numerics.equations.contact import with_contacts
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.start import initial_state
-from lagcli.numerics.equations.straight_line import straight_line
-from lagcli.pictures.contours import quiet
+from lagcli.pictures.contours import first_root, quiet
 from lagcli.pictures.drawing import CannotDraw, Point
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import Column
@@ -75,8 +73,9 @@ def other_starts(
             "coordinate), whose axes are a coordinate and its velocity, and no constraints"
         )
     assert isinstance(first, Name)
-    state, rate = _state(problem), Name(first.name, 1)
-    through = None if cut is None else _speed(problem, state, cut)
+    motion, state = _started(problem)
+    rate = Name(first.name, 1)
+    through = None if cut is None else _speed(motion, state, cut)
 
     def start(x: float, y: float) -> dict[Name, float] | None:
         """The state at a place of the section; None where the energy does not allow it."""
@@ -142,34 +141,27 @@ def _inverse(number: int, base: int) -> float:
     return found
 
 
-def _state(problem: Problem) -> dict[Name, float]:
+def _started(problem: Problem) -> tuple[Motion, dict[Name, float]]:
+    """The motion, and its state at t = 0."""
     e = Equations(with_contacts(problem))
-    _, q, v = begun(e, [e.energy])
-    state = {Name(s.name): float(x) for s, x in zip(e.q, q, strict=True)}
-    return state | {Name(s.name, 1): float(x) for s, x in zip(e.q, v, strict=True)}
+    motion, q, v = begun(e, [e.energy])
+    names = [Name(s.name, s.primes) for s in (*e.q, *e.qdot)]
+    return motion, dict(zip(names, map(float, (*q, *v)), strict=True))
 
 
 def _speed(
-    problem: Problem, state: dict[Name, float], cut: str
+    motion: Motion, state: dict[Name, float], cut: str
 ) -> Callable[[dict[Name, float]], float | None]:
     """The velocity through the section that gives a state the energy of the first."""
-    e, arithmetic = Equations(with_contacts(problem)), Doubles()
-    constants = constants_of(e, [e.energy], arithmetic)
-    function = straight_line(e.state, [e.energy], constants, arithmetic)
-    order = [*(Name(s.name) for s in e.q), *(Name(s.name, 1) for s in e.q)]
+    function = motion.function([motion.equations.energy])
     energy = quiet(lambda *values: float(function(0.0, *values)[0]))
-    wanted = energy(*(state[name] for name in order))
+    wanted = energy(*state.values())
 
     def through(values: dict[Name, float]) -> float | None:
         def excess(v: float) -> float:
             given = {**values, Name(cut, 1): v}
-            return energy(*(given[name] for name in order)) - wanted
+            return energy(*(given[name] for name in state)) - wanted
 
-        if not excess(0.0) < 0:
-            return None
-        low, high = 0.0, 1e-6
-        while excess(high) < 0 and high < 1e12:
-            low, high = high, 2 * high
-        return bisected(lambda v: excess(v) < 0, low, high, _ROUNDS)[1]
+        return first_root(excess, _ROUNDS) if excess(0.0) < 0 else None
 
     return through

@@ -9,8 +9,7 @@ from __future__ import annotations
 import math
 from functools import cached_property
 
-from lagcli.evaluation import bisected
-from lagcli.pictures.contours import grid, roots
+from lagcli.pictures.contours import first_root, grid, roots
 from lagcli.pictures.drawing import CannotDraw, MarkRole
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.one_freedom import RemainingFreedom
@@ -152,8 +151,4 @@ class Window:
         at_rest = energy(x, 0.0)
         if not at_rest < goal or at_rest < self.lowest - 0.5 * (goal - self.lowest):
             return 0.0
-        high = 1e-6
-        while energy(x, high) < goal and high < 1e12:
-            high *= 2
-        low = high / 2 if high > 1e-6 else 0.0
-        return bisected(lambda v: energy(x, v) < goal, low, high, 40)[1]
+        return first_root(lambda v: energy(x, v) - goal, 40)

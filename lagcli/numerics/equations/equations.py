@@ -8,11 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from copy import copy
-from fractions import Fraction
 from functools import cached_property
 from itertools import chain
 
-from lagcli.expression import Expression
 from lagcli.graph.bounded import bounded
 from lagcli.graph.corners import with_corners
 from lagcli.graph.derivative import partial
@@ -28,7 +26,6 @@ from lagcli.numerics.equations.straight_line import Generated
 from lagcli.problem_data import Constraint, Problem
 from lagcli.record import replace
 
-_HALF = Fraction(1, 2)
 #: What is worked out of the constraints.
 _OF_ROWS = (
     "generated", "positions", "rates", "sizes", "eliminated", "eliminated_positions",
@@ -255,25 +252,10 @@ class Equations:
 
     # -- what is conserved -----------------------------------------------------------------------
 
-    @cached_property
+    @property
     def lagrangian(self) -> Node:
         """L in q, q' and t."""
-        problem, graph, read = self.problem, self.graph, self.form.read
-        if problem.lagrangian is not None:
-            return read(problem.lagrangian)
-        if problem.kinetic is not None:
-            kinetic = read(problem.kinetic)
-        else:
-            kinetic = graph.combination(
-                (graph.product(read(point.mass), speed, speed), _HALF)
-                for point in problem.points
-                if point.mass is not None
-                for speed in map(read.total_derivative, map(read, point.position))
-            )
-        return graph.difference(kinetic, self._optional(problem.potential))
-
-    def _optional(self, formula: Expression | None) -> Node:
-        return self.graph.zero if formula is None else self.form.read(formula)
+        return self.form.written_lagrangian
 
     @cached_property
     def momenta(self) -> list[Node]:

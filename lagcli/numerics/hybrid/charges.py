@@ -11,6 +11,7 @@ The change of a charge is measured against what it is the sum of: m x y' - m y x
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from random import Random
 from typing import Any
 
 from lagcli.graph.derivative import partial
@@ -72,7 +73,7 @@ def conserved_charges(simulation: Setup, motion: Motion) -> set[str]:
 def _states(simulation: Setup, motion: Motion) -> Iterator[tuple[float, list[float], list[float]]]:
     """Random states near the initial one, on the constraints; the same ones in every run."""
     q0, v0 = simulation.start
-    number = _Numbers()
+    number = Random(20011).random
     for _ in range(_ATTEMPTS):
         t = simulation.asked.until * number()
         q = [x + _SPREAD * (2 * number() - 1) * (abs(x) or 1.0) for x in q0]
@@ -154,19 +155,3 @@ class Sizes:
                 continue
             found = [max(pair) for pair in zip(found, now, strict=True)]
         return found
-
-
-class _Numbers:
-    """Evenly spread numbers between 0 and 1.
-
-    References
-    ----------
-    Park, Miller, "Random number generators: good ones are hard to find", CACM 31 (1988).
-    """
-
-    def __init__(self) -> None:
-        self._state = 20011
-
-    def __call__(self) -> float:
-        self._state = self._state * 48271 % 2147483647
-        return self._state / 2147483647
