@@ -253,6 +253,25 @@ initial: {x': 1}
     assert 1 <= result.certificate.holds_until <= math.pi / 2
 
 
+@pytest.mark.parametrize("accuracy", [1e-3, 1e-6, 1e-9])
+@pytest.mark.parametrize("depth", [3e-9, 2e-10, 4e-11])
+def test_a_strike_that_is_almost_a_graze_is_told_from_one(accuracy, depth):
+    """A ray passes a disc at the distance 1 - depth from its centre: it is reflected."""
+    y = 1 - depth
+    text = f"""
+coordinates: [x, y]
+T: (x'^2 + y'^2)/2
+contacts: {{disc: {{gap: x^2 + y^2 >= 1, restitution: 1}}}}
+initial: {{x: -3, y: {y!r}, x': 1}}
+"""
+    result = simulated(text, 7, accuracy, "x,y", samples=8)
+    assert result.certificate.reached
+    c = math.sqrt((1 - y) * (1 + y))
+    x, after = -c, 4 + c
+    exact = x + (1 - 2 * c**2) * after, y + 2 * c * y * after
+    assert result.rows[-1][1:] == pytest.approx(exact, abs=1e-10)
+
+
 def test_a_force_that_comes_to_its_limit_is_kept_with_a_warning():
     """v0^2 = 5 g l: the tension vanishes at the top and nowhere else."""
     text = """

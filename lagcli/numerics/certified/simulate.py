@@ -41,8 +41,9 @@ from lagcli.record import replace
 
 #: The clocks of two runs differ by less than this part of the span.
 _SAME_TIME = 1e-12
-#: Whether a contact is struck may be known to a finer accuracy, down to what doubles reach.
-_FINER, _FINEST = 1e-3, 1e-12
+#: Whether a contact is struck may be known to a finer accuracy, down to what doubles reach.  It must
+#: be reached itself: 1e-10 tells a ray 2e-10 inside of a disc from a graze; 1e-12 fails behind it.
+_FINER, _FINEST = 0.1, 1e-12
 
 
 def simulate(problem: Problem, asked: Asked, progress: Progress = None) -> Result:
