@@ -6,6 +6,7 @@ so that a file looks the same on every machine and a journal takes it.
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -49,7 +50,9 @@ _MARKERS = {
     "stable": "o", "unstable": "X", "turning": "D", "start": "o", "event": "v", "dots": ".",
     "impact": "v",
 }  # fmt: skip
-_SIZES = {"dots": 2.5, "start": 6.0, "turning": 5.0, "impact": 4.0}
+_SIZES = {"start": 6.0, "turning": 5.0, "impact": 4.0}
+#: Dots of a section are small where there are many, and are seen where there are few.
+_SMALLEST, _LARGEST, _INK_OF_DOTS = 2.5, 9.0, 36.0
 _RULES = {"event": ":", "bound": "--", "certificate": "-", "energy": "--", "zero": "-"}
 #: Dashes of the kinds of events.
 _EVENTS = ((1, 2), (5, 2), (5, 2, 1, 2), (9, 3), (1, 5), (3, 1, 1, 1, 1, 1))
@@ -233,10 +236,13 @@ class _Panel:
     def _mark(self, marks: Marks) -> dict[str, Any]:
         colour = self.style.colour(marks.colour)
         hollow = marks.role in {"start", "impact"}
+        size = _SIZES.get(marks.role, 7.0)
+        if marks.role == "dots":
+            size = max(_SMALLEST, min(_LARGEST, _INK_OF_DOTS / math.sqrt(len(marks.points) or 1)))
         return {
             "linestyle": "none",
             "marker": _MARKERS[marks.role],
-            "markersize": _SIZES.get(marks.role, 7.0),
+            "markersize": size,
             "markerfacecolor": self.style.paper if hollow else colour,
             "markeredgecolor": colour if hollow or marks.role == "dots" else self.style.paper,
             "markeredgewidth": 0.0 if marks.role == "dots" else 0.9,
