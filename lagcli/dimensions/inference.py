@@ -37,7 +37,7 @@ class Inference:
     def system(self) -> UnitSystem:
         """The file's system of units."""
         return UnitSystem(
-            Named(name, quantity.name, quantity.unit_span)
+            Named(name, quantity.unit_span)
             for quantity in quantities(self.problem)
             if quantity.unit is not None
             for name, _ in read_unit(quantity.unit).factors

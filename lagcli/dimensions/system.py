@@ -28,7 +28,6 @@ class Named:
     """A unit's name where a file uses it."""
 
     name: str
-    quantity: str  # whose unit it stands in
     span: Span
 
 

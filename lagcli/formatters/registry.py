@@ -31,7 +31,6 @@ class UnknownFormatter:
 
     name: str
     message: str
-    suggestion: str | None = None
 
 
 @record
@@ -104,5 +103,5 @@ def _unknown(name: str) -> UnknownFormatter:
     close = get_close_matches(name.lower(), known, n=1)
     message = f"unknown format {name!r}"
     if close:
-        return UnknownFormatter(name, f"{message}: did you mean {close[0]!r}?", close[0])
+        return UnknownFormatter(name, f"{message}: did you mean {close[0]!r}?")
     return UnknownFormatter(name, f"{message}: there are {', '.join(known)}")

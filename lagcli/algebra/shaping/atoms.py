@@ -82,14 +82,6 @@ class Atoms:
             self._expressions[tree] = expression
         return number
 
-    def divides(self, atom: int) -> bool:
-        """Whether a sum may be divided by it: a parameter's name, or nowhere 0."""
-        tree = self.trees[atom]
-        if isinstance(tree, Name) and self.writer.ordering.is_parameter(tree):
-            return True
-        expression = self._expressions.get(tree)
-        return expression is not None and expression.is_nonzero is True
-
     def is_variable(self, atom: int) -> bool:
         """Whether it is the name of a coordinate, a velocity or a momentum."""
         tree = self.trees[atom]
