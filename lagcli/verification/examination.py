@@ -12,7 +12,7 @@ from typing import cast
 from flint import arb, ctx
 
 from lagcli.diagnostics import ProblemError
-from lagcli.expression import Expression
+from lagcli.expression import Expression, Name, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
@@ -57,6 +57,8 @@ class Examination:
         A sentence for each claim that did not hold.
     unchecked : list of str
         What could not be evaluated.
+    moving : set of str
+        The names of shared formulas in which velocities occur.
     """
 
     def __init__(
@@ -67,6 +69,7 @@ class Examination:
         self.reference = Reference(problem) if reference is None else reference
         self.retracted: list[str] = []
         self.unchecked: list[str] = []
+        self.moving: set[str] = set()
         self._count = 1 if self.reference.large else STATES
         self._why = ""
         self._read: dict[str, int] = {}
@@ -168,6 +171,13 @@ class Examination:
         for name, expression in shared.items():
             if self.places(what, [expression]) is not None:
                 self.reference.program.define(name, self.place(expression))
+            if self.has_velocities(expression):
+                self.moving.add(name)
+
+    def has_velocities(self, expression: Expression) -> bool:
+        """Whether a velocity occurs in it, by itself or in a shared formula."""
+        names = (node for node in walk(expression) if isinstance(node, Name))
+        return any(node.primes or node.name in self.moving for node in names)
 
     def holds(
         self, what: str, expression: Expression, truth: Truth, scene: Scene = at_state

@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.reader import read_problem
+from lagcli.reader import parse_text, read_problem
 from lagcli.record import replace
 from lagcli.verification import verified
+from lagcli.verification.examination import Examination
 from tests.solved import solve
 
 ROTATIONS = "Schrödinger sch(2): sl(2,R) + so(2) with Heisenberg h(2), modulo constants"
@@ -49,3 +50,12 @@ def test_the_signs_of_parameters_decide_the_name(
         found = verified(problem, replace(answers, sections=wrong))
         assert found.sections["algebra"].name is None
         assert not found.complete
+
+
+def test_velocities_in_abbreviations_are_seen() -> None:
+    """A displacement k_1 sin(w t) with k_1 = x' is none of a point symmetry."""
+    problem, _ = _solved("x'^2 + y'^2", "[a]")
+    examination = Examination(problem)
+    examination.define("abbreviations", {"k": parse_text("x'*y"), "s": parse_text("k + y")})
+    assert examination.has_velocities(parse_text("2*s"))
+    assert not examination.has_velocities(parse_text("2*y"))

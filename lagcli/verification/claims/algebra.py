@@ -13,9 +13,8 @@ from itertools import islice
 
 from flint import arb, arb_mat
 
-from lagcli.expression import Name, walk
 from lagcli.record import replace
-from lagcli.statements.answers import AlgebraSection, Charge, ChargesSection
+from lagcli.statements.answers import AlgebraSection, ChargesSection
 from lagcli.verification.claims.canonical_samples import CanonicalSample, around_states, samples
 from lagcli.verification.claims.near import eigenvalues
 from lagcli.verification.examination import Examination
@@ -44,21 +43,14 @@ def algebra(
     places = x.places("the algebra", known)
     if places is None or not 0 < len(known) <= _MOST or x.reference.rows or x.reference.large:
         return section
-    points = sum(_is_point(charge) for charge in listed.charges)
+    points = sum(
+        not any(map(x.has_velocities, charge.transformation.values())) for charge in listed.charges
+    )
     found = samples(x, places, 2 * len(known) + 6)
     if len(found) < 2 * len(known) + 6:
         x.unchecked.append("the algebra of the conserved quantities")
         return section
     return Counted(x, section, found, places, points).examined()
-
-
-def _is_point(charge: Charge) -> bool:
-    """Whether its transformation has no velocities."""
-    return not any(
-        isinstance(node, Name) and node.primes
-        for change in charge.transformation.values()
-        for node in walk(change)
-    )
 
 
 class Counted:
