@@ -120,3 +120,29 @@ def test_spaces_of_constant_curvature_have_six(L, name):
 def test_a_surface_of_revolution_whose_curvature_varies_has_one(L):
     found = summary(derive(problem(L, "[theta, phi]", "m R a")).discovery)
     assert (found.dimension, found.independent, found.integrable) == (2, 2, True)
+
+
+POLAR = "m*(r'^2 + r^2*phi'^2)/2 + b*(s'^2 + s^2*psi'^2)/2"
+APART = {
+    "polar": ("{r: POS, phi: {}, s: POS, psi: {}}", POLAR, "r^2 + s^2 - 2*r*s*cos(phi - psi)"),
+    "one polar": ("{x: {}, y: {}, s: POS, psi: {}}", "m*(x'^2 + y'^2)/2 + b*(s'^2 + s^2*psi'^2)/2",
+                  "(x - s*cos(psi))^2 + (y - s*sin(psi))^2"),
+}  # fmt: skip
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", APART)
+@pytest.mark.parametrize("V", ["k*D", "-k/sqrt(D)"])
+def test_two_bodies_have_total_momentum_in_polar_coordinates(name, V):
+    """Each has a flat T of its own: 7 charges as in Cartesian coordinates, with L_rel among them."""
+    coordinates, T, distance = APART[name]
+    text = f'{{coordinates: {coordinates}, parameters: {{m: POS, b: POS, k: POS}}, T: "{T}", V: "{V}"}}'
+    text = text.replace("POS", "{assume: positive}").replace("D", f"({distance})")
+    derivation = derive(text)
+    found = summary(derivation.discovery)
+    linear = [c for c in derivation.discovery.point_charges if c.transformation.time == 0]
+    if V == "-k/sqrt(D)":
+        assert found.name == "Galilei in 2 dimensions + R, modulo constants"
+        assert (len(linear), found.dimension) == (6, 7)
+    assert (found.in_involution, found.integrable) == (4, True)
+    assert min(digits_of(derivation).values()) > 20

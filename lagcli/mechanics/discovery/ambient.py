@@ -50,6 +50,9 @@ def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
     K = metric.curvature
     if K is None:
         return []
+    if len(metric.factors) > 1:
+        parts = [ambient_functions(factor, allowed) for factor in metric.factors]
+        return [X for part in parts for X in part] if all(parts) else []
     if metric.n == 1:
         length = _arc_length(metric.g[0][0], metric.q[0])
         return [] if length is None else [length]

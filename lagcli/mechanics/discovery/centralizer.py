@@ -2,8 +2,9 @@
 
 Two bodies have the rotation of all, the rotation about the centre of mass and their
 difference; the basis with fewest entries has a mixture.  Where a combination with other
-time-independent rotations commutes with all translations, it is taken instead:
-[X, P] = 0 with X = sum xi_j d/dq_j, P = sum c_j d/dq_j is sum_j c_j dxi_i/dq_j = 0.
+time-independent rotations commutes with all translations, it is taken instead: with the
+components Y X_a of a displacement Y along Cartesian X_a, those of P are constant, and [Y, P] = 0
+is P (Y X_a) = 0.
 Likewise the charges p_i - F_i t of a uniform force have combinations without the time.
 """
 
@@ -13,9 +14,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
-from lagcli.algebra import dot
+from lagcli.algebra import dot, simplify
+from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
@@ -24,22 +26,26 @@ from lagcli.mechanics.system import System
 
 
 def centralized(
-    transformations: Sequence[Transformation], system: System, allowed: Allowance
+    transformations: Sequence[Transformation],
+    system: System,
+    allowed: Allowance,
+    lengths: Sequence[Expr] = (),
 ) -> list[Transformation]:
-    """The same space of symmetries, with the last rotations made to commute with translations."""
+    """The same space of symmetries, with the last rotations made to commute with translations.
+
+    The `lengths` are Cartesian coordinates, where those of the system are not.
+    """
     result = list(transformations)
+    q = system.q
     static = [k for k, x in enumerate(result) if x.displaces_without([system.t])]
-    momenta = [k for k in static if result[k].displaces_without(system.q)]
+    along = {k: _along(result[k].changes, q, lengths) for k in static}
+    momenta = [k for k in static if free_of(sympy.Tuple(*along[k]), q)]
     turns = [k for k in static if k not in momenta]
-    joint = [k for k in momenta if sum(c != 0 for c in result[k].changes) > 1]
+    joint = [k for k in momenta if sum(c != 0 for c in along[k]) > 1]
     if not joint or len(turns) < 2:
         return result
     vectors: list[list[Expr]] = [
-        [
-            dot(result[m].changes, [e.diff(x) for x in system.q])
-            for m in joint
-            for e in result[k].changes
-        ]
+        [dot(result[m].changes, [e.diff(x) for x in q]) for m in joint for e in along[k]]
         for k in turns
     ]
     for values in Relation(vectors, [system.t, *system.q], allowed).all():
@@ -53,6 +59,11 @@ def centralized(
             if k != last:
                 result[k] = _sparser(result[k], result[last], system)
     return result
+
+
+def _along(changes: Sequence[Expr], q: Sequence[Symbol], lengths: Sequence[Expr]) -> Sequence[Expr]:
+    """The components along Cartesian coordinates."""
+    return [simplify(dot(changes, [X.diff(x) for x in q])) for X in lengths] or changes
 
 
 def _sparser(turn: Transformation, central: Transformation, system: System) -> Transformation:

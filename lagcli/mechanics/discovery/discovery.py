@@ -145,7 +145,7 @@ class Discovery(Setting):
                 f"{more(search.unsolved, 'symmetry')} there, whose coefficients were not solved"
             )
         transformations.reverse()
-        transformations = centralized(transformations, self.system, allowed)
+        transformations = centralized(transformations, self.system, allowed, self.cartesian)
         if constraints:
             self._of_lagrangian = transformations
             transformations = tangent(transformations, self.dynamics, allowed)
@@ -284,7 +284,7 @@ class Discovery(Setting):
             shapes.append(powers if self.coordinate_kinds.powers else degree)
             if self.coordinate_kinds.exponentials:
                 shapes.append("and in exponentials of them")
-        if self.coordinate_kinds.angles and len(spaces) > 1 + len(self.coordinate_kinds.lengths):
+        if any(s.has(sympy.sin, sympy.cos) for s in spaces):
             shapes.append("with sines and cosines of the angles")
         space = " ".join(shapes) or "constant in the coordinates"
         return f"{what} {space}{_timed(times)}"

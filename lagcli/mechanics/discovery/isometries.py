@@ -37,7 +37,8 @@ from lagcli.mechanics.discovery.scaling import bare_terms
 from lagcli.mechanics.discovery.search import Search, SlotUnknown
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 
-_COORDINATES = (1, 2, 3)
+_MOST_COORDINATES = 6
+_MOST_TOGETHER = 3
 
 Vector = tuple[Expr, ...]
 
@@ -57,14 +58,17 @@ class Isometries:
         self.equations = equations
         self._rest = _by_parameters(rest, equations.q)
         self.allowed = allowed
-        self.metric = Metric(equations)
+        self.metric = Metric(equations.q, equations.mass)
 
     @staticmethod
     def apply(equations: SlotEquations) -> bool:
         """Whether coordinates are worth looking for: M depends on q, and on nothing that moves."""
         entries = sympy.Tuple(*(m for row in equations.mass for m in row))
         fixed = free_of(entries, [equations.t, *equations.v])
-        return fixed and len(equations.q) in _COORDINATES and not free_of(entries, equations.q)
+        if not fixed or free_of(entries, equations.q) or len(equations.q) > _MOST_COORDINATES:
+            return False
+        factors = Metric(equations.q, equations.mass).factors
+        return all(factor.n <= _MOST_TOGETHER for factor in factors)
 
     @cached_property
     def functions(self) -> list[Expr]:

@@ -26,7 +26,6 @@ from sympy import Expr, Symbol
 from lagcli.algebra import derivative, dot, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.discovery.slots import SlotEquations
 
 _DIGITS = 30
 _SMALL = mpf(10) ** -15
@@ -36,14 +35,36 @@ _POINTS = (mpf(3) / 7, mpf(8) / 11)  # for the first symbol; the others follow a
 class Metric:
     """g(q) of a system without time in its kinetic energy."""
 
-    def __init__(self, equations: SlotEquations) -> None:
-        self.q = equations.q
-        self.g = equations.mass
+    def __init__(self, q: Sequence[Symbol], g: Sequence[Sequence[Expr]]) -> None:
+        self.q, self.g = q, g
         self.n = len(self.q)
+
+    @cached_property
+    def factors(self) -> list[Metric]:
+        """The metrics on their own coordinates whose sum it is: two bodies have one each."""
+        label = list(range(self.n))
+        for i, row in enumerate(self.g):
+            for k, entry in enumerate(row):
+                inside = {self.q.index(x) for x in entry.free_symbols if x in self.q}
+                old = {label[j] for j in ({i, k, *inside} if entry != 0 else {i})}
+                label = [label[i] if x in old else x for x in label]
+        parts = [[i for i in range(self.n) if label[i] == x] for x in dict.fromkeys(label)]
+        return [
+            Metric([self.q[i] for i in part], [[self.g[i][k] for k in part] for i in part])
+            for part in parts
+        ]
 
     @cached_property
     def inverse(self) -> list[list[Expr]]:
         """g^ij."""
+        if len(self.factors) > 1:
+            place = {x: (f, i) for f in self.factors for i, x in enumerate(f.q)}
+            zero = sympy.S.Zero
+            return [
+                [place[x][0].inverse[place[x][1]][place[y][1]] if place[x][0] is place[y][0]
+                 else zero for y in self.q]
+                for x in self.q
+            ]  # fmt: skip
         g = sympy.Matrix([list(row) for row in self.g])
         above, below = g.adjugate(), g.det()
         return [[simplify(above[i, j] / below) for j in range(self.n)] for i in range(self.n)]
@@ -92,6 +113,9 @@ class Metric:
     def curvature(self) -> Expr | None:
         """K, or None where the curvature is not constant."""
         planes = list(combinations(range(self.n), 2))
+        if len(self.factors) > 1:  # a product is flat or not of constant curvature
+            flat = all(factor.curvature == 0 for factor in self.factors)
+            return sympy.S.Zero if flat else None
         if not planes:
             return sympy.S.Zero
         if not self._is_constant(planes):
