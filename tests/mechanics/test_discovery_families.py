@@ -37,6 +37,7 @@ LINEAR = {
     "repelled and driven": ("m*x'^2/2 + k*x^2/2 + F*x*cos(Omega*t)", ""),
     "growing mass": ("m*exp(c*t)*x'^2/2", ""),
     "growing mass that falls": ("exp(c*t)*(m*x'^2/2 - m*g*x)", ""),
+    "overdamped": ("exp(5*t)*(m*x'^2/2 - 3*m*x^2)", ""),
 }
 
 
@@ -57,6 +58,15 @@ def test_with_constants_of_either_sign_their_charges_stay_on_an_independent_moti
     kept = digits_of(derive(one_coordinate(L, force).replace(POS, "{}")))
     assert len(kept) == 5
     assert {n: digits for n, digits in kept.items() if digits < 20} == {}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("L", ["(m + b - c*t)*x'^2/2", "(m - c*t)*(x'^2/2 - g*x)"])
+def test_a_mass_that_is_lost_leaves_five(L):
+    """Free motion has x = log(m - c t), of the mass that is left."""
+    derivation = derive(one_coordinate(L))
+    assert len(derivation.discovery.charges) == 5
+    assert min(digits_of(derivation).values()) > 20
 
 
 @pytest.mark.long
@@ -234,6 +244,18 @@ def test_drag_with_the_square_of_the_velocity(force, number):
     given = "coordinates: [x], parameters: {m: %s, c: %s, g: %s, k: %s}" % ((POS,) * 4)
     found = derive(f'{{{given}, L: "m*x\'^2/2{force}", forces: {{x: "-c*x\'^2"}}}}').discovery
     assert len(found.charges) == number
+
+
+@pytest.mark.parametrize(
+    ("V", "c", "name"),
+    [("x^2 + x^4/4", "3", "conformal_exp"), ("3*x^2 + x^3/3", "5", "conformal_exp"),
+     ("3*x^2 - x^3", "-5", "conformal_exp"), ("x^2 + x^4/4", "4", None)],
+)  # fmt: skip
+def test_damping_at_which_an_anharmonic_oscillator_is_integrable(V, c, name):
+    """9 b = 2 c^2 with x^3, 25 b = 6 c^2 with x^2: Leach, J. Math. Phys. 26 (1985) 2510."""
+    derivation = derive(f'{{coordinates: [x], L: "exp({c}*t)*(x\'^2/2 - ({V}))"}}')
+    assert [c.name for c in derivation.discovery.charges] == ([name] if name else [])
+    assert min(digits_of(derivation).values(), default=30) > 20
 
 
 @pytest.mark.parametrize("k", ["k", "2"])

@@ -135,6 +135,32 @@ def test_the_energy_of_a_damped_oscillator_is_named(letters):
     assert min(digits_of(derivation).values()) > 20
 
 
+@pytest.mark.parametrize(
+    ("c", "name"), [("a", "damped_energy"), ("-a", "energy_exp"), ("B", "energy_exp")]
+)
+def test_an_energy_is_damped_where_its_factor_grows(c, name):
+    text = text_of("x", f"exp({c}*t)*(x'^2/2 - a*x^2/2)", "a").replace("{a:", "{B: {}, a:")
+    assert name in {charge.name for charge in derive(text).discovery.charges}
+
+
+def test_the_energy_in_an_expanding_space_is_no_damped_one():
+    text = text_of("x", "-a*sqrt(1 - exp(2*B*t)*x'^2)", "a B")
+    names = [charge.name for charge in derive(text).discovery.charges]
+    assert names == ["p_x", "charge_1", "charge_2"]
+
+
+@pytest.mark.parametrize(
+    ("a", "c", "b"), [(4, -1, 1), (-4, -1, 1), (3, 1, 1), (2, -3, 1), (-5, 2, 2)]
+)
+def test_modes_of_numbers_are_found_stable_or_not(a, c, b):
+    """Frequencies such as sqrt(6 + 2 sqrt(29)) and growth rates sqrt(2 sqrt(29) - 6)."""
+    derivation = derive(text_of("xy", f"{kinetic('xy')} - {a}*x^2/2 - {c}*y^2/2 - {b}*x*y"))
+    found = summary(derivation.discovery)
+    assert derivation.discovery.stopped == []
+    assert (found.independent, found.in_involution) == (4, 2)
+    assert min(digits_of(derivation).values()) > 20
+
+
 @pytest.mark.parametrize("stiffness", ["k", "k + 2*n", "5*k + n"])
 def test_a_damped_frequency_has_one_root(stiffness):
     """sqrt(4 m k - c^2)/(2 m) in the transformation as in the charge: not sqrt((k - c^2/4m)/m)."""

@@ -76,6 +76,7 @@ def _candidates(by_t: Expr, by_q: Sequence[Expr], t: Symbol, q: Sequence[Symbol]
         found.update(dict.fromkeys(x * term for term in _functions(slope, t, q)))
     left = list(_functions(by_t, t, q))
     seen: set[Expr] = set()
+    made: set[Expr] = set()
     while left and len(seen) <= _MOST_CANDIDATES:
         term = left.pop()
         if term in seen:
@@ -84,11 +85,13 @@ def _candidates(by_t: Expr, by_q: Sequence[Expr], t: Symbol, q: Sequence[Symbol]
         if _divides_by(term, t):  # no derivative of it brings one back
             continue
         left += _functions(sympy.expand(term.diff(t)), t, q)
+        # the integral of t log(u) has t log(u), and t where u is linear
+        left += [term / f for f in term.atoms(sympy.log) if not free_of(f, [t])]
         if not term.has(*_OF_TIME) or free_of(term, [t]):
-            seen.add(t * term)
+            made.add(t * term)
         else:
-            seen |= _means(term, t)
-    found.update(dict.fromkeys(sorted(seen, key=sympy.default_sort_key)))
+            made |= _means(term, t)
+    found.update(dict.fromkeys(sorted(seen | made, key=sympy.default_sort_key)))
     found.pop(sympy.S.One, None)
     return list(found)
 

@@ -77,6 +77,8 @@ class Listing:
     def _named(self, charge: NoetherCharge) -> tuple[str, NoetherCharge]:
         given = charge.transformation
         name = self.naming.of_point(given.changes, given.time)
+        if name == "damped_energy":
+            name = self.naming.of_damping(charge.charge)
         name = name or self.naming.of_relative(charge.charge, given.changes, self._system.qdot)
         if name == "energy" and self._moved and charge.gauge != 0:
             name = "moving_energy"

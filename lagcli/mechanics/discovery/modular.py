@@ -71,6 +71,7 @@ class ModularPoints:
             g: (power, self.terms(-(rule - field.ring.generator(g) ** power)))
             for g, (power, rule) in field.ring.rules.items()
         }
+        self._either = False  # whether roots of constants are drawn with either sign
         self._signs: dict[int, Terms] = {}  # s f - |f|
         for g, rule in reversed(field.ring.mixed):
             self._signs[g] = self.terms(rule)
@@ -96,7 +97,8 @@ class ModularPoints:
 
     def _drawn(self, known: dict[int, int], *, wanted: bool) -> dict[int, int]:
         """Values of the generators whose constancy is as wanted, beside the known ones."""
-        for _ in range(_TRIES):
+        for attempt in range(_TRIES):
+            self._either = wanted and 2 * attempt >= _TRIES
             values = dict(known)
             if all(
                 self.draw(g, values)
@@ -125,7 +127,9 @@ class ModularPoints:
             root = _root(evaluated(terms, point), power)
             if root is None:
                 return False
-            values[g] = root
+            # sqrt(6 + 2 sqrt(29)) may be there for the other root of 29 alone
+            other = self._either and power % 2 == 0 and self._source.random() < 0.5
+            values[g] = PRIME - root if other else root
             return True
         if g in self._signs:
             point = [values.get(k, 0) for k in range(len(self.field.generators))]

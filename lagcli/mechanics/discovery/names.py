@@ -10,6 +10,7 @@ from itertools import chain, count
 import sympy
 from sympy import Expr, Symbol
 
+from lagcli.algebra import simplify
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.noether import NoetherCharge
 
@@ -50,9 +51,16 @@ class Naming:
         return set(moved) == set(self.kinds.lengths) and all(e == x for x, e in moved.items())
 
     def _shrinks(self, moved: Mapping[Symbol, Expr]) -> bool:
-        """Whether all lengths that move do so at one rate: exp(2 c t) (p^2/2m + c x p + V)."""
+        """Whether all lengths that move do so at one rate."""
         rates = {sympy.cancel(e / x) for x, e in moved.items()}
         return len(rates) == 1 and rates.pop().free_symbols.isdisjoint({self.t, *self.q})
+
+    def of_damping(self, charge: Expr) -> str:
+        """Of a symmetry that shrinks the lengths in time: exp(c t) (p^2/2m + c x p/2 + V)."""
+        rate = sympy.cancel(simplify(charge.diff(self.t) / charge))
+        if rate == 0 or rate.free_symbols & {self.t, *self.q}:
+            return ""  # the energy of an expanding universe
+        return "damped_energy" if rate.is_positive else "energy_exp"
 
     def _of_time(self, tau: Expr, moved: Mapping[Symbol, Expr]) -> str:
         inside = tau.free_symbols & set(self.q)
@@ -98,14 +106,14 @@ class Naming:
 
     def _translation_in_time(self, moved: Mapping[Symbol, Expr]) -> str:
         axis = f"_{next(iter(moved)).name}" if len(moved) == 1 else self._direction(moved)
-        alike = _equal(moved)
+        alike, first = _equal(moved), next(iter(moved.values()))
         if all((e / self.t).diff(self.t) == 0 for e in moved.values()):
             return f"boost{axis}"
-        if alike and self._grows(next(iter(moved.values()))):
-            return f"translation{axis}_exp"
+        if self._grows(first) and self._is_steady(moved, first):
+            return f"translation{axis}_exp" if alike else "mode_exp"
         turns = self._turning(*moved.values())
         if len(turns) == len(moved) == 2 and len({turn.args[0] for turn in turns}) == 1:
-            first = next(iter(moved.values()))  # a circle: (cos Omega t, -sin Omega t)
+            # a circle: (cos Omega t, -sin Omega t)
             return f"gyration_{self._turning(first).pop().func.__name__}"
         if len(turns) != 1:
             return ""
@@ -113,8 +121,11 @@ class Naming:
         word = turn.func.__name__
         if alike:
             return f"translation{axis}_{word}"
-        steady = all(not (e / turn).has(self.t) for e in moved.values())
-        return f"mode_{word}" if steady else ""
+        return f"mode_{word}" if self._is_steady(moved, turn) else ""
+
+    def _is_steady(self, moved: Mapping[Symbol, Expr], function: Expr) -> bool:
+        """Whether all displacements are constants times the function of time."""
+        return all(not sympy.cancel(e / function).has(self.t) for e in moved.values())
 
     def _rotation(self, moved: Mapping[Symbol, Expr]) -> str:
         if set(moved) & set(self.kinds.angles) or not moved:
@@ -199,7 +210,7 @@ class Naming:
             slope = moved[other].diff(one)  # of y_2 by x_1: the other particle's is opposite
             backward = not slope.could_extract_minus_sign()
             return sympy.S.NegativeOne if backward != (name[2] == "y") else sympy.S.One
-        if name in ("moving_energy", "damped_energy") and any(moved.values()):
+        if name in ("moving_energy", "damped_energy", "energy_exp") and any(moved.values()):
             return sympy.S.NegativeOne  # p.xi - h tau: the textbook's is h
         name = name.removesuffix(MOVING)
         if name not in ("L_x", "L_y", "L_z"):

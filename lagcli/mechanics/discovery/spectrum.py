@@ -79,28 +79,30 @@ def roots_of(determinant: Expr, lam: Symbol) -> Iterator[Exponent]:
 
 
 def differences(found: Sequence[Exponent], most: int = 8) -> list[Exponent]:
-    """Twice each frequency, then differences and sums of two exponents: at most this number."""
+    """Of two exponents, one of which may be 0, with either sign: at most this number.
+
+    Those of two that one equation has come first, as twice the frequency of two conjugate ones.
+    """
     result: list[Exponent] = []
 
     def add(growth: Expr, frequency: Expr) -> None:
-        _keep(result, Exponent(simplify(growth), simplify(frequency)))
+        for sign in (1, -1):
+            _keep(result, Exponent(simplify(sign * growth), simplify(frequency)))
 
     for each in found:
-        if each.frequency != 0:
-            add(sympy.S.Zero, 2 * each.frequency)
-        else:
-            add(2 * each.growth, sympy.S.Zero)
-    for each in found:
-        # the exponents differ from 0, the exponent of free motion, by themselves; as they stand,
-        # for two forms of one function would be two functions
-        _keep(result, Exponent(each.growth, each.frequency))
-        _keep(result, Exponent(-each.growth, each.frequency))
+        add(sympy.S.Zero, 2 * each.frequency)
+    real = [each.growth for each in found if each.frequency == 0]
+    for growth, other in zip(real[::2], real[1::2], strict=False):
+        add(growth - other, sympy.S.Zero)
+    for each in found:  # as they stand, for two forms of one function would be two functions
+        for rate in (each.growth, -each.growth):
+            _keep(result, Exponent(rate, each.frequency))
     for i, one in enumerate(found):
         for other in found[:i]:
-            if len(result) >= most:
-                return result
             add(one.growth - other.growth, one.frequency - other.frequency)
             add(one.growth - other.growth, one.frequency + other.frequency)
+            if len(result) >= most:
+                return result[:most]
     return result[:most]
 
 
@@ -128,6 +130,8 @@ def forced_motion(
     for acceleration in accelerations:
         terms = sympy.Add.make_args(sympy.expand(acceleration))
         free = [x for x in terms if not x.free_symbols & {*q, *v}]
+        if any(t in sympy.denom(x).free_symbols for x in free):  # m/(m - t) - t/(m - t)
+            free = list(sympy.Add.make_args(sympy.expand(sympy.cancel(sympy.Add(*free)))))
         waves = {f for x in free for f in x.atoms(*_WAVES) if t in f.free_symbols}
         for wave in sorted(waves, key=sympy.default_sort_key):
             inside = wave.args[0]
@@ -209,7 +213,7 @@ def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
     if s.has(sympy.Pow) and any(p.exp.is_Rational and p.exp.q > 1 for p in s.atoms(sympy.Pow)):
         inside = _root(simplify(b**2 / 4 - c))
         squares = [simplify(b / 2 + inside), simplify(b / 2 - inside)]
-        return [Exponent(sympy.S.Zero, _root(x)) for x in squares]
+        return [exponent for x in squares for exponent in _quadratic(sympy.S.Zero, x)]
     one, inside = _root(simplify(b + 2 * s)), simplify(b - 2 * s)
     if inside.is_negative:
         growth, frequency = _root(-inside) / 2, simplify(one / 2)

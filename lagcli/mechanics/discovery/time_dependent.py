@@ -37,8 +37,11 @@ def of_changing_coefficients(
     others: list[Expr] = []
     solved = True
     time, t = t, sympy.Dummy("t", positive=True)  # for t < 0 the functions differ by a sign
-    for acceleration, x, rate in zip(accelerations, q, v, strict=True):
-        found = _of_equation(acceleration.xreplace({time: t}), x, rate, {*q, *v}, t)
+    moving = {*q, *v}
+    for given, x, rate in zip(accelerations, q, v, strict=True):
+        acceleration = given.xreplace({time: t})
+        solved = solved and not _changes_by(acceleration, moving - {x, rate}, moving, t)
+        found = _of_equation(acceleration, x, rate, moving, t)
         if found is None:
             continue
         root, Y, p = found
@@ -72,8 +75,26 @@ def _of_equation(
     Y = _elementary(simplify(own - p.diff(t) / 2 - p**2 / 4), t, p)
     if integral is None or not Y:
         return sympy.S.One, [], p
+    logs = integral.atoms(sympy.log)
+    integral = integral.xreplace({f: sympy.log(_positive(f.args[0], t)) for f in logs})
     root = simplify(sympy.exp(sympy.expand(integral / 2)))
     return root, Y, p
+
+
+def _positive(u: Expr, t: Symbol) -> Expr:
+    """u or -u, one of which is in question where a mass m - b t is: positive at t = 0 if known."""
+    first = u.subs(t, 0)
+    return (
+        -u if first.is_negative or (not first.is_positive and u.could_extract_minus_sign()) else u
+    )
+
+
+def _changes_by(acceleration: Expr, others: set[Symbol], moving: set[Symbol], t: Symbol) -> bool:
+    """Whether the coefficient of another coordinate depends on time: no formula is sought then."""
+    if sympy.count_ops(acceleration) > _MOST_OPERATIONS or t not in acceleration.free_symbols:
+        return False
+    terms = sympy.Add.make_args(sympy.expand(acceleration))
+    return any(not free_of(c, [t]) for y in others for c in _factors(terms, y, moving))
 
 
 def _factors(terms: Sequence[Expr], x: Symbol, moving: set[Symbol]) -> Iterator[Expr]:
@@ -102,7 +123,7 @@ def _elementary(I: Expr, t: Symbol, p: Expr) -> list[Expr]:  # noqa: E741
     if not inverse.is_polynomial(t) or sympy.degree(inverse, t) != 2:
         return []
     square, linear, _ = sympy.Poly(inverse, t).all_coeffs()
-    shifted = sympy.numer(sympy.together(t + linear / (2 * square)))
+    shifted = _positive(sympy.numer(sympy.together(t + linear / (2 * square))), t)
     square = simplify(inverse / shifted**2)  # 1/I = square shifted^2
     if not free_of(square, [t]):
         return []
