@@ -30,7 +30,7 @@ from lagcli.mechanics.discovery.spectrum import (
 from lagcli.mechanics.discovery.time_dependent import of_changing_coefficients
 
 _MOST_FUNCTIONS = 60
-_MOST_CURVED = 3
+_MOST_CURVED = 4
 _FEW = 8  # functions of the coordinates that all powers of t multiply
 
 
@@ -66,12 +66,13 @@ def time_functions(
     others = [*powers, *_functions(between, t)]
     translations = [*powers, t**3, *_functions(own, t), *_functions(between, t)]
     forced = forced_motion(accelerations, equations.q, equations.v, t)
-    translations += [f * T for f in forced for T in (others if f != t else others[3:])]
     linear = accelerations, equations.q, equations.v, t
     changing, stretched, solved = of_changing_coefficients(*linear)
     if changing or forced:  # sin(2 t) is 2 sin(t) cos(t) for a force at resonance
-        translations = _independent([*translations, *changing], t)
         others = _independent([*others, *stretched], t)
+        moved = [f * T for f in forced for T in (others if f != t else others[3:])]
+        moved += others if forced else []
+        translations = _independent([*translations, *moved, *changing], t)
     return TimeFunctions(
         tuple(dict.fromkeys(translations)),
         tuple(dict.fromkeys(others)),
@@ -96,24 +97,42 @@ def _functions(found: Iterable[Exponent], t: Symbol) -> list[Expr]:
 def affine(found: Kinds) -> list[Expr]:
     """Functions of the coordinates for point transformations, the simplest first."""
     one = sympy.S.One
-    by_angle = [_angle(x, found) for x in found.angles]
-    if found.latitudes and _size(by_angle) > _MOST_FUNCTIONS:
-        by_angle = [_angle(x, found) for x in found.angles if x not in found.alone]
-    if _size(by_angle) > _MOST_FUNCTIONS:
-        by_angle = [[one, sympy.sin(x), sympy.cos(x)] for x in found.angles]
-    if _size(by_angle) > _MOST_FUNCTIONS:
-        by_angle = []
     x = [y - found.centre.get(y, 0) for y in found.lengths]
     lengths = [one, *x, *(1 / r for r in found.radii), *found.exponentials]
     if found.powers:
         lengths += [x[0] ** k for k in (-2, -1, 2, 3)]
     elif found.curved and len(x) <= _MOST_CURVED:
         lengths += [a * b for i, a in enumerate(x) for b in x[: i + 1]]
-    if _size([lengths, *by_angle]) > _MOST_FUNCTIONS:
-        lengths = [one, *(x for x in found.lengths if x in found.radii)]
-    if _size([lengths, *by_angle]) > _MOST_FUNCTIONS:
+    by_angle = {y: _angle(y, found) for y in found.angles}
+    if _size([lengths, *by_angle.values()]) <= _MOST_FUNCTIONS:
+        return _products([lengths, *by_angle.values()])
+    # too many: of each part of the coordinates, and the simpler ones of all
+    parts = found.parts if len(found.parts) > 1 else ()
+    own = [f for part in parts for f in affine(found.of(part))]
+    return sorted(dict.fromkeys([*own, *_fewer(lengths, by_angle, found)]), key=complexity)
+
+
+def _fewer(lengths: list[Expr], by_angle: dict[Symbol, list[Expr]], found: Kinds) -> list[Expr]:
+    """Products without cosecants, without angles that are lengths too, or without lengths."""
+    one = sympy.S.One
+
+    def too_many(*groups: Sequence[Expr]) -> bool:
+        return _size([*groups, *by_angle.values()]) > _MOST_FUNCTIONS
+
+    if found.latitudes and too_many():
+        by_angle = {y: f for y, f in by_angle.items() if y not in found.alone}
+    if too_many():
+        by_angle = {y: [one, sympy.sin(y), sympy.cos(y)] for y in found.angles}
+    if too_many():
+        by_angle = {}
+    if too_many(lengths):
+        plain = {y for y in by_angle if y not in found.lengths or y in found.waves}
+        by_angle = {y: f for y, f in by_angle.items() if y in plain}
+    if too_many(lengths):
+        lengths = [one, *(y for y in found.lengths if y in found.radii)]
+    if too_many(lengths):
         lengths = [one]
-    return _products([lengths, *by_angle])
+    return _products([lengths, *by_angle.values()])
 
 
 def quadratic(found: Kinds, most: int) -> list[Expr]:
@@ -140,11 +159,15 @@ def quadratic(found: Kinds, most: int) -> list[Expr]:
 
 
 def _angle(x: Symbol, found: Kinds) -> list[Expr]:
+    if x in found.waves:
+        return [sympy.S.One, *found.waves[x]]
     s, c = sympy.sin(x), sympy.cos(x)
     return [sympy.S.One, s, c, *([c / s, 1 / s] if x in found.latitudes else [])]
 
 
 def _second(x: Symbol, found: Kinds) -> list[Expr]:
+    if x in found.waves:
+        return []
     s, c = sympy.sin(x), sympy.cos(x)
     if len(found.angles) == 1 and x not in found.cyclic:
         # parabolic coordinates of a plane: r (1 + cos phi) and r (1 - cos phi)

@@ -4,14 +4,15 @@ A coordinate is taken for an angle where it occurs in L only inside circular fun
 parameter as its factor (cos(k x) is a wave), or not at all while its own inertia, or that with
 another coordinate, depends on a third one.  What has the unit of a length is none; an angle of
 which only the constraints know takes part in both ways, and so does what is cyclic with an inertia
-that no circle has (the half plane, x'^2/y^2).  Two cyclic coordinates of one inertia are lengths.
+that no circle has (the half plane, x'^2/y^2), and the z of a wave cos(k (z - c t)).  Two cyclic
+coordinates of one inertia are lengths.
 """
 
 from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import isqrt
 
 import mpmath
@@ -22,7 +23,9 @@ from sympy import Expr, Symbol
 from lagcli.algebra import simplify
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.numeric import Evaluator
+from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.slots import SlotEquations
+from lagcli.mechanics.discovery.spectrum import exponents
 
 
 @dataclass(slots=True)
@@ -38,7 +41,28 @@ class Kinds:
     curved: bool = False
     powers: bool = False  # of one length whose inertia depends on its velocity: -2 to 3
     exponentials: list[Expr] = field(default_factory=list)  # of lengths, in the inertia
+    waves: Mapping[Symbol, list[Expr]] = field(default_factory=dict)  # by what grows uniformly
     centre: Mapping[Symbol, Expr] = field(default_factory=dict)  # of rotations, where not at 0
+    parts: Sequence[Sequence[Symbol]] = ()  # coordinates with an inertia of their own
+
+    def of(self, part: Sequence[Symbol]) -> Kinds:
+        """Those of some of the coordinates."""
+
+        def chosen(given: Sequence[Symbol]) -> list[Symbol]:
+            return [x for x in given if x in part]
+
+        lengths, angles = chosen(self.lengths), chosen(self.angles)
+        return replace(
+            self,
+            lengths=lengths,
+            angles=angles,
+            radii=chosen(self.radii),
+            latitudes=chosen(self.latitudes),
+            alone=chosen(self.alone),
+            exponentials=[e for e in self.exponentials if e.free_symbols & set(part)],
+            curved=len(part) > 1 and set(angles) <= set(lengths),
+            parts=(),
+        )
 
 
 def kinds(
@@ -53,6 +77,8 @@ def kinds(
     inside = {s for f in L.atoms(*CIRCULAR) for s in f.free_symbols
               if f.args[0].diff(s).is_Rational}  # fmt: skip
     turning = {s for e in constraints for f in e.atoms(*CIRCULAR) for s in f.free_symbols}
+    phases = (f for f in L.atoms(*CIRCULAR) if not free_of(f, [equations.t]))
+    travelling = {s for f in phases for s in f.free_symbols}
     for x, unit in zip(equations.q, units or [None] * len(equations.q), strict=True):
         cyclic = free_of(L, [x])
         turned = any(
@@ -67,6 +93,8 @@ def kinds(
             found.cyclic.append(x)
         elif cyclic and x in turning:
             found.angles.append(x)
+        elif angle and x in travelling:
+            found.lengths.append(x)
         if (
             angle
             and cyclic
@@ -86,6 +114,9 @@ def kinds(
         equations.mass[0][0], equations.v
     )
     found.exponentials = _exponentials(equations)
+    found.waves = _waves(equations, found.cyclic)
+    found.lengths += [x for x in found.waves if x not in found.lengths]
+    found.parts = [factor.q for factor in Metric(equations.q, equations.mass).factors]
     found.latitudes = [x for x in found.angles if _in_determinant(x, equations)]
     found.alone = [
         x for x in found.cyclic if inertia[x].free_symbols.isdisjoint(found.latitudes)
@@ -109,13 +140,18 @@ def _has_twin(x: Symbol, equations: SlotEquations, L: Expr) -> bool:
 
 
 def _is_of_no_circle(inertia: Expr, q: Sequence[Symbol]) -> bool:
-    """Whether it is no square of a radius: where a circle shrinks to a point it falls as r^2."""
+    """Whether it is no square of a radius: where a circle shrinks to a point it falls as r^2.
+
+    1 + x^2 vanishes nowhere.
+    """
     above, below = sympy.fraction(sympy.together(inertia))
     if not free_of(below, q) or any(not free_of(e, q) for e in inertia.atoms(sympy.exp)):
         return True
     inside = [x for x in q if x in above.free_symbols]
     if not above.is_polynomial(*inside):
         return False
+    if len(inside) == 1 and bool(sympy.discriminant(above, *inside).is_negative):
+        return True
     return all(sympy.degree(above, x) != 2 for x in inside)
 
 
@@ -133,6 +169,31 @@ def _exponentials(equations: SlotEquations) -> list[Expr]:
         drag = simplify(-force.diff(v, 2) / m)
         inside += [drag * x] if drag != 0 and free_of(drag, (x, v, equations.t)) else []
     return list(dict.fromkeys(sympy.exp(k * x) for x in inside for k in powers))
+
+
+def _waves(equations: SlotEquations, cyclic: Sequence[Symbol]) -> dict[Symbol, list[Expr]]:
+    """Functions of a u that grows uniformly, as time does: p_v = c u' of a plane wave.
+
+    With u' = 1, x'' = k x + c x' has the exponents by which a Killing vector f(u) d/dx changes.
+    """
+    q, v, mass = equations.q, equations.v, equations.mass
+    found: dict[Symbol, list[Expr]] = {}
+    for row, force in zip(mass, equations.forcing, strict=True):
+        driven = [k for k, m in enumerate(row) if m != 0]
+        if force != 0 or len(driven) != 1 or not free_of(row[driven[0]], q):
+            continue
+        [c] = driven
+        if (u := q[c]) not in cyclic:
+            continue
+        beside = [[m for i, m in enumerate(own) if i not in (k, c)] for k, own in enumerate(mass)]
+        alone = [k for k, m in enumerate(beside) if k != c and not any(m)]
+        alone = [k for k in alone if mass[k][k] != 0 and free_of(mass[k][k], q)]
+        time = {v[c]: sympy.S.One}
+        forces = [sympy.expand(equations.forcing[k].xreplace(time) / mass[k][k]) for k in alone]
+        each = exponents(forces, [q[k] for k in alone], [v[k] for k in alone], u)
+        if each:
+            found[u] = [f for exponent in each for f in exponent.functions(u)]
+    return found
 
 
 def _in_determinant(x: Symbol, equations: SlotEquations) -> bool:
