@@ -15,7 +15,6 @@ from lagcli.cli.plotting import ending, is_drawn_as
 from lagcli.cli.simulate import File, Project, Set, Until
 from lagcli.cli.status import Status
 from lagcli.problem_data import METHODS
-from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
 
 if TYPE_CHECKING:
@@ -210,8 +209,5 @@ def _methods(text: str | None) -> tuple[str, ...] | None:
     if text is None:
         return every
     asked = [word.strip() for word in text.split(",")]
-    wrong = [word for word in asked if word not in every]
-    for word in wrong:
-        advice = did_you_mean(word, every) or f"there are {', '.join(every)}"
-        report_line(f"lagcli: error: --methods: unknown name '{word}': {advice}")
-    return None if wrong else tuple(asked)
+    known = [is_known("--methods", word, every) for word in asked]
+    return tuple(asked) if all(known) else None
