@@ -14,8 +14,9 @@ from typing import Any
 
 from lagcli.expression import Name
 from lagcli.graph.derivative import partial
-from lagcli.graph.nodes import Node, Sum, Symbol, mask_of, with_values
+from lagcli.graph.nodes import Node, Symbol, mask_of, with_values
 from lagcli.graph.sharing import written_out
+from lagcli.mechanics.identities import vanish
 from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
 from lagcli.numerics.equations.constants import constants_of
@@ -24,14 +25,10 @@ from lagcli.numerics.equations.coupling import coupling, groups
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.reduced_model import MOST, Reduction, cut
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.numerics.hybrid.request import Asked
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import Column
 from lagcli.statements.answers import ModelSection
-
-#: States at which it is seen whether L depends on a coordinate, and what counts as 0 there.
-_STATES, _ZERO = 6, 1e-9
 
 _GIVEN = "the constraint '{}' determines it; a run that outputs its multiplier keeps both"
 _INITIAL = "only the initial state depends on it"
@@ -67,7 +64,7 @@ class _Model:
         with suppress(Refusal):
             return constants_of(e, self._dynamics, Doubles())
         names = [p.name for p in e.problem.parameters]
-        return dict(zip(map(e.graph.symbol, names), _numbers(len(names), 0), strict=True))
+        return dict(zip(map(e.graph.symbol, names), _numbers(len(names)), strict=True))
 
     @property
     def _dynamics(self) -> list[Node]:
@@ -179,31 +176,7 @@ class _Model:
         place = reduction.kept.index(j)
         if any(row.row[place] is not zero for row in reduction.rows().values()):
             return False
-        return self._vanishes(partial(e.graph, q)(reduction.put(e.lagrangian)))
-
-    def _vanishes(self, node: Node) -> bool:
-        """Whether a sum is 0 beside its terms at some states, wherever it is defined."""
-        e = self.equations
-        if not isinstance(node, Sum):
-            return node is e.graph.zero
-        terms = [e.graph.scaled(term, number) for term, number in node.terms]
-        terms.append(e.graph.constant(node.constant))
-        parameters = [e.graph.symbol(p.name) for p in e.problem.parameters]
-        try:
-            function = straight_line((*parameters, *e.state), terms, {}, Doubles())
-        except (ArithmeticError, LookupError, UndefinedFunction, ValueError):
-            return False
-        tried = 0
-        for k in range(_STATES):
-            numbers = _numbers(len(parameters), k) + [x / 4 for x in _numbers(len(e.state), k)]
-            try:
-                values = function(*numbers)
-            except (ArithmeticError, ValueError):
-                continue
-            if not abs(sum(values)) <= _ZERO * sum(map(abs, values)):
-                return False
-            tried += 1
-        return tried > 1
+        return vanish([partial(e.graph, q)(reduction.put(e.lagrangian))], e.form) is True
 
     def _without_influence(self) -> Iterator[tuple[str, str]]:
         """The parameters that no equation of motion names, not even through others' values."""
@@ -221,6 +194,6 @@ class _Model:
                 yield parameter.name, _INITIAL if started else "no equation of motion depends on it"
 
 
-def _numbers(count: int, k: int) -> list[float]:
-    """Numbers between 1 and 2 in no relation to each other, others for each k."""
-    return [1 + math.sqrt(2) * (1 + i + 31 * k) ** 1.5 % 1 for i in range(count)]
+def _numbers(count: int) -> list[float]:
+    """Numbers between 1 and 2 in no relation to each other."""
+    return [1 + math.sqrt(2) * (1 + i) ** 1.5 % 1 for i in range(count)]
