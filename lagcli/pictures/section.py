@@ -18,7 +18,7 @@ from itertools import pairwise
 from lagcli.expression import Expression, Name, Negative, Sum
 from lagcli.numerics.equations.parameter_formulas import numbers_of
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.extrema import crossing
+from lagcli.numerics.hybrid.extrema import crossing, polynomial
 from lagcli.numerics.hybrid.request import Asked, Progress
 from lagcli.pictures.drawing import CannotDraw, Drawn, Marks, Picture, Point, extent
 from lagcli.pictures.labels import Labels
@@ -194,28 +194,15 @@ def _passage(piece: Sequence[Values], k: int) -> tuple[float | None, ...]:
 
 def _at(times: Sequence[float], values: Sequence[float | None], t: float) -> float | None:
     known = [value for value in values if value is not None]
-    return _interpolated(times, known, t) if len(known) == len(times) else None
+    return polynomial(times, known)(t) if len(known) == len(times) else None
 
 
 def _root(times: Sequence[float], heights: Sequence[float], before: Values, after: Values) -> float:
     """Where the polynomial through the places is 0, between two of them."""
-
-    def below(t: float) -> float:
-        return -_interpolated(times, heights, t)
-
     (low, a), (high, b) = before[:2], after[:2]
     assert low is not None and high is not None and a is not None and b is not None  # noqa: PT018
+    below = polynomial(times, [-height for height in heights])
     return crossing(below, low, high, -a, -b or -1e-300)
-
-
-def _interpolated(times: Sequence[float], heights: Sequence[float], t: float) -> float:
-    """Neville's scheme."""
-    values = list(heights)
-    for width in range(1, len(times)):
-        for k in range(len(times) - width):
-            a, b = times[k], times[k + width]
-            values[k] = ((b - t) * values[k] + (t - a) * values[k + 1]) / (b - a)
-    return values[0]
 
 
 # -- the picture ---------------------------------------------------------------------------------

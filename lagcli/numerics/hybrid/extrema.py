@@ -50,10 +50,9 @@ def crossing(f: Function, good: float, bad: float, above: float, below: float) -
 
 def lowest_of(places: Sequence[float], values: Sequence[float], count: int = 32) -> float:
     """Where the polynomial through the points is least, to 1/count of their span."""
-    weights = _barycentric(places)
     low, span = places[0], places[-1] - places[0]
     tried = [low + span * k / count for k in range(count + 1)]
-    return min(tried, key=lambda x: _interpolated(places, values, weights, x))
+    return min(tried, key=polynomial(places, values))
 
 
 def least(f: Function, low: float, high: float) -> tuple[float, float]:
@@ -80,9 +79,7 @@ def least(f: Function, low: float, high: float) -> tuple[float, float]:
         for i in range(_NODES)
     ]
 
-    def slope(x: float) -> float:
-        return _interpolated(places, slopes, weights, x)
-
+    slope = polynomial(places, slopes)
     start = lowest_of(places, values)
     step = (high - low) / 32
     left, right = max(low, start - step), min(high, start + step)
@@ -104,14 +101,18 @@ def _barycentric(places: Sequence[float]) -> list[float]:
     return weights
 
 
-def _interpolated(
-    places: Sequence[float], values: Sequence[float], weights: Sequence[float], x: float
-) -> float:
-    above = below = 0.0
-    for place, value, weight in zip(places, values, weights, strict=True):
-        if x == place:
-            return value
-        part = weight / (x - place)
-        above += part * value
-        below += part
-    return above / below
+def polynomial(places: Sequence[float], values: Sequence[float]) -> Function:
+    """The polynomial through some points."""
+    points = list(zip(places, values, _barycentric(places), strict=True))
+
+    def at(x: float) -> float:
+        above = below = 0.0
+        for place, value, weight in points:
+            if x == place:
+                return value
+            part = weight / (x - place)
+            above += part * value
+            below += part
+        return above / below
+
+    return at
