@@ -36,6 +36,7 @@ from lagcli.statements.plus_minus import once, single, unlike
 from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     conditions,
+    in_moving_frames,
     linear_equations,
     listed,
     none_found,
@@ -80,6 +81,7 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
     for number, motion in enumerate(once(section.motions), 1):
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(motion)
+    yield from in_moving_frames(section)
     if section.motions and not section.complete:
         yield there_may_be_others(section)
 

@@ -134,6 +134,7 @@ class SteadySection:
     there may be some for parameters for which each of `unless` vanishes; None: for special values.
     What is not `complete` was not sought where each of `singular_where` vanishes.
     `where` restricts what was sought, in words; of what is `resting` the conditions are of rest.
+    All hold in each of the `frames`, too: velocities that are common to all in terms of one.
 
     Under velocity constraints, and where a force acts along what L does not contain, the
     conditions are what is left of the equations of motion (`acting`: "inertia"), along the
@@ -151,6 +152,7 @@ class SteadySection:
     singular_where: tuple[Expression, ...] = ()
     where: str = ""
     resting: bool = False
+    frames: tuple[Mapping[str, Expression], ...] = ()
 
     @property
     def sought(self) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from itertools import groupby
 
 from lagcli.document import Block, Equations, Formula, Label, Matrix, Paragraph, Row, equations_of
 from lagcli.expression import (
@@ -290,6 +291,17 @@ def there_may_be_others(section: SteadySection) -> Paragraph:
         parts += [" or " if parts else ", as where ", each, " = 0"]
     parts += [": the coordinates are singular there"] if parts else []
     return Paragraph(("There may be others", *parts, "."))
+
+
+def in_moving_frames(section: SteadySection) -> Iterator[Paragraph]:
+    """That all move along at a common velocity, too."""
+    for rates in section.frames:
+        parts: list[Part] = []
+        for rate, pairs in groupby(rates.items(), key=lambda pair: pair[1]):
+            parts += [", " if parts else "The same at any constant "]
+            parts += [part for name, _ in pairs for part in (Name(name, 1), " = ")]
+            parts += [rate]
+        yield Paragraph((*parts, ": the equations of motion hold in a frame that moves along."))
 
 
 def none_found(

@@ -134,3 +134,20 @@ def test_a_cubic_momentum_leaves_a_hamilton_jacobi_equation():
         "L: x'^4/4 + a*x'^2/2 - k*x^2/2\n"
     )
     assert "not quadratic in its momentum" in answered(text, "hamilton_jacobi")
+
+
+FRAMES = {
+    "T: a'^2 + 3*b'^2\nV: k*(a - b)^2": "ȧ = ḃ",
+    "T: a'^2 + a'*b' + 3*b'^2\nV: k*(2*a - b)^4\ndissipation: c*(2*a' - b')^2": "ȧ = ḃ/2",
+    "T: a'^2 + 3*b'^2\nV: k*(a - b)^2\ndissipation: c*a'^2": None,
+    "T: a'^2 + (2 + cos(a - b))*b'^2\nV: k*(a - b)^2": None,
+    "T: a'^2 + 3*b'^2\nV: k*(a - b)^2\nforces: {a: c*b', b: -c*a'}": None,
+    "T: a'^2 + 3*b'^2\nV: k*(a^2 + b^2)": None,
+}
+
+
+@pytest.mark.parametrize(("text", "frame"), FRAMES.items())
+def test_what_a_frame_that_moves_along_leaves_the_same(text, frame):
+    told = answered(f"coordinates: [a, b]\n{_POSITIVE}\n{text}\n", "steady_motions")
+    assert ("any constant" in told) is (frame is not None)
+    assert frame is None or f"any constant {frame}:" in told

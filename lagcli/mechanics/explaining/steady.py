@@ -21,6 +21,7 @@ from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     POTENTIAL,
     conditions,
+    in_moving_frames,
     linear_equations,
     place_rows,
     there_may_be_others,
@@ -92,7 +93,8 @@ def _with_constant_velocities(found: SteadySection) -> list[Part]:
 def _steady_without_momenta(teller: Teller, found: SteadySection) -> str:
     """What is steady: the equilibria, under velocity constraints other states perhaps, too."""
     if all(e.holonomic for e in teller.dynamics.constraints.equations):
-        return ", so in these coordinates the steady motions are the equilibria:"
+        frames = ", at rest or in a frame that moves along" * bool(found.frames)
+        return f", so in these coordinates the steady motions are the equilibria{frames}:"
     if found.motions:
         return ". The equilibria are steady motions:"
     return ". At rest these vanish:"
@@ -112,6 +114,7 @@ def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
     for number, motion in enumerate(once(found.motions), 1):
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(teller, motion)
+    yield from in_moving_frames(found)
     if found.motions and not found.complete:
         yield there_may_be_others(found)
     if found.motions:

@@ -35,6 +35,7 @@ from lagcli.mechanics.stability.judge import GRAZES, judge
 from lagcli.mechanics.stability.lagrange_dirichlet import by_routh
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.mechanics.stability.verdict import Stability, undecided
+from lagcli.mechanics.steady.moving_frames import moving_frames
 from lagcli.mechanics.steady.rolling import RollingMotions
 from lagcli.mechanics.steady.rolling_statement import applies, rolling_section
 from lagcli.record import replace
@@ -113,8 +114,21 @@ class _SteadyStatement:
                 resting=resting,
                 unless=() if found else unless_written(steady.unless, self.order),
                 where=steady.rest.restricted_to + _OPEN * bool(steady.full.problem.contacts),
+                frames=self._frames if found and not steady.full.problem.contacts else (),
             ),
             [],
+        )
+
+    @property
+    def _frames(self) -> tuple[dict[str, Expression], ...]:
+        system = self.steady.system
+        return tuple(
+            {
+                q.name: self._shape(x * system.qdot[system.q.index(free)])
+                for q, x in zip(system.q, c, strict=True)
+                if q != free and x != 0
+            }
+            for free, c in moving_frames(self.steady.rest).items()
         )
 
     def _motion(self, motion: Steady) -> SteadyMotion:

@@ -1,0 +1,36 @@
+"""Velocities that all may have in common: the equations of motion hold in a frame that moves along.
+
+Of M(q) q'' = F(q, q') these are the constant c with
+
+    M(q + s c) = M(q),   F(q + s c, q' + u c) = F(q, q')   for all s and u,
+
+so that with q(t) also q(t) + u c t is a motion: two masses that a spring joins, two coupled discs.
+
+References
+----------
+Landau, Lifshitz, *Mechanics*, 3rd ed., section 3.
+"""
+
+from __future__ import annotations
+
+from itertools import chain
+
+from sympy import Expr, Symbol
+
+from lagcli.algebra import is_zero
+from lagcli.mechanics.rest.rest_conditions import RestConditions
+
+
+def moving_frames(rest: RestConditions) -> dict[Symbol, list[Expr]]:
+    """The c by the coordinate at which each is 1; none under constraints."""
+    if rest.dynamics.constraints.equations or rest.depends_on_time:
+        return {}
+    system, s, u = rest.system, Symbol("#s", real=True), Symbol("#u", real=True)
+    found = {}
+    for free, c in rest.translations.items():
+        moved = {q: q + s * x for q, x in zip(system.q, c, strict=True)}
+        moved |= {v: v + u * x for v, x in zip(system.qdot, c, strict=True)}
+        same = (is_zero(e.xreplace(moved) - e) for e in chain(*rest.mass_matrix, rest.forcing))
+        if sum(x != 0 for x in c) > 1 and all(each is True for each in same):
+            found[free] = c
+    return found
