@@ -151,3 +151,15 @@ def test_what_a_frame_that_moves_along_leaves_the_same(text, frame):
     told = answered(f"coordinates: [a, b]\n{_POSITIVE}\n{text}\n", "steady_motions")
     assert ("any constant" in told) is (frame is not None)
     assert frame is None or f"any constant {frame}:" in told
+
+
+@pytest.mark.parametrize("mass", ["1 + c*t", "2 + cos(t)", "exp(-t) + m"])
+def test_a_mass_that_changes_makes_the_equations_depend_on_the_time(mass):
+    """x = 0 rests, and nothing is proportional to exp(s t) near it."""
+    text = f"coordinates: [x, y]\n{_POSITIVE}\nL: ({mass})*x'^2/2 + y'^2/2 - k*(x - y)^2/2 - y^2\n"
+    derivation = derive(text)
+    [rest] = equilibria(derivation.dynamics).equilibria
+    assert rest.verdict.stable is None
+    assert "time" in rest.verdict.reason
+    assert modes(derivation.dynamics).modes == ()
+    assert steady_motions(derivation)[0].motions is None

@@ -68,6 +68,7 @@ class RestConditions:
         """Whether the equations or the constraints have t in them."""
         system, constraints = self.system, self.dynamics.constraints
         everything = [
+            *chain(*self.mass_matrix),
             *self.forcing,
             *(entry for e in constraints.equations for entry in (*e.row, e.drift)),
             *(e.f for e in constraints.equations if e.holonomic),
