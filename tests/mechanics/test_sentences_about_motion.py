@@ -163,3 +163,28 @@ def test_a_mass_that_changes_makes_the_equations_depend_on_the_time(mass):
     assert "time" in rest.verdict.reason
     assert modes(derivation.dynamics).modes == ()
     assert steady_motions(derivation)[0].motions is None
+
+
+def test_a_negative_kinetic_energy_turns_about_the_maxima():
+    """-L of a pendulum has its motions; U_eff has its minimum where the pendulum stands."""
+    text = f"coordinates: [x]\n{_POSITIVE}\nL: -m*x'^2/2 - k*cos(x)\n"
+    told = words(explain(derive(text), ["reduction"]), "The reduction")
+    assert "does not turn back" not in told
+    assert "has no minimum" not in answered(text, "reduction")
+    told = words(
+        explain(derive(text.replace("L: -m*x'^2/2 - k", "L: m*x'^2/2 + k")), ["reduction"])
+    )
+    assert "does not turn back" in told
+
+
+@pytest.mark.parametrize("drag", ["0", "a'^2 + sin(a)^2*b'^2"])
+def test_a_pole_is_no_family(drag):
+    """At the pole of a sphere that turns the azimuth has no value: nothing is displaced along it."""
+    text = (
+        f"coordinates: [a, b]\n{_POSITIVE}\nT: m*(a'^2 + sin(a)^2*(b' + c)^2)/2\n"
+        f"V: -k*cos(a)\ndissipation: {drag}\n"
+    )
+    found = equilibria(derive(text).dynamics).equilibria
+    [pole] = [e for e in found if "b" in e.indeterminate and e.verdict.minimum]
+    assert not pole.verdict.across
+    assert "family" not in answered(text, "equilibria").split("a = 0:")[-1].split("a = π:")[0]

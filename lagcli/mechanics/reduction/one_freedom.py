@@ -65,6 +65,11 @@ class ReducedFreedom:
             return "a force that is not in L acts"
         return ""
 
+    @cached_property
+    def negative(self) -> bool:
+        """Whether the kinetic energy is: the motion then is about the maxima of U_eff."""
+        return sign(self.mass) == -1
+
     @property
     def energy(self) -> Expr:
         """M q'^2/2 + U_eff."""
@@ -111,6 +116,8 @@ class ReducedFreedom:
 
         -1 <= (E - b)/a <= 1 just for b - |a| <= E <= b + |a|.
         """
+        if self.negative:  # what does not turn back has a smaller E
+            return ()
         arguments = {f.args[0] for root in self._roots or () for f in root.atoms(*_BOUNDED)}
         ranges: dict[tuple[Expr, Expr], None] = {}
         for argument in arguments:

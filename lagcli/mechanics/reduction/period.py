@@ -85,7 +85,7 @@ class Periods:
     def excluded(self) -> bool:
         """Whether U_eff has maxima only, or no place of rest: nothing goes to and fro."""
         rest, motion = self._rest, self.motion
-        if rest.points is None or not rest.complete:
+        if rest.points is None or not rest.complete or motion.negative:
             return False
         curvature = motion.potential.diff(motion.q, 2)
         slopes = (at(curvature, point.values) for point in rest.points)
@@ -96,6 +96,9 @@ class Periods:
         """One series for each equilibrium that is a minimum, or may be one."""
         rest = self._rest
         points = rest.points
+        if self.motion.negative:
+            self.reason = "no period is given where the kinetic energy is negative"
+            return ()
         if points is None:
             return self._anywhere()
         found = []

@@ -95,7 +95,9 @@ def judge_on_meridians(linear: OnMeridians) -> Stability:
         return undecided(_NO_MOTION)
     if found is None:
         return undecided(no_coordinates)
-    return replace(found, reverses=not linear.turns, asymptotic=False)
+    along = {*linear.point.free} - {linear.system.q[j] for j in linear.indeterminate}
+    across = found.across and bool(along)  # at a pole of a sphere the azimuth is no family
+    return replace(found, reverses=not linear.turns, asymptotic=False, across=across)
 
 
 def _not_smooth(near: Near) -> str:
