@@ -33,6 +33,7 @@ from lagcli.statements.wording import (
     irreducible,
     state_blocks,
     turning_contacts,
+    used_to_eliminate,
     with_constraints,
 )
 
@@ -50,8 +51,7 @@ def derive(statements: Statements) -> ReductionSection:
 def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
     """Say the Routhian, what it is made of, and the motion that is left."""
     if section.eliminated:
-        names = [part for name in section.eliminated for part in (", ", Name(name))][1:]
-        yield Paragraph(("The constraints are used to eliminate ", *names, "."))
+        yield Paragraph((*used_to_eliminate(section.eliminated), "."))
     for name, each in section.irreducible.items():
         yield Paragraph(tuple(irreducible(name, each, own("L"))))
     if section.momenta:

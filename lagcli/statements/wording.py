@@ -104,6 +104,13 @@ def conditions(where: Sequence[Above]) -> list[Part]:
     return joined(where, " and ")
 
 
+def used_to_eliminate(gone: Sequence[str]) -> list[Part]:
+    """That constraints are solved for these coordinates."""
+    found = listed(gone)
+    found[-2:-1] = [" and "] if len(gone) > 1 else []
+    return [f"The constraint{' is' if len(gone) == 1 else 's are'} used to eliminate ", *found]
+
+
 def only_along_its_path(point: str, fixed: Sequence[str]) -> Iterator[Paragraph]:
     """That a force on a point that cannot move along an axis is not known along that."""
     if fixed:
@@ -315,8 +322,6 @@ def none_found(
     """That there is none of what was sought, or that none is known."""
     if not complete:
         return Paragraph(("None was found.",))
-    if vanishing == () and not edge:
-        return Paragraph((f"There is none{where}.",))
     lead, *rest = unless(what + where, vanishing, edge)
     return Paragraph((f"{str(lead)[0].upper()}{str(lead)[1:]}", *rest, "."))
 

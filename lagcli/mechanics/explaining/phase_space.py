@@ -7,14 +7,13 @@ from typing import cast
 
 from lagcli.document import Block, Bracket, Equations, Integral, Label, Row, equations_of
 from lagcli.expression import ZERO, Call, Diff, Expression, Name, Negative, Product, walk
-from lagcli.mechanics.explaining.reduction import used_to_eliminate
 from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
 from lagcli.notation.letters import own
 from lagcli.statements.answers import CanonicalSection, Section
 from lagcli.statements.motions import HamiltonJacobiSection
 from lagcli.statements.phase_space import BracketsSection
-from lagcli.statements.wording import conditions, fold
+from lagcli.statements.wording import conditions, fold, used_to_eliminate
 
 
 def canonical_equations(teller: Teller, section: Section) -> Iterator[Block]:

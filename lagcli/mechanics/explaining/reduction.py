@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import cast
 
@@ -22,6 +22,7 @@ from lagcli.statements.wording import (
     irreducible,
     place_rows,
     turning_contacts,
+    used_to_eliminate,
 )
 
 _TWICE = "the period is twice the time between the turning points."
@@ -59,14 +60,6 @@ def _timed(reduced: ReductionSection) -> bool:
     """Whether the terms linear in the velocities depend on t, so that they give more forces."""
     parts = (node for g in reduced.gyroscopic.values() for node in walk(g))
     return any(node == Name("t") for node in parts)
-
-
-def used_to_eliminate(gone: Sequence[str]) -> list[Part]:
-    """That constraints are solved for these coordinates."""
-    return [
-        f"The constraint{' is' if len(gone) == 1 else 's are'} used to eliminate ",
-        *names(gone),
-    ]
 
 
 def _cyclic(teller: Teller, reduced: ReductionSection) -> Iterator[Block]:
