@@ -44,7 +44,9 @@ def declared(
         message = f"'{key.label}' is not a valid name for a {what}"
         is_relation = re.search("[=<>≤≥]", key.label)
         rule = "a name has letters, digits and underscores"
-        if better := name_meant(key.label, one=True):
+        if isinstance(value, Scalar) and re.search(r"[-+*/^]", key.label):
+            rule = f"write name: {key.label} = {value.value}"
+        elif better := name_meant(key.label, one=True):
             rule = f"write {better}"
         file.error(message, key.span, f"write name: {key.label}" if is_relation else rule)
         return None

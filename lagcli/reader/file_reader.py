@@ -48,6 +48,8 @@ _NAME = re.compile(r"[^\W\d]\w*")
 _GIVEN = re.compile(
     r"([^\W\d]\w*'*)(?:\(0\))?\s*[=:]\s*([^,;=:]+?)(?=\s*(?:$|[,;]|[^\W\d]\w*'*(?:\(0\))?\s*[=:]))"
 )
+#: A quantity within a formula: the 9.81 m/s² of `m*9.81 m/s²*x`.
+_UNIT_WITHIN = re.compile(r"([\d.]+)\s+([A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+)(?![\w(])")
 _NO_EQUATION = Equation(ZERO, ZERO)
 
 
@@ -241,6 +243,13 @@ class FileReader:
         if (unit := unit_at_end(alone)) and self._is_unit(unit):
             hint = f"leave out '{unit}': units stand where names are declared"
             self.error(f"the unit '{unit}' cannot stand in {what}", node.span, hint)
+            return UNREADABLE
+        within = _UNIT_WITHIN.search(alone)
+        if within and self._is_unit(within[2]):
+            given = f"parameters: {{g: {{value: {within[1]}, unit: {within[2]}}}}}"
+            self.error(
+                f"the unit '{within[2]}' cannot stand in {what}", node.span, f"write {given}"
+            )
             return UNREADABLE
         if what.startswith("the value of") and self._is_unit(alone):
             self.error(f"the unit '{alone}' is not a value", node.span, f"write {{unit: {alone}}}")

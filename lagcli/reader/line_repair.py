@@ -33,12 +33,22 @@ _GENERAL = frozenset({"", "put the whole value in quotes", "group with parenthes
 def _closed(line: str) -> str:
     """With the brackets and quotes that are open at its end."""
     open_: list[str] = []
+    before = " "
     for each in line.rstrip().rstrip(","):
         if open_ and each == open_[-1]:
             open_.pop()
-        elif each in _PAIRS and not (each in "'\"" and open_ and open_[-1] in "'\""):
+        elif each in "[{" or (
+            each in "'\"" and before in " [{,:" and open_[-1:] not in (["'"], ['"'])
+        ):
             open_ += _PAIRS[each]
+        before = each
     return line.rstrip().rstrip(",") + "".join(reversed(open_)) if open_ else line
+
+
+def _paired(line: str) -> str:
+    """`[x]` for `[x)`, and `"x"` for `"x'`."""
+    found = re.fullmatch(r"(\s*[\w ]+:\s+)([\[{\"'])(.*)([\]})\"'])\s*", line)
+    return line if found is None else f"{found[1]}{found[2]}{found[3]}{_PAIRS[found[2]]}"
 
 
 def _separated(line: str) -> str:
@@ -79,18 +89,20 @@ def _quoted(line: str) -> str:
 #: In the order in which they are tried.
 _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
-    lambda line: re.sub(r"^(\s*[^\W\d]\w*)\s*(?:<-|←|:=|->|→|=>|=)\s*", r"\1: ", line),
+    lambda line: re.sub(r"^(\s*\"?[^\W\d]\w*\"?)\s*(?:<-|←|:=|->|→|=>|=)\s*", r"\1: ", line),
     _formula,
     _grouped,
     lambda line: re.sub(r"^(\s*)-\s+(?=[^\W\d]\w*:\s)", r"\1", line),
+    lambda line: re.sub(r"^(\s*[^\W\d]\w*);\s", r"\1: ", line),
+    _paired,
     lambda line: line.replace(";", ",") if re.search(r"[\[{].*;", line) else line,
     lambda line: re.sub(r"\s+(?://|%|--|;)\s*(?=\S)", "  # ", line, count=1),
-    lambda line: re.sub(r"\s*[;,]\s+(?=[^\W\d]\w*:\s)", "\n", line, count=1),
+    lambda line: re.sub(r"^([^{]*?)\s*[;,]\s+(?=[^\W\d]\w*:\s)", r"\1\n", line, count=1),
     lambda line: re.sub(r"(?<=[:,\[] )[%@`&!*](?=\w)", "", line),
     _listed,
     _closed,
     _separated,
-    lambda line: line if line.rstrip().endswith((":", ",")) else line.rstrip() + ",",
+    lambda line: line.rstrip() + "," if re.match(r"\s+[\w\"']+:.*[^:,]$", line) else line,
     _quoted,
 )
 
@@ -134,6 +146,11 @@ def repaired_line(
             if number != first:
                 begin = len(line) - len(line.lstrip()) + 1
                 span = Span(number + 1, begin, number + 1, len(lines[number]) + 1)
+            if line.strip() == lines[number].strip() and line[:1] == " ":
+                before = next(each for each in reversed(lines[:number]) if each.strip())
+                if not before.rstrip().endswith(":"):
+                    key = before.strip().partition(":")[0]
+                    return replace(mistake, hint=f"begin the line where '{key}' begins")
             if line == f"  {lines[number]}":
                 return replace(mistake, hint="begin the line with blanks")
             _, cut, key = line.partition("\n")
@@ -149,6 +166,9 @@ def repaired_line(
 def _tried(lines: list[str], first: int) -> Iterator[tuple[int, str]]:
     """The places of the lines near the mistake, each with what may have been meant."""
     above = [k for k in range(min(first, len(lines) - 1), -1, -1) if lines[k].strip()][:4]
+    for number in above[1:]:
+        indent = re.match(r"\s*", lines[number])
+        yield above[0], f"{indent[0] if indent else ''}{lines[above[0]].lstrip()}"
     if above[1:] and re.fullmatch(r"(title|source|description):\s*", lines[above[1]]):
         yield above[0], f"  {lines[above[0]]}"
     for change in _CHANGES:

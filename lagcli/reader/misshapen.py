@@ -54,6 +54,9 @@ def range_end(written: str) -> str:
 def as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
     """How a text or a list is written as the map that it should be."""
     written = node.text.source.text[node.start : node.end].strip()
+    question = re.fullmatch(r"[\"']?(?:solve\s+)?(.*=.*\S)\s+for\s+(\w+'*)[\"']?", written)
+    if isinstance(node, Scalar) and names[0] == "where" and question:
+        return f"write {{where: {question[1]}, for: {question[2]}}}"
     if isinstance(node, Scalar) and names[0] == "where" and "=" in written:
         return f"write {{where: {written}, for: x}}"
     if isinstance(node, Scalar) and written in get_args(Assumption) and "assume" in names:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lagcli.diagnostics import Diagnostic, Source
 from lagcli.expression import Equation, Expression
 from lagcli.problem_data import Inequality
-from lagcli.reader.expressions import read_expression
+from lagcli.reader.expressions import read_equation, read_expression
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import Unclear, Vocabulary
 from lagcli.reader.habits import COMMENT, name_meant
@@ -57,6 +57,10 @@ def with_whole(
     for written in _written(node.value, scope, equation=read is not read_expression):
         try:
             whole = translated(written, _vocabulary(scope, role))
+            if read is read_equation and set("<>") & set(whole):
+                gap = re.sub(r"([<>])(?!=)", r"\1=", whole)
+                hint = f"a one-sided contact stands under contacts, as in floor: {gap}"
+                return [replace(found[0], hint=hint)]
             read_back = read(Excerpt.whole(Source("", whole)))
         except (Unclear, Mistake):
             continue
@@ -82,8 +86,10 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     if len(value) > 2 * _LONGEST:
         return []
     for each in scope.refused:
-        if re.search(r"\w[ -]\w", each):
+        if re.search(r"\w[ .-]\w", each):
             value = re.sub(rf"(?<!\w){re.escape(each)}(?!\w)", name_meant(each, one=True), value)
+    if equation and len(sides := re.split("==?", value)) == 3:
+        return ["=".join(sides[1:])]  # f(x, y) = … = 0
     return [value] if equation else [value, _LEFT_SIDE.sub("", value)]
 
 

@@ -162,6 +162,8 @@ def name_mistake(name: str, *, one: bool = False) -> tuple[str, str] | None:
         better = name_meant(name, one=one) or (
             "every name in full" if set(name) <= {".", "…"} else ""
         )
+        if better and re.fullmatch(r"\w+\([\w, ]+\)", name):
+            better += ", without arguments, also where it is used"
         message = f"'{name}' is not a name: a name has letters, digits and underscores"
         return message, f"write {better}" if better else ""
     return None

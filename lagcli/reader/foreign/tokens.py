@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from typing import NamedTuple
 
 from lagcli.reader.foreign.words import Vocabulary
@@ -36,6 +37,11 @@ _SPEED = re.compile(
     r"(?<!\w)(?P<v>\|?(?:\\(?:vec|mathbf)\s*\{?)?v\}?\|?)(?:\s*(?:\^|\*\*)\s*\{?2\}?|\s*²"
     r"|\s*(?:\.|·|\\cdot)\s*(?P=v))(?![\w.])"
 )
+#: The square of a position: \\vec{r}^2, |\\mathbf{r}|^2.
+_DISTANCE = re.compile(r"\|?\\(?:vec|mathbf)\s*\{?r\}?\|?\s*(?:(?:\^|\*\*)\s*\{?2\}?|²)(?!\w)")
+_RATE_OF_VECTOR = re.compile(r"\\dot\s*\{?\s*\\(?:vec|mathbf)\s*\{?r\}?\s*\}?(?=\s*[\^²*])")
+#: `self.` before a name.
+_OWNER = re.compile(r"\b([A-Za-z]\w*)\.(?=[A-Za-z_](?!iff\b))")
 
 
 class Token(NamedTuple):
@@ -48,17 +54,28 @@ class Token(NamedTuple):
 
 def prepared(text: str, names: Vocabulary) -> str:
     """With the marks of web pages, v² and Leibniz' derivatives in the notation of a file."""
+    text = "".join(map(_on_the_keyboard, _RATE_OF_VECTOR.sub(r"\\vec{v}", text)))
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
     text = re.sub(r"(?<=\w)//(?=\w)", "/", text.strip(" =").rstrip(";,"))
-    return _leibniz(_square_of_speed(text, names), names)
+    text = re.sub(r"\bDerivative\[(\d)\]\[(\w+)\]", lambda m: m[2] + "'" * int(m[1]), text)
+    text = _leibniz(_square_of_speed(text, names), names)
+    return _OWNER.sub(lambda m: m[0] if m[1] in names.known else "", text)
+
+
+def _on_the_keyboard(character: str) -> str:
+    """`*` for its full-width form, `^` for the accent."""
+    is_wide = "！" <= character <= "～"
+    return unicodedata.normalize("NFKC", character) if is_wide else character.replace("ˆ", "^")
 
 
 def _square_of_speed(text: str, names: Vocabulary) -> str:
     """The sum of squares for v², in Cartesian coordinates."""
     if len(names.coordinates) < 2 or "v" in names.known or not {*names.coordinates} <= {*"xyz"}:
         return text
-    squares = " + ".join(f"{x}'^2" for x in names.coordinates)
-    return _SPEED.sub(lambda _: f" ({squares}) ", text)
+    for pattern, prime in ((_SPEED, "'"), (_DISTANCE, "")):
+        squares = " + ".join(f"{x}{prime}^2" for x in names.coordinates)
+        text = pattern.sub(f" ({squares}) ", text)
+    return text
 
 
 def _leibniz(text: str, names: Vocabulary) -> str:

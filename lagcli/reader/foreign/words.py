@@ -7,12 +7,13 @@ import unicodedata
 from typing import NamedTuple
 
 from lagcli.expression import FUNCTIONS
+from lagcli.notation.greek import BY_LETTER
 from lagcli.reader.habits import is_angle, meanings, product_meant
 from lagcli.reader.suggest import alike
 
 _DOTS = {"\u0307": 1, "\u0308": 2}
 #: Letters that are a velocity of the only coordinate: v of x, ω of an angle.
-BY_LETTER = frozenset({"v", "velocity", "speed", "omega", "ω"})
+VELOCITIES = frozenset({"v", "velocity", "speed", "omega", "ω"})
 
 
 class Unclear(Exception):
@@ -54,7 +55,9 @@ def meant(word: str, names: Vocabulary) -> tuple[str, int]:
     if plain in meanings("functions") and meanings("functions")[plain] == "pi":
         return "pi", primes
     rate = rate_meant(plain, names)
-    product = product_meant(plain, known) if len(plain) < 9 else ""
+    in_full = "".join(BY_LETTER.get(letter, letter) for letter in plain)
+    short = plain if len(plain) < 9 else ""
+    product = product_meant(short, known) or (product_meant(in_full, known) if short else "")
     if rate and product:
         raise Unclear
     return rate or (product or plain, primes)
@@ -81,7 +84,7 @@ def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
     }
     if len(names.coordinates) == 1:
         (x,) = names.coordinates
-        if word in BY_LETTER and (word in {"omega", "ω"}) == is_angle(x):
+        if word in VELOCITIES and (word in {"omega", "ω"}) == is_angle(x):
             found.add((x, 1))
         if names.momenta and word in {"p", "P"}:
             found.add((f"p_{x}", 0))

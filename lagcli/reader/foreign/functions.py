@@ -1,0 +1,181 @@
+"""Functions of a foreign formula with their arguments."""
+
+from __future__ import annotations
+
+import re
+from abc import abstractmethod
+
+from lagcli.expression import FUNCTIONS
+from lagcli.reader.foreign.sums import Part, Sums, raised
+from lagcli.reader.foreign.tokens import SIGNS, Token
+from lagcli.reader.foreign.words import Unclear, function_named
+from lagcli.reader.habits import habits
+
+_RATES = frozenset("Derivative derivative D ddt dt Dt der deriv diff dot".split())
+_POWERS = frozenset("pow power Pow Power".split())
+_SQUARES = frozenset("square sqr sq".split())
+FOREIGN = _RATES | _POWERS | _SQUARES | {"norm", "hypot", "Subscript"}
+
+
+class Functions(Sums):
+    """What is called: sin^2 x, Sqrt[x], pow(x, 2), Derivative(x, t)."""
+
+    @abstractmethod
+    def named(self, word: str, primes: int = 0) -> Part:
+        """A name with its primes and arguments."""
+
+    def call(self, function: str) -> Part:
+        """A function with its power and its argument: sin^2 x."""
+        power = ""
+        token = self.peek()
+        if self.sign() == "^":
+            self.at += 1
+            power = self.exponent()
+        elif token is not None and token.kind == "raised":
+            self.at += 1
+            power = raised(token.text)[1:]
+        if power == "(-1)":
+            function, power = f"a{function}", ""
+            if function not in FUNCTIONS:
+                raise Unclear
+        part = self.applied(function) if self.sign() == "(" else self.without_brackets(function)
+        return Part(f"{part.text}^{power}", 2) if power else part
+
+    def applied(self, function: str) -> Part:
+        """A function with its arguments in brackets."""
+        if self.sign() != "(":
+            raise Unclear
+        arguments = self.arguments()
+        if function == "atan" and len(arguments) == 2:
+            function = "atan2"
+        return Part(f"{function}({', '.join(arguments)})", 3, is_call=True)
+
+    def without_brackets(self, function: str) -> Part:
+        """`sin 2 x` and `cos theta`: numbers, then one name with its power."""
+        text = ""
+        while (token := self.peek()) is not None and token.kind == "number":
+            text += self.power().text + "*"
+        token = self.peek()
+        if not self.is_name(token):
+            if not text:
+                raise Unclear
+            return Part(f"{function}({text[:-1]})", 3, is_call=True)
+        part = self.power()
+        if part.level < 3 or self.sign() in {"/", "^"} or (text and function == "sqrt"):
+            raise Unclear  # sin x^2, sin x/2
+        text += part.text
+        if part.text.rstrip("'") not in self.names.coordinates and self.is_name(self.peek()):
+            raise Unclear  # cos a x
+        return Part(f"{function}({text})", 3, is_call=True)
+
+    def is_name(self, token: Token | None) -> bool:
+        """Whether a token is a name and no function."""
+        if token is None or token.kind not in {"name", "macro"}:
+            return False
+        return not function_named(token.text.lstrip("\\"), self.names)
+
+    def arguments(self) -> list[str]:
+        """What stands in brackets, between commas."""
+        self.closed("(")
+        self.depth += 1
+        if self.sign() == ")":
+            self.at += 1
+            return []
+        within = self.sign() == "(" and self.ends_list()
+        self.at += within
+        found = [self.sum().text]
+        while self.sign() == ",":
+            self.at += 1
+            found.append(self.sum().text)
+        for _ in range(1 + within):
+            self.closed(")")
+        self.depth -= 1
+        return found
+
+    def ends_list(self) -> bool:
+        """Whether the arguments are one list, as in norm([x, y])."""
+        texts = [SIGNS.get(each.text, each.text) for each in self.tokens[self.at :]]
+        level = 0
+        for place, text in enumerate(texts):
+            level += {"(": 1, ")": -1}.get(text, 0)
+            if level == 0:
+                return texts[place + 1 : place + 2] == [")"] and "," in texts[:place]
+        return False
+
+    def foreign(self, word: str) -> Part:
+        """A function of other programs."""
+        arguments = self.arguments()
+        if not arguments:
+            raise Unclear
+        grouped = [each if re.fullmatch(r"[\w.]+'*", each) else f"({each})" for each in arguments]
+        if word in _RATES:
+            x = arguments[0]
+            if not re.fullmatch(r"\w+'*", x):
+                return self.partial(word, arguments)
+            if len(arguments) > 1 and arguments[1] != "t":
+                return self.partial(word, arguments)
+            rate = x + "'" * self.order(arguments[1:])
+            self.called_by_time()
+            return Part(rate, 3)
+        if word in {"norm", "hypot"}:
+            squares = " + ".join(f"{each}^2" for each in grouped)
+            return Part(f"sqrt({squares})", 3, is_call=True)
+        if word == "Subscript" and len(arguments) == 2:
+            return self.named("_".join(arguments))
+        if word in _SQUARES and len(arguments) == 1:
+            return Part(f"{grouped[0]}^2", 2)
+        if word in _POWERS and len(arguments) == 2:
+            return Part(f"{grouped[0]}^{grouped[1]}", 2)
+        form = habits()["written_out"].get(word, "")
+        if form.count("{}") != len(arguments):
+            raise Unclear
+        text = form.format(*(grouped if "{}*" in form or "/{}" in form else arguments))
+        return Part(text, 3 if form == "{}" and re.fullmatch(r"[\w.]+", text) else 1)
+
+    def partial(self, word: str, arguments: list[str]) -> Part:
+        """A derivative by a name other than t."""
+        if word not in {"diff", "D"} or len(arguments) != 2 or arguments[1] == "t":
+            raise Unclear
+        return Part(f"diff({arguments[0]}, {arguments[1]})", 3, is_call=True)
+
+    def order(self, arguments: list[str]) -> int:
+        """How often is differentiated: (), (t), (t, t), (t, 2)."""
+        if set(arguments) <= {"t"}:
+            return max(1, len(arguments))
+        if len(arguments) == 2 and arguments[0] == "t" and arguments[1].isdigit():
+            return int(arguments[1])
+        raise Unclear
+
+    def exponential(self) -> Part:
+        """`exp(-a*x)` for e^(-a x)."""
+        self.at += 1
+        power = self.exponent()
+        following = self.peek()
+        if following is not None and not following.apart and self.begins(following):
+            raise Unclear  # e^2x
+        return Part(f"exp({bare_text(power)})", 3, is_call=True)
+
+    def called_by_time(self) -> bool:
+        """Whether `(t)` stands here, which is passed."""
+        inside = self.peek(1)
+        if self.sign() != "(" or inside is None or inside.text != "t" or self.sign(2) != ")":
+            return False
+        self.at += 3
+        return True
+
+
+def bare(part: Part) -> str:
+    """Without the parentheses around it."""
+    return bare_text(part.text) if not part.is_call else part.text
+
+
+def bare_text(text: str) -> str:
+    """Without the parentheses around it."""
+    if not (text.startswith("(") and text.endswith(")")):
+        return text
+    depth = 0
+    for place, each in enumerate(text):
+        depth += {"(": 1, ")": -1}.get(each, 0)
+        if depth == 0 and place + 1 < len(text):
+            return text
+    return text[1:-1]
