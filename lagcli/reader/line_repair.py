@@ -146,13 +146,8 @@ def repaired_line(
             if number != first:
                 begin = len(line) - len(line.lstrip()) + 1
                 span = Span(number + 1, begin, number + 1, len(lines[number]) + 1)
-            if line.strip() == lines[number].strip() and line[:1] == " ":
-                before = next(each for each in reversed(lines[:number]) if each.strip())
-                if not before.rstrip().endswith(":"):
-                    key = before.strip().partition(":")[0]
-                    return replace(mistake, hint=f"begin the line where '{key}' begins")
-            if line == f"  {lines[number]}":
-                return replace(mistake, hint="begin the line with blanks")
+            if line.strip() == lines[number].strip():
+                return replace(mistake, hint=_indented(lines[:number], line))
             _, cut, key = line.partition("\n")
             hint = (
                 f"begin a new line with '{key.partition(':')[0]}:'"
@@ -161,6 +156,15 @@ def repaired_line(
             )
             return replace(mistake, span=span, hint=hint)
     return mistake
+
+
+def _indented(above: list[str], line: str) -> str:
+    """Where a line begins that was moved."""
+    begin = len(line) - len(line.lstrip())
+    before = next(each for each in reversed(above) if each.strip())
+    if len(before) - len(before.lstrip()) != begin:
+        return "begin the line with blanks"
+    return f"begin the line where '{before.strip().partition(':')[0]}' begins"
 
 
 def _tried(lines: list[str], first: int) -> Iterator[tuple[int, str]]:

@@ -57,7 +57,7 @@ def with_whole(
     for written in _written(node.value, scope, equation=read is not read_expression):
         try:
             whole = translated(written, _vocabulary(scope, role))
-            if read is read_equation and set("<>") & set(whole):
+            if read is read_equation and len(re.findall("[<>]", whole)) == 1:
                 gap = re.sub(r"([<>])(?!=)", r"\1=", whole)
                 hint = f"a one-sided contact stands under contacts, as in floor: {gap}"
                 return [replace(found[0], hint=hint)]

@@ -84,7 +84,10 @@ HABITS = [
     (text(constraints="[x = 1]"), "write name: x = 1"),
     (text(initial="x = 1"), "write x: 1"),
     (text(simulate="{until: 3}"), "the key is simulation"),
-    ("coordinates: [x]\nparameters: [m]\n T: m*x'^2/2\n", "indented like its neighbours"),
+    (
+        "coordinates: [x]\nparameters: [m]\n T: m*x'^2/2\n",
+        "begin the line where 'parameters' begins",
+    ),
     (text(V=None) + "  V: k*x^2/2\n", "begin the line where 'T' begins"),
     ("coordinates [x]\nT: x'^2/2\n", "write coordinates: [x]"),
     ("coordinates： [x]\nT: x'^2/2\n", "write coordinates: [x]"),
