@@ -2,6 +2,8 @@
 
 import pytest
 
+import lagcli
+
 from .running import column, simulated
 
 TOP = """
@@ -70,3 +72,20 @@ initial: {x: 0.6, y: -0.8, x': 0.8, y': 0.6}
         held = 9.81 * y - v * v - w * w  # along the rod: r r'' = -v^2
         assert a == pytest.approx(held * x, abs=1e-7)
         assert b == pytest.approx(held * y - 9.81, abs=1e-7)
+
+
+@pytest.mark.parametrize("accuracy", [1e-11, 1e-12])
+def test_rows_of_more_digits_are_at_the_times_that_are_written(accuracy):
+    """x'' = 5000 cos(5000 t) - x at multiples of 11/30, which are not doubles."""
+    from mpmath import mpf, sin, workdps
+
+    text = "{coordinates: [x], T: x'^2/2, V: x^2/2, forces: {x: 5000*cos(5000*t)}, initial: {x: 0}}"
+    shown = ["x'", "5000*t"]
+    result = lagcli.simulate(lagcli.loads(text), 1.1, accuracy=accuracy, samples=4, show=shown)
+    assert result.method in {"taylor80", "taylor128"}
+    with workdps(40):
+        for k, row in enumerate(result.rows):
+            t, w = mpf(11) * k / 30, mpf(5000)
+            exact = w / (1 - w**2) * (sin(t) - w * sin(w * t))
+            assert row[1] == pytest.approx(float(exact), abs=1e-14)
+            assert row[2] == float(w * t)

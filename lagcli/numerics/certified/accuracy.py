@@ -51,13 +51,15 @@ _SHARE = 100.0  # the first tolerance is A / 100
 _PROBES = 1000
 #: A defect that a step would turn into an error of this multiple of A is a feature stepped over.
 _DEFECT = 3.0
-#: So many differences of two runs bound the error; where the finer one meets rounding, the two
-#: differ by chance.  Against 34 digits the error was then up to 9 differences in 390 pairs of
-#: nine problems with series in machine code, and up to 5 (once in 4300 columns of eleven
-#: problems) with dop853; implicit and symplectic methods meet rounding at the finest tolerance
-#: only, with up to 4.
+#: So many differences of two runs bound the error: this is measured, not derived.  Where the finer
+#: one meets rounding, the two differ by chance.  Against 34 digits the error was then up to 9
+#: differences in 390 pairs of nine problems with series in machine code, and up to 5 (once in 4300
+#: columns of eleven problems) with dop853; implicit and symplectic methods meet rounding at the
+#: finest tolerance only, with up to 4.
 #: Where steps were shortened for what is narrow the error was up to 43 (once in 1300 runs) and 213
 #: (once in 200) differences: a third run, of a tolerance _THIRD of the coarse one's, is compared.
+#: On 50 motions that were new to these numbers, at four accuracies, and on 150 grazes, barriers,
+#: kinks and near collisions no error was above 0.45 of its bound.
 USUAL, CHANCE, NARROW, _THIRD = 2.0, 20.0, 60.0, 3.0
 _CHARGES = 10.0
 LONGEST = (200.0, 2000.0, 20000.0)  # parts of the span

@@ -8,7 +8,7 @@ from typing import Any
 
 from lagcli.numerics.certified.accuracy import USUAL, Outcome
 from lagcli.numerics.certified.drift import changes
-from lagcli.numerics.certified.exact_columns import with_digits
+from lagcli.numerics.certified.exact_columns import at_written_times, with_digits
 from lagcli.numerics.certified.methods import METHODS
 from lagcli.numerics.certified.scales import relative
 from lagcli.numerics.equations.motion import Motion
@@ -33,6 +33,7 @@ def result_of(simulation: Setup, motion: Motion, outcome: Outcome) -> Result:
     """The table with its certificate."""
     asked, run = simulation.asked, outcome.run
     outcome = replace(outcome, rows=with_digits(simulation, outcome))
+    outcome = replace(outcome, rows=at_written_times(simulation, outcome))
     names = tuple(column.name for column in asked.columns)
     kept = len(outcome.rows) if outcome.reached else outcome.good_rows
     rows: list[tuple[float | None, ...]] = []

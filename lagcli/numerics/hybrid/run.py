@@ -246,7 +246,7 @@ class Run:
         if condition.kind not in {"gap", "loss"} or not late:
             return self.transitions.after(mode, found, q, v), (q, v)
         resolves = not mode.motion.arithmetic.ordered
-        before = _shifted(mode, t, q, v, -late)
+        before = moved_state(mode, t, q, v, -late)
         if resolves:  # the time, as doubles do not
             found = replace(found, t=Fraction(t) - Fraction(late))
         following = self.transitions.after(mode, found, *before)
@@ -255,7 +255,7 @@ class Run:
         if following.mode is None:
             return replace(following, q=q, v=v), (q, v)
         after = following.q, following.v
-        moved = _shifted(following.mode, t, *after, late)
+        moved = moved_state(following.mode, t, *after, late)
         following = replace(following, q=moved[0], v=moved[1])
         if resolves:
             return replace(following, right_after=after), before
@@ -263,7 +263,7 @@ class Run:
 
     def _lateness(self, mode: Mode, condition: Condition, t: float, q: Vector, v: Vector) -> float:
         def at(time: float) -> float:
-            return float(condition.margin(t + time, *_shifted(mode, t, q, v, time)))
+            return float(condition.margin(t + time, *moved_state(mode, t, q, v, time)))
 
         h = _RATE_OVER * self._times[-1]
         try:
@@ -378,7 +378,7 @@ class Run:
             self.defect = max(self.defect, step.h * abs(float(a - b)) / max(least, scale))
 
 
-def _shifted(mode: Mode, t: float, q: Vector, v: Vector, time: float) -> tuple[Vector, Vector]:
+def moved_state(mode: Mode, t: float, q: Vector, v: Vector, time: Any) -> tuple[Vector, Vector]:
     """The state a time later that is nothing beside the motion's own."""
     rates = mode.motion.accelerations(t, *q, *v)
     half = time / 2

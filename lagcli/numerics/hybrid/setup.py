@@ -13,6 +13,7 @@ from lagcli.numerics.equations.columns import Reading
 from lagcli.numerics.equations.contact import one_sided, with_contacts
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal
+from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.numerics.hybrid.request import Asked, Progress
 from lagcli.numerics.hybrid.result import Cut
 from lagcli.problem_data import Problem, charge_of
@@ -138,6 +139,16 @@ class Setup:
     def rows_at(self) -> list[float]:
         """The times of the rows asked for."""
         return self._times()[:: self.every]
+
+    def written_times(self, arithmetic: Any) -> list[Any]:
+        """The times of the rows asked for in balls: 0.1 and pi/3 are not doubles."""
+        asked, ball = self.asked, arithmetic.ball
+        if asked.times:
+            return [ball(t) for t in asked.times]
+        end, count = ball(asked.until), asked.samples - 1
+        if asked.end is not None:
+            [end] = straight_line((), [self.equations.form.read(asked.end)], {}, arithmetic)()
+        return [end * k / count for k in range(count + 1)]
 
     def look_between(self, good: float, bad: float) -> None:
         """Rows as they were up to a time, then many up to another."""

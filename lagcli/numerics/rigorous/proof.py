@@ -26,6 +26,8 @@ _BITS, _MOST_BITS, _ORDER = 64, 640, 0.43
 #: The remainder of a step lies _REMAINDER bits below those kept, and constants, states and the
 #: coefficients that weigh have _GUARD more: the pendulum's radius at t = 20 is 0.0008 units of the
 #: last bit kept.  With all in 12 bits more and a remainder 10 below it is 3, and a third slower.
+#: Of the 88 bits of the state these are 5,153 units (13,890 of the velocity); one rounding of the
+#: state to as many bits in each of the 141 steps, as the flow carries it on, makes 130 (457) alone.
 _GUARD, _REMAINDER = 24, 20
 #: Nodes of f and J that are evaluated to order 28, all attempts together: some 10 minutes.
 _WORK = 2e6

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
-from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.rigorous.enclosure import NotEnclosed
 from lagcli.numerics.rigorous.modes import ProofMode
@@ -40,7 +39,8 @@ class Rows:
         self.arithmetic, self.ball = arithmetic, arithmetic.ball
         self.found: list[Enclosure] = []
         self.events: list[ProvedEvent] = []
-        self.times = self._times()
+        #: as exactly as they are written
+        self.times = setup.written_times(arithmetic)
 
     @property
     def complete(self) -> bool:
@@ -84,18 +84,6 @@ class Rows:
             if t > until or (event is not None and not t < until):
                 return
             self.take(mode, t, piece.at(t))
-
-    def _times(self) -> list[Any]:
-        """The rows, both ends included, as exactly as they are written."""
-        asked = self.asked
-        if asked.times:
-            return [self.ball(t) for t in asked.times]
-        count = asked.samples - 1
-        end = self.ball(asked.until)
-        if asked.end is not None:
-            read = self.setup.equations.form.read
-            [end] = straight_line((), [read(asked.end)], {}, self.arithmetic)()
-        return [end * k / count for k in range(count + 1)]
 
     def take(self, mode: ProofMode, t: Any, x: Sequence[Any]) -> None:
         """One row."""
