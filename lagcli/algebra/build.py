@@ -163,11 +163,29 @@ class Builder:
         return _SYMPY_FUNCTIONS[function](*arguments)
 
 
+#: What SymPy's derivatives of |u| and sign(u) hold where it does not know u to be real.
+UNREAL = (sympy.Derivative, sympy.re, sympy.im, sympy.conjugate)
+
+
 def without_jumps(expression: Expr) -> Expr:
-    """Beside the places where a sign changes: its derivative is 0 there."""
-    if not expression.has(sympy.DiracDelta):
+    """A derivative by SymPy beside the places where a sign changes: that of the sign is 0 there.
+
+    All is real, though SymPy does not know it of x/y, x^n and log(cos(x)^2).
+    """
+    if not expression.has(sympy.DiracDelta, *UNREAL):
         return expression
-    return expression.replace(sympy.DiracDelta, lambda *_: sympy.S.Zero)
+    real = expression.replace(sympy.im, lambda _: sympy.S.Zero)
+    for function in (sympy.re, sympy.conjugate):
+        real = real.replace(function, lambda u: u)
+    real = real.replace(_is_jump, lambda _: sympy.S.Zero)
+    return real.doit() if real.has(sympy.Derivative) else real
+
+
+def _is_jump(node: Expr) -> bool:
+    """Whether it is the derivative of a sign; SymPy leaves that of sign(x/y) as it is."""
+    if isinstance(node, sympy.Derivative):
+        return isinstance(node.expr, sympy.sign)
+    return isinstance(node, sympy.DiracDelta)
 
 
 def free_of(expression: Expr, symbols: Iterable[Symbol]) -> bool:

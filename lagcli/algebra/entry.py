@@ -8,7 +8,7 @@ from fractions import Fraction
 import sympy
 from sympy import Add, Expr, Mul, Pow, Rational, Symbol
 
-from lagcli.algebra.build import CIRCULAR
+from lagcli.algebra.build import CIRCULAR, UNREAL, without_jumps
 from lagcli.algebra.field import Element, FractionField, Generator
 from lagcli.algebra.integral import DefiniteIntegral
 from lagcli.algebra.multiples import Multiples
@@ -92,6 +92,8 @@ class Field(FractionField):
             return self._power(node.base, node.exp)
         if node is sympy.E:
             return self.exponential.power(sympy.S.One)
+        if isinstance(node, UNREAL):
+            return self(without_jumps(node))
         if node.is_Function and all(isinstance(a, Expr) for a in node.args):
             return self._function(node)
         if node in (sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):

@@ -20,6 +20,7 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 from sympy.core.function import AppliedUndef
 
+from lagcli.algebra.build import UNREAL, without_jumps
 from lagcli.algebra.integral import DefiniteIntegral
 from lagcli.expression import FUNCTIONS
 
@@ -27,7 +28,6 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{name: getattr(mpmath, name) for name in FUNCTIONS if hasattr(mpmath, name)},
     "coth": mpmath.coth,
     "Abs": mpmath.fabs,
-    "DiracDelta": lambda *_: mpf(0),  # in the derivative of a sign, which is 0 where it is one
 }
 
 
@@ -169,6 +169,8 @@ class Evaluator:
             return (lambda v: concrete(v, indices)), node.args
         if isinstance(node, DefiniteIntegral):
             return self._quadrature(node)
+        if isinstance(node, (sympy.DiracDelta, *UNREAL)):
+            return (lambda v: v[0]), (without_jumps(node),)
         name = type(node).__name__
         function = _FUNCTIONS.get(name)
         if function is None:

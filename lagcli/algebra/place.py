@@ -8,7 +8,7 @@ from contextlib import suppress
 import sympy
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra.build import CIRCULAR
+from lagcli.algebra.build import CIRCULAR, without_jumps
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import rounded
 from lagcli.algebra.numeric import vanishes_at_random
@@ -23,6 +23,7 @@ def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
     present = {s: v for s, v in values.items() if s in expression.free_symbols}
     if not present:
         return expression
+    expression = without_jumps(expression)
     if not expression.has(*CIRCULAR):
         # one fraction of sums of roots would be long, and is needed where parts are infinite only
         there = expression.xreplace(present)

@@ -24,9 +24,10 @@ import sympy
 from mpmath import mpf
 from sympy import Expr, Pow, Symbol
 
-from lagcli.algebra import rank, simplify, solve_linear
+from lagcli.algebra import is_zero, rank, simplify, solve_linear
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
+from lagcli.algebra.jumps import is_continuous
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.states import DIGITS, Contradiction, State
@@ -118,7 +119,8 @@ class Inversion:
             if inverse.auxiliary is not None:
                 expression = inverse.auxiliary.put_into(expression)
                 roots[inverse.auxiliary.symbol] = inverse.auxiliary.root
-        return simplify(simplify(_undone(expression.xreplace(flow))).xreplace(roots))
+        undone = _undone(expression.xreplace(flow), self.images)
+        return simplify(simplify(undone).xreplace(roots))
 
     def inverse_of(self, block: Block) -> Inverse | None:
         """The variables of a block by their images and the other variables."""
@@ -157,6 +159,11 @@ class Inversion:
     def _inverses(self, block: Block) -> Iterator[Inverse]:
         momenta = [self.gradient[j] for j in block]
         variables = [self.variables[j] for j in block]
+        if bent := {u for p in momenta for u in _bends(p) if not free_of(u, variables)}:
+            if len(block) == len(bent) == 1:
+                inverses = _odd_inverses(momenta[0], variables[0], self.images[block[0]], *bent)
+                yield from (Inverse((v,)) for v in inverses)
+            return
         linear = self._linear(block, momenta)
         if linear is not None:
             yield Inverse(linear)
@@ -319,9 +326,10 @@ def _positive_roots(closure: Expr, s: Symbol) -> list[Expr]:
     return list(sympy.roots(polynomial)) if polynomial.degree() <= 4 else []
 
 
-def _undone(expression: Expr) -> Expr:
-    """With asinh(sinh(x)) = x."""
-    return expression.replace(
+def _undone(expression: Expr, images: Sequence[Symbol]) -> Expr:
+    """With asinh(sinh(x)) = x, and sign(p)^2 = 1, which is met where p may be 0 in |p| alone."""
+    ones = {f(sympy.sign(p)): sympy.S.One for p in images for f in (sympy.Abs, lambda s: s**2)}
+    return expression.xreplace(ones).replace(
         lambda node: isinstance(node, sympy.asinh) and isinstance(node.args[0], sympy.sinh),
         lambda node: node.args[0].args[0],
     )
@@ -344,6 +352,25 @@ def _real_inverses(momentum: Expr, v: Symbol, p: Symbol) -> list[Expr]:
         if known is not None:
             return list(known.values)
     try:
-        return [root for root in sympy.solve(momentum - p, v) if isinstance(root, Expr)]
+        roots = sympy.solve(momentum - p, v)
     except (NotImplementedError, ValueError):
         return []
+    return [x for x in roots if isinstance(x, Expr) and not x.has(sympy.Piecewise)]
+
+
+def _bends(formula: Expr) -> set[Expr]:
+    """Where it has kinks or jumps."""
+    return {f.args[0] for f in formula.atoms(sympy.Abs, sympy.sign)}
+
+
+def _odd_inverses(momentum: Expr, v: Symbol, p: Symbol, u: Expr) -> list[Expr]:
+    """The same of a continuous odd function of u = a v + b: v = (sign(p) u(|p|) - b)/a."""
+    slope, size = u.diff(v), sympy.Dummy("size", positive=True)
+    if not free_of(slope, [v]) or not is_continuous(momentum):
+        return []
+    start = u.xreplace({v: sympy.S.Zero})
+    forwards, backwards = (momentum.xreplace({v: (s * size - start) / slope}) for s in (1, -1))
+    if is_zero(forwards + backwards) is not True:
+        return []
+    roots = _real_inverses(simplify(forwards), size, p)
+    return [(sympy.sign(p) * x.xreplace({p: sympy.Abs(p)}) - start) / slope for x in roots]

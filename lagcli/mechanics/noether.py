@@ -112,11 +112,13 @@ class Noether:
 
     @cached_property
     def cyclic(self) -> tuple[int, ...]:
-        """Coordinates that do not occur in L."""
+        """Coordinates that do not occur in L, nor make it jump."""
+        L = self.system.L
+        jumps = simplify(L).atoms(sympy.sign) if L.has(sympy.sign) else ()
         return tuple(
             j
             for j, force in enumerate(self.dynamics.lagrange.lagrangian_forces)
-            if is_zero(force) is True
+            if is_zero(force) is True and all(free_of(u, [self.system.q[j]]) for u in jumps)
         )
 
     # -- candidates ---------------------------------------------------------------------

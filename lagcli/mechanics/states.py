@@ -28,6 +28,7 @@ _GUARD = 15  # digits beyond those that are claimed
 _TOLERANCE = mpf(10) ** -(DIGITS + 5)
 _ATTEMPTS = 40
 _NEWTON_STEPS = 60
+_HALVINGS = 8
 _AS_DRAWN = 20  # attempts with the parameters as they were drawn
 _SURFACES = 8  # at most
 _NEAR = 3  # states drawn near 0, before those that come from afar
@@ -191,7 +192,7 @@ class RandomStates:
     def _project(self, state: State) -> int | None:
         """Move the state onto the constraints; the index of one that fails, or None."""
         try:
-            failed = self._newton(state, self.system.q, self._f_rows) if self._positions else None
+            failed = self._project_positions(state)
             return failed if failed is not None else self._project_velocities(state)
         except (ArithmeticError, ValueError):
             return 0 if self.constraints.equations else -1
@@ -221,8 +222,28 @@ class RandomStates:
     def _independent(self, flat: Sequence[mpf], width: int) -> tuple[int, ...]:
         return independent_rows(rows_of(flat, width), mpf(10) ** -25).independent
 
-    def _newton(self, state: State, unknowns: Sequence[Symbol], gradients: Evaluator) -> int | None:
-        """Newton steps of least norm in the unknowns; the index of a constraint that fails."""
+    def _project_positions(self, state: State) -> int | None:
+        if not self._positions:
+            return None
+        start = dict(state)
+        failed = self._newton(state, self.system.q, self._f_rows)
+        if failed is not None:  # 1/x = 50 and ln x = 5 from x = 1
+            state.update(start)
+            failed = self._newton(state, self.system.q, self._f_rows, damped=True)
+        return failed
+
+    def _newton(
+        self,
+        state: State,
+        unknowns: Sequence[Symbol],
+        gradients: Evaluator,
+        *,
+        damped: bool = False,
+    ) -> int | None:
+        """Newton steps of least norm in the unknowns; the index of a constraint that fails.
+
+        Those that are `damped` are halved until no constraint is further off than before.
+        """
         n = len(unknowns)
         for _ in range(_NEWTON_STEPS):
             values = self._f(state)
@@ -240,16 +261,27 @@ class RandomStates:
                 return self._index(0)
             step = least_norm_solution([rows[i] for i in kept], [-values[i] for i in kept])
             longest = max(map(abs, step))
-            shrink = min(mpf(1), mpf(2) / longest) if longest else mpf(1)
-            for q, delta in zip(unknowns, step, strict=True):
-                moved = state[q] + shrink * delta
-                # a coordinate that has a sign keeps it: half-way to zero instead
-                state[q] = moved if _has_assumed_sign(q, moved) else state[q] / 2
+            room = 2 + damped * max(abs(state[q]) for q in unknowns)
+            shrink = min(mpf(1), room / longest) if longest else mpf(1)
+            for _ in range(_HALVINGS if damped else 1):
+                there = _moved(state, unknowns, [shrink * delta for delta in step])
+                if not damped or self._is_nearer({**state, **there}, values):
+                    break
+                shrink /= 2
+            state.update(there)
             if longest < _TOLERANCE and elimination.dependent:
                 wrong = [i for i in elimination.dependent if abs(values[i]) > mpf(10) ** -20]
                 if wrong:
                     return self._index(wrong[0])
         return self._index(max(range(len(values)), key=lambda i: abs(values[i])))
+
+    def _is_nearer(self, state: State, before: Sequence[mpf]) -> bool:
+        """Whether the constraints are less far from 0 than they were."""
+        try:
+            values = self._f(state)
+        except (ArithmeticError, ValueError):
+            return False
+        return all(map(is_real, values)) and max(map(abs, values)) <= max(map(abs, before))
 
     def _admissible(self, state: State) -> bool:
         """Whether the coordinates kept the signs that the file assumes."""
@@ -299,6 +331,12 @@ def random_value(source: random.Random, symbol: Symbol, low: float, high: float)
     if symbol.is_nonnegative:
         return magnitude
     return magnitude if source.random() < 0.7 else -magnitude
+
+
+def _moved(state: State, unknowns: Sequence[Symbol], step: Sequence[mpf]) -> State:
+    """A step on; a coordinate that has a sign keeps it: half-way to zero instead."""
+    pairs = ((q, state[q] + delta) for q, delta in zip(unknowns, step, strict=True))
+    return {q: x if _has_assumed_sign(q, x) else state[q] / 2 for q, x in pairs}
 
 
 def _has_assumed_sign(symbol: Symbol, value: mpf) -> bool:

@@ -12,6 +12,8 @@ from lagcli.verification.program import Key
 from lagcli.verification.reference import Reference
 from lagcli.verification.sweeps import column
 
+_HALVINGS = 8
+
 
 def settled(
     reference: Reference,
@@ -22,6 +24,7 @@ def settled(
     steps: int,
     near: float,
     far: float = inf,
+    damped: bool = False,
 ) -> bool:
     """Move some quantities until formulas are 0; whether that came to an end.
 
@@ -37,6 +40,8 @@ def settled(
         Below it a formula is 0.
     far
         The longest step that is taken for one; where it is finite, none is longer than 1.
+    damped
+        Whether steps are halved until no formula is further from 0 than before.
     """
     symbols = [reference.program.symbol(*key) for key in keys]
     for _ in range(steps if places else 0):
@@ -54,7 +59,14 @@ def settled(
         longest = max(map(size, step))
         if not longest < far:
             return False
-        shorter = arb(1 / longest) if far < inf and longest > 1 else arb(1)
-        for key, d in zip(keys, step, strict=True):
-            environment[key] = (environment[key] + d * shorter).mid()
+        room = 1 + damped * max(size(environment[key]) for key in keys)
+        shorter = arb(room / longest) if far < inf and longest > room else arb(1)
+        for _ in range(_HALVINGS):
+            pairs = zip(keys, step, strict=True)
+            there = environment | {key: (environment[key] + d * shorter).mid() for key, d in pairs}
+            at = reference.values(there) if damped else at
+            if not damped or max(size(at(place)) for place in places) <= max(map(size, residual)):
+                break
+            shorter /= 2
+        environment.update(there)
     return not places

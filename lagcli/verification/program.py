@@ -14,7 +14,7 @@ from fractions import Fraction
 from typing import Literal, NamedTuple
 
 from lagcli import expression as tree
-from lagcli.expression import Expression
+from lagcli.expression import FUNCTIONS, Expression
 from lagcli.verification import integrals
 
 Kind = Literal["number", "symbol", "sum", "product", "power", "call", "unspecified", "integral"]
@@ -140,6 +140,8 @@ class VerificationProgram:
                 parts = tuple(map(self.of, arguments))
                 if function in self.functions:
                     return self.step("unspecified", (function, (0,) * primes), parts)
+                if function not in FUNCTIONS:
+                    raise KeyError(function)
                 return self.call(function, *parts)
             case tree.PartialCall(function=function, indices=indices, arguments=arguments):
                 by = tuple(sorted(index - 1 for index in indices))

@@ -227,9 +227,21 @@ def _onto_constraints(reference: Reference, environment: Environment) -> bool:
     near = 2.0 ** (24 - ctx.prec)
     for primes, places, far in ((0, positions, 1e9), (1, velocities, inf)):
         keys = [(name, primes) for name in reference.names]
-        if not settled(
-            reference, environment, places, keys, steps=_NEWTON_STEPS, near=near, far=far
-        ):
+        start = dict(environment)
+        for damped in (False, True):  # 1/x = 50 and ln x = 5 need short steps
+            environment |= start
+            if settled(
+                reference,
+                environment,
+                places,
+                keys,
+                steps=_NEWTON_STEPS,
+                near=near,
+                far=far,
+                damped=damped,
+            ):
+                break
+        else:
             return False
     return all(_allowed(c, environment[c.name, 0]) for c in reference.problem.coordinates)
 

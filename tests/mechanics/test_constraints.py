@@ -6,6 +6,7 @@ import pytest
 import sympy
 
 from lagcli.diagnostics import ProblemError
+from tests.solved import solve
 
 from .derived import derive, same
 
@@ -99,6 +100,24 @@ def test_of_three_multipliers_the_one_that_is_unique_is_given():
     wall, other, floor = d.dynamics.motion.multipliers
     assert (wall, other) == (None, None)
     assert same(d, floor, "m*g")
+
+
+@pytest.mark.parametrize(
+    "constraint",
+    [
+        "1/(2*x) = 9", "1/x = 50", "1/x + y = 50", "log(x) = 5", "log(x) + log(y) = 9",
+        "tan(x) = 300", "4*cosh(b) = 1/(2*x)",
+    ],
+)  # fmt: skip
+def test_a_constraint_on_which_full_newton_steps_diverge_is_satisfied(constraint: str):
+    """Residual halving (damped Newton) arrives; a pole lies between the start and the surface."""
+    text = (
+        "coordinates: [x, y]\nparameters: {b: {assume: positive}}\nT: (x'^2 + y'^2)/2\n"
+        f"constraints: {{c: {constraint}}}"
+    )
+    d = derive(text)
+    assert d.dynamics.independent_constraints == (0,)
+    assert not solve(d.problem, ["accelerations", "multipliers"]).warnings
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,9 @@ from __future__ import annotations
 import pytest
 import sympy as sp
 
+from lagcli.algebra import is_zero
+from lagcli.reader import parse_text
+
 from .derived import derive, same
 
 CASES = {
@@ -149,3 +152,38 @@ L: x'^{power}/{power} - a*x'^2/2 - k*x^2/2
 def test_a_lagrangian_that_does_not_fold_is_only_not_solved():
     found = derive("{coordinates: [x], L: x'^8/8 + x'^4/4 + x'^2/2 + x'^3/30}").hamiltonian
     assert "several branches" not in found.reason
+
+
+@pytest.mark.parametrize(
+    ("lagrangian", "velocity", "hamiltonian"),
+    [
+        ("m*abs(a*x')^3/3 - a*x", "s*sqrt(n/(m*a^3))", "2*n^(3/2)/(3*a*sqrt(a*m)) + a*x"),
+        ("m*x'^3*sign(x')/3", "s*sqrt(n/m)", "2*n^(3/2)/(3*sqrt(m))"),
+        ("m*abs(x')^(3/2)", "4*s*n^2/(9*m^2)", "4*n^3/(27*m^2)"),
+        ("m*abs(x' + 1)^3/3", "s*sqrt(n/m) - 1", "2*n^(3/2)/(3*sqrt(m)) - s*n"),
+    ],
+)
+def test_an_odd_momentum_is_inverted_on_both_sides(lagrangian, velocity, hamiltonian):
+    """With n = |p| and s = sign(p): p = m u |u| has u = s sqrt(n/m); not one side for both."""
+    d = derive(
+        "coordinates: [x]\nparameters: {m: {assume: positive}, a: {assume: positive}}\n"
+        f'L: "{lagrangian}"'
+    )
+    [p] = d.system.momenta
+    build = d.system.build.knowing({"n": sp.Abs(p), "s": sp.sign(p)})
+    assert d.hamiltonian.canonical_equations is not None
+    for text, found in (
+        (velocity, d.hamiltonian.canonical_equations[0][0]),
+        (hamiltonian, d.hamiltonian.function),
+    ):
+        assert is_zero(found - build(parse_text(text))) is True
+
+
+@pytest.mark.parametrize("kinked", ["a*abs(x')", "a*abs(x' - 1)", "a*abs(x')*x' - a*abs(x' + 2)"])
+def test_a_momentum_that_jumps_is_not_inverted(kinked):
+    """Values of p between the sides belong to one velocity; no single formula is p's inverse."""
+    d = derive(
+        "coordinates: [x]\nparameters: {m: {assume: positive}, a: {assume: positive}}\n"
+        f'L: "m*x\'^2/2 + {kinked}"'
+    )
+    assert d.hamiltonian.canonical_equations is None

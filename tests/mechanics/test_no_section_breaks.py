@@ -76,6 +76,18 @@ def test_signs_and_absolute_values_in_the_potential_break_no_section(seed: int) 
     assert_sound(answers(f"{HEAD}V: {potential(source)}\n", QUICK))
 
 
+@pytest.mark.parametrize(
+    "argument", ["x/(2 + sin(y))", "log(cos(x)^2)", "x^c", "asin(sin(x))", "atanh(tanh(x)/2)"]
+)
+def test_what_sympy_does_not_know_to_be_real_breaks_no_section(argument: str) -> None:
+    """d|u|/dx is sign(u) du/dx; SymPy leaves re(u), or the derivative of the sign."""
+    text = f"{HEAD}V: k*abs({argument}) + ({argument})*sign({argument})\n"
+    found = answers(text, ["equations", "accelerations", "energy", "charges", "reduction"])
+    assert_sound(found)
+    assert not any(f in render([found], "json", Options()) for f in ("re(", "im("))
+    assert found.sections["accelerations"].accelerations  # type: ignore[attr-defined]
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(3))
 def test_signs_and_absolute_values_in_constraints_break_no_section(seed: int) -> None:
@@ -87,8 +99,12 @@ def test_signs_and_absolute_values_in_constraints_break_no_section(seed: int) ->
 
 @pytest.mark.long
 @pytest.mark.parametrize(
-    ("given", "held"), [("k*abs(x)", 1), ("k*x^2*sign(x)", 1), ("k*sign(x)", 0), ("k*y", 2)]
-)
+    ("given", "held"),
+    [
+        ("k*abs(x)", 1), ("k*x^2*sign(x)", 1), ("k*sign(x)", 0), ("k*y", 2),
+        ("k*y^2*sign(y/x)", 0), ("k*y*x^2*sign(x/y)", 1), ("k*x*sign(x/(2 + sin(y)))", 1),
+    ],
+)  # fmt: skip
 def test_what_jumps_on_the_motion_is_not_called_conserved(given: str, held: int) -> None:
     """m x' + k t sign(x) is constant only until x = 0 is crossed; nothing is, past a step."""
     text = f"{HEAD}V: {given}\nsymmetries: {{s: {{x: 1}}}}\n"
@@ -98,6 +114,17 @@ def test_what_jumps_on_the_motion_is_not_called_conserved(given: str, held: int)
     assert len(conserved) >= held
     assert not [c.name for c in conserved if jumps(c.charge)]
     assert held or not conserved
+
+
+@pytest.mark.parametrize("side", ["sign(y)", "sign(x/y)", "sign(y/(2 + sin(x)))", "sign(y)^2"])
+@pytest.mark.parametrize("given", ["k*x^2*", "k*"])
+def test_a_coordinate_that_makes_l_jump_is_not_cyclic(given: str, side: str) -> None:
+    """dL/dy is 0 beside the jump; the Routhian would still hold y."""
+    sections = ["charges", "energy", "equilibria", "reduction", "steady_motions"]
+    found = answers(f"{HEAD}V: {given}{side}\n", sections)
+    assert_sound(found)
+    assert not any("bug of lagcli" in warning for warning in found.warnings)
+    assert "y" not in found.sections["reduction"].momenta  # type: ignore[attr-defined]
 
 
 def jumps(charge: Expression) -> bool:

@@ -114,8 +114,9 @@ class Atoms:
             if generator.kind == "opaque" and isinstance(tree, Call | PartialCall):
                 given = written_arguments(generator.expression)
                 tree = self._with_short_arguments(tree, given)
-            if generator.kind in _SHORTENED and isinstance(tree, Call):
-                own = generator.argument  # SymPy writes exp(1) as a number without arguments
+            own = generator.argument  # SymPy writes exp(1) as a number, |sqrt(x)| as a power
+            named = own is not None or generator.expression.is_Function
+            if generator.kind in _SHORTENED and isinstance(tree, Call) and named:
                 given = (own,) if own is not None else written_arguments(generator.expression)
                 return ((self._shortened(tree, given, generator.expression), 1),)
             return ((self.add(tree, generator.expression), 1),)
