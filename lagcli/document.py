@@ -115,11 +115,11 @@ def equations_of(
 
 def vanishing(values: Iterable[Expression]) -> Equations:
     """A display of 0 = each value, without a minus before all of it."""
-    found = list(map(terms_of, values))
-    return equations_of(
-        (ZERO, sum_of(map(opposite, t) if all(isinstance(x, Negative) for x in t) else t))
-        for t in found
+    found = (
+        sum_of(map(opposite, t) if all(isinstance(x, Negative) for x in t) else t)
+        for t in map(terms_of, values)
     )
+    return equations_of((ZERO, value) for value in dict.fromkeys(found))
 
 
 @record

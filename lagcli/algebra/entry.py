@@ -22,6 +22,13 @@ _MAX_EXPONENT = 200
 class Field(FractionField):
     """The field over Q that holds the expressions put into it.
 
+    Parameters
+    ----------
+    expressions
+        What is to be put in, as far as it is known.
+    alone
+        Whether it is all: θ₁ − θ₂ is one angle where neither occurs otherwise.
+
     Its generators are made on demand: symbols; sin and cos (sinh and cosh) of base
     arguments with their quadratic relation; exponentials and symbolic powers; roots;
     absolute values; anything else is opaque, told apart by its normalized arguments.
@@ -34,8 +41,9 @@ class Field(FractionField):
     True
     """
 
-    def __init__(self, expressions: Iterable[Expr] = ()) -> None:
+    def __init__(self, expressions: Iterable[Expr] = (), *, alone: bool = False) -> None:
         expressions = list(expressions)
+        self.alone = alone
         symbols = {s for e in expressions for s in e.free_symbols}
         super().__init__(capacity=len(symbols) + 4)
         self._numbers: dict[Expr, int] = {}  # expression of a generator -> its number

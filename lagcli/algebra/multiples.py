@@ -79,10 +79,12 @@ class Multiples:
     def _together(self) -> list[tuple[Expr, dict[Expr, Fraction]]]:
         """Sums of base arguments that stand in one ratio wherever they were prepared: a r - a b.
 
-        Not of angles, whose single ones may be wanted yet.  With -x where exp(-x) was prepared.
+        Of angles where no single ones will be wanted.  With -x where exp(-x) was prepared.
         """
         groups: dict[tuple[Fraction, ...], dict[Expr, Fraction]] = {}
-        for base in self._unit if self.kind != "circular" else ():
+        for base in self._unit if self.kind != "circular" or self.field.alone else ():
+            if base is sympy.pi and self.kind == "circular":
+                continue
             column = [each.get(base, Fraction(0)) for each in self._prepared]
             first = next((value for value in column if value), Fraction(1))
             groups.setdefault(tuple(value / first for value in column), {})[base] = first
@@ -99,7 +101,7 @@ class Multiples:
 
     def _is_turned(self, leader: Expr, whole: Expr) -> bool:
         """Whether the generator is of -whole: exp(-x) of what decays, cosh as SymPy has it."""
-        if self.kind == "hyperbolic":
+        if self.kind in ("hyperbolic", "circular"):
             return bool(whole.could_extract_minus_sign())
         return sum(each.get(leader, Fraction(0)) for each in self._prepared) < 0
 

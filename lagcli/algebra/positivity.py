@@ -50,6 +50,13 @@ def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
     return direction * sympy.Mul(*odd, *roots, *(x**2 for x in others))
 
 
+def vanishing_part(expression: Expr) -> Expr:
+    """What is 0 just where the expression is: sin θ of m g l sin θ, without factors of one sign."""
+    whole = simplify(expression)
+    open_ = [factor for factor in sympy.Mul.make_args(whole) if not sign(factor)]
+    return sympy.Mul(*open_) if open_ else whole
+
+
 def _exceeds_a_square(radicand: Expr, nonzero: Sequence[Expr]) -> bool:
     """Whether it is at least c x² with c > 0 and x not 0: g² + a² + 2 g a sin b ≥ a² cos² b."""
     terms = sympy.Add.make_args(sympy.expand(radicand))

@@ -74,7 +74,7 @@ def shaped(
     if relations:
         expression = relations.substitute(expression)
     writer = Writer(order)
-    field = Field([expression])
+    field = Field([expression], alone=not relations)
     try:
         element = field(expression)
     except ZeroDivisionError:

@@ -32,6 +32,7 @@ from lagcli.expression import (
     operation_count,
     walk,
 )
+from lagcli.notation.ordering import is_letter
 from lagcli.record import record
 
 #: A bracket is worth it from this share of the operations of the terms one by one.
@@ -67,7 +68,7 @@ def terms(
         Prefer the expression as it stands where that is no longer.
     """
     writer = Writer(order)
-    field = Field([expression])
+    field = Field([expression], alone=True)
     try:
         element = field(expression)
     except ZeroDivisionError:
@@ -83,9 +84,17 @@ def terms(
         result = shape(expression, order)
         return given if length(given) <= _GIVEN_WHOLE * length(result) else result
     static = writer.sum(split.static)
-    at_rest = _given_at_rest(expression, leading, writer) if as_given and growth.is_one() else None
-    if at_rest is not None and length(at_rest) <= _GIVEN * length(static):
-        static = at_rest
+    at_rest = _at_rest(expression, leading) if growth.is_one() else ()
+    if (
+        as_given
+        and at_rest
+        and length(given_rest := _given(at_rest, writer)) <= _GIVEN * length(static)
+    ):
+        static = given_rest
+    elif len(at_rest) > 1 and not as_given:
+        apart = writer.sum(shaper.shape(field(part)) for part in at_rest)
+        if operation_count(apart) <= operation_count(static):
+            static = apart  # k1 (x - l1) - k2 (y - x - l2), the terms of V differentiated
     result = writer.sum([*split.moving, static])
     if not growth.is_one():
         one = Fraction(1)
@@ -107,17 +116,21 @@ def _common_exponential(field: Field, element: Element) -> Element:
     return found
 
 
-def _given_at_rest(expression: Expr, leading: Collection[str], writer: Writer) -> Expression | None:
+def _at_rest(expression: Expr, leading: Collection[str]) -> Sequence[Expr]:
     """The terms without a leading quantity as they stand: the potential energy of the file.
 
-    None where other terms have parts without one too.
+    None of them where other terms have parts without one too.
     """
     parts = expression.args if expression.is_Add else (expression,)
     moving = {s: sympy.S.Zero for s in expression.free_symbols if s.name in leading}
     static = [part for part in parts if not part.free_symbols & moving.keys()]
     if any(p.xreplace(moving) != 0 for p in parts if p.free_symbols & moving.keys()):
-        return None
-    return writer.sum([Translator(writer).tree(part) for part in static])
+        return ()
+    return static
+
+
+def _given(parts: Iterable[Expr], writer: Writer) -> Expression:
+    return writer.sum([Translator(writer).tree(part) for part in parts])
 
 
 @record
@@ -305,7 +318,7 @@ class _Splitter:
             case Sum(terms=parts) if not nested or _brackets(parts):
                 return list(parts)
             case Product(factors=factors) if len(sums := _sums(factors)) == 1 and (
-                not nested or _brackets(sums[0].terms)
+                _brackets(sums[0].terms) if nested else not all(map(is_letter, sums[0].terms))
             ):
                 rest = [(factor, one) for factor in factors if factor is not sums[0]]
                 return [writer.product(one, [*rest, (part, one)]) for part in sums[0].terms]

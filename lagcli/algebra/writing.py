@@ -258,8 +258,8 @@ class Writer:
 
 
 def _is_half_power(base: Expression, exponent: Fraction) -> bool:
-    """Whether it is r^(3/2) of a letter."""
-    return isinstance(base, Name) and exponent.denominator == 2
+    """Whether it is r^(3/2) of a letter or a function."""
+    return isinstance(base, (Name, Call)) and exponent.denominator == 2
 
 
 def _is_in_root(index: int, base: Expression, exponent: Fraction) -> bool:

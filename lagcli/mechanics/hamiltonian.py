@@ -52,17 +52,29 @@ class Hamiltonian:
             return None
         system = self.system
         if self.legendre.is_quadratic:
-            # H = (p - N) . q' / 2 - L(q' = 0), with N = dL/dq' at q' = 0
-            at_rest = dict.fromkeys(system.qdot, sympy.S.Zero)
-            momenta = self.dynamics.lagrange.momenta
-            kinetic = (
+            return simplify(self._kinetic - self._at_rest)
+        return self.in_phase_space(dot(system.momenta, system.qdot) - system.L)
+
+    @cached_property
+    def _at_rest(self) -> Expr:
+        """L(q, 0, t)."""
+        return self.system.L.xreplace(dict.fromkeys(self.system.qdot, sympy.S.Zero))
+
+    @cached_property
+    def _kinetic(self) -> Expr:
+        """(p - N) . q' / 2 with N = dL/dq' at q' = 0: H less -L(q, 0, t), of a quadratic L."""
+        assert self.velocities is not None
+        system = self.system
+        at_rest = dict.fromkeys(system.qdot, sympy.S.Zero)
+        momenta = self.dynamics.lagrange.momenta
+        return sympy.Add(
+            *(
                 (p - momentum.xreplace(at_rest)) * velocity / 2
                 for p, momentum, velocity in zip(
                     system.momenta, momenta, self.velocities, strict=True
                 )
             )
-            return simplify(sympy.Add(*kinetic) - system.L.xreplace(at_rest))
-        return self.in_phase_space(dot(system.momenta, system.qdot) - system.L)
+        )
 
     def in_phase_space(self, expression: Expr) -> Expr:
         """An expression in q, q', t as one in q, p, t; there must be velocities."""
@@ -111,21 +123,29 @@ class Hamiltonian:
         return deciding(rest) if bends else None
 
     @cached_property
-    def canonical_equations(self) -> tuple[tuple[Expr, Expr], ...] | None:
-        """(q_j', p_j') by coordinate, with multipliers, forces and dissipation."""
+    def growth(self) -> tuple[tuple[Expr, Expr], ...] | None:
+        """(p_j' - dL/dq_j at rest, dL/dq_j at rest), with multipliers, forces and dissipation."""
         if self.function is None or self.velocities is None:
             return None
-        system, h = self.system, self.function
-        pairs = []
-        for j, (q, velocity) in enumerate(zip(system.q, self.velocities, strict=True)):
+        system, kinetic = self.system, sympy.S.Zero
+        if self.legendre.is_quadratic:
+            kinetic = simplify(self._kinetic)
+        rows = []
+        for j, q in enumerate(system.q):
             force = _force(system, self.dynamics.constraints.equations, j)
             if self.legendre.is_quadratic:
-                force = self.in_phase_space(force)
-                pairs.append((velocity, simplify(force - h.diff(q))))
-                continue
-            # -dH/dq = dL/dq, which spares a derivative of roots and signs
-            pairs.append((velocity, self.in_phase_space(system.L.diff(q) + force)))
-        return tuple(pairs)
+                moving = simplify(self.in_phase_space(force) - kinetic.diff(q))
+            else:  # -dH/dq = dL/dq, which spares a derivative of roots and signs
+                moving = self.in_phase_space((system.L - self._at_rest).diff(q) + force)
+            rows.append((moving, self._at_rest.diff(q)))
+        return tuple(rows)
+
+    @property
+    def canonical_equations(self) -> tuple[tuple[Expr, Expr], ...] | None:
+        """(q_j', p_j') by coordinate."""
+        if self.growth is None or self.velocities is None:
+            return None
+        return tuple((v, a + b) for v, (a, b) in zip(self.velocities, self.growth, strict=True))
 
 
 class GivenHamiltonian:
@@ -160,13 +180,18 @@ class GivenHamiltonian:
         return simplify(expression.xreplace(flow))
 
     @cached_property
-    def canonical_equations(self) -> tuple[tuple[Expr, Expr], ...]:
-        """(q_j', p_j') by coordinate, with multipliers, forces and dissipation."""
-        growth = (
-            self.in_phase_space(_force(self.system, self._constraints, j) - self.function.diff(q))
-            for j, q in enumerate(self.system.q)
+    def growth(self) -> tuple[tuple[Expr, Expr], ...]:
+        """(p_j', 0), with multipliers, forces and dissipation."""
+        forces = (_force(self.system, self._constraints, j) for j in range(len(self.system.q)))
+        slopes = (self.function.diff(q) for q in self.system.q)
+        return tuple(
+            (self.in_phase_space(f - h), sympy.S.Zero) for f, h in zip(forces, slopes, strict=True)
         )
-        return tuple(zip(self.velocities, growth, strict=True))
+
+    @property
+    def canonical_equations(self) -> tuple[tuple[Expr, Expr], ...]:
+        """(q_j', p_j') by coordinate."""
+        return tuple((v, p) for v, (p, _) in zip(self.velocities, self.growth, strict=True))
 
 
 def _force(system: System, constraints: Sequence[ConstraintEquation], j: int) -> Expr:

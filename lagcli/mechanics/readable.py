@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from sympy import Expr
+from sympy import Expr, S
 
-from lagcli.algebra import shape, terms
+from lagcli.algebra import shape, simplify, terms
 from lagcli.algebra.terms import is_flat
+from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression, Name, Power, Product, operation_count
 from lagcli.mechanics.dynamics import Dynamics
 
 #: How many times as long as the shortest shape the terms one by one may be.
 _BY_TERMS = 1.25
+#: How many times as long -dT/dq and -dV/dq apart may be.
+_APART = 1.25
 
 
 class Readable:
@@ -42,12 +45,27 @@ class Readable:
         bases = (f.base if isinstance(f, Power) else f for f in factors)
         return any(isinstance(b, Name) and str(b) in self.system.names for b in bases)
 
-    def rate(self, expression: Expr) -> Expression:
-        """-dH/dq in the shortest shape, or term by term in the momenta where that is not long."""
-        by_terms = terms(expression, self.system.order, {p.name for p in self.system.momenta})
+    def rate(self, moving: Expr, rest: Expr) -> Expression:
+        """p' as -dT/dq and -dV/dq, apart where that is not long; `rest` is dL/dq at rest."""
+        together = self._rate(moving + rest)
+        momenta = (*self.system.momenta, *self.system.multipliers)
+        still = moving.xreplace(dict.fromkeys(momenta, S.Zero))
+        if still != 0:
+            moving, rest = simplify(moving - still), rest + still
+        if moving == 0 or rest == 0 or still.has(S.ComplexInfinity, S.NaN):
+            return together
+        apart = Writer(self.system.order).sum([self._rate(moving), self._by_momenta(rest)])
+        return apart if operation_count(apart) <= _APART * operation_count(together) else together
+
+    def _rate(self, expression: Expr) -> Expression:
+        """The shortest shape, or term by term in the momenta where that is not long."""
+        by_terms = self._by_momenta(expression)
         short = self.as_written(expression)
         longer = operation_count(by_terms) > _BY_TERMS * operation_count(short)
         return short if longer else by_terms
+
+    def _by_momenta(self, expression: Expr) -> Expression:
+        return terms(expression, self.system.order, {p.name for p in self.system.momenta})
 
     def on_surface(self, expression: Expr) -> Expression:
         """The shortest shape, with the constraints used."""

@@ -100,7 +100,8 @@ class NamedMomenta:
             times = self._before_momentum(base)
             if times > 1 and number.denominator % times**exponent == 0:
                 number *= times**exponent
-                powers[self._over(base, times)] = powers.pop(base)
+                inner = self._over(base, times)
+                powers[self._upright(inner) if exponent % 2 == 0 else inner] = powers.pop(base)
                 changed = True
         if not changed:
             return node
@@ -171,6 +172,10 @@ class NamedMomenta:
         """A sum divided by a number, term by term."""
         return Sum(tuple(self._divided_by(term, number) for term in node.terms))
 
+    def _upright(self, node: Sum) -> Sum:
+        """p − q A for q A − p, whose square it is."""
+        return Sum((*map(opposite, node.terms[::-1]),)) if self.turned(node) else node
+
     def _divided_by(self, term: Expression, number: int) -> Expression:
         minus, above, below = parts_of(term)
         value = Fraction(1, number)
@@ -195,9 +200,7 @@ class NamedMomenta:
                 and isinstance(base, Sum)
                 and self._before_momentum(base) % number == 0
             ):
-                inner = self._over(base, number)
-                if self.turned(inner):
-                    inner = Sum((*map(opposite, inner.terms[::-1]),))
+                inner = self._upright(self._over(base, number))
                 above[place] = Power(inner, Number(Fraction(2)))
                 number = 1
         powers: _Powers = {}

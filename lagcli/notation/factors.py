@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Container, Mapping
 from fractions import Fraction
+from math import gcd, prod
 
 from lagcli.expression import (
     ONE,
@@ -73,6 +75,78 @@ def whole_power(node: Expression) -> tuple[Expression, int]:
 def with_base(node: Expression, base: Expression) -> Expression:
     """The same power of another base."""
     return Power(base, node.exponent) if isinstance(node, Power) else base
+
+
+def with_content(node: Sum) -> tuple[Fraction, Sum]:
+    """(6, p² − 3 p q) of 6 p² − 18 p q: the number that all terms of a sum have in front."""
+    parts = [parts_of(term) for term in node.terms]
+    numbers = [
+        [int(f.value) for f in above if isinstance(f, Number) and f.value.denominator == 1]
+        for _, above, _ in parts
+    ]
+    common = gcd(*map(prod, numbers))
+    if common == 1:
+        return Fraction(1), node
+    terms = []
+    for (minus, above, below), inside in zip(parts, numbers, strict=True):
+        left = Number(Fraction(prod(inside) // common))
+        rest = [f for f in above if not (isinstance(f, Number) and f.value.denominator == 1)]
+        term = quotient_of([left, *rest] if left != ONE or not rest else rest, below)
+        terms.append(Negative(term) if minus else term)
+    return Fraction(common), Sum(tuple(terms))
+
+
+def cancelled(
+    above: list[Expression], below: list[Expression]
+) -> tuple[list[Expression], list[Expression]]:
+    """The factors above and below without the sums that both have."""
+    left = Counter(dict(map(whole_power, above)))
+    for base, exponent in map(whole_power, below):
+        if isinstance(base, Sum) and left[base] > 0:
+            common = min(left[base], exponent)
+            above, below = _less(above, base, common), _less(below, base, common)
+    return above or [ONE], below
+
+
+def with_conjugates(factors: list[Expression]) -> list[Expression]:
+    """R² − l² for (R + l) (R − l)."""
+    for place, one in enumerate(factors):
+        for other in factors[place + 1 :]:
+            if (square := _difference_of_squares(one, other)) is not None:
+                rest = [square if f is one else f for f in factors if f is not other]
+                return with_conjugates(rest)
+    return factors
+
+
+def _difference_of_squares(one: Expression, other: Expression) -> Sum | None:
+    """a² − b² of a + b and a − b, letters."""
+    if not (isinstance(one, Sum) and isinstance(other, Sum)):
+        return None
+    if len(one.terms) != 2 or len(other.terms) != 2:
+        return None
+    signed = [{parts_of(t)[1][0]: parts_of(t)[0] for t in each.terms} for each in (one, other)]
+    letters = [t.operand if isinstance(t, Negative) else t for s in (one, other) for t in s.terms]
+    plus, minus = (x for x in sorted(signed, key=lambda s: any(s.values())))
+    if not all(isinstance(x, Name) for x in letters) or plus.keys() != minus.keys():
+        return None
+    if any(plus.values()) or sum(minus.values()) != 1:
+        return None
+    above, below = sorted(minus, key=lambda x: minus[x])
+    two = Number(Fraction(2))
+    return Sum((Power(above, two), Negative(Power(below, two))))
+
+
+def _less(factors: list[Expression], base: Expression, times: int) -> list[Expression]:
+    """The factors with a power of one of them lowered."""
+    found: list[Expression] = []
+    for factor in factors:
+        own, exponent = whole_power(factor)
+        if own != base:
+            found.append(factor)
+        elif exponent > times:
+            more = Number(Fraction(exponent - times))
+            found.append(base if more == ONE else Power(base, more))
+    return found
 
 
 def with_whole_powers(node: Expression) -> Expression:

@@ -93,10 +93,10 @@ def _letters(node: Expression) -> Iterator[str]:
 
 
 def _multiplied(node: Product) -> Iterator[list[str]]:
-    """The names that it multiplies, also into the square of a sum: k, r and k, l of k (r − l)²."""
+    """The names that it multiplies, also into a sum or its square: k, r and k, l of k (r − l)²."""
     yield [*_letters(node)]
     for factor in node.factors:
-        base = factor.base if isinstance(factor, Power) else None
+        base = factor.base if isinstance(factor, Power) else factor
         for term in base.terms if isinstance(base, Sum) else ():
             parts = (term if part is factor else part for part in node.factors)
             yield [name for part in parts for name in _letters(part)]

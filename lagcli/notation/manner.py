@@ -35,17 +35,21 @@ from lagcli.expression import (
 from lagcli.notation.angles import difference_of_angles, with_versines
 from lagcli.notation.brackets import NamedMomenta, squares_as_brackets
 from lagcli.notation.factors import (
+    cancelled,
     odd_base,
     parts_of,
+    product_of_powers,
     whole_power,
     with_base,
+    with_conjugates,
+    with_content,
     with_last,
     with_one_root,
     with_whole_powers,
 )
 from lagcli.notation.given_formulas import given, order_of_names
 from lagcli.notation.given_sums import GivenSums, arranged
-from lagcli.notation.likeness import EVEN, ODD, Key, parity, signed_key
+from lagcli.notation.likeness import EVEN, ODD, Key, Monomial, multiplied_out, parity, signed_key
 from lagcli.notation.ordering import Ordering, positive_first
 from lagcli.problem_data import Problem
 from lagcli.rewriting import rebuilt
@@ -69,6 +73,7 @@ class Manner:
         self._below: dict[Key, int] = {}  # of a denominator: its sign when it was first written
         self._squares: dict[Key, int] = {}  # of a squared bracket: its sign when first written
         self._within: dict[Key, int] = {}  # of a bracket in a denominator: the same
+        self._beside: dict[frozenset[tuple[Monomial, Fraction]], Expression] = {}  # roots
         quantities = (*problem.parameters, *problem.coordinates)
         self._positive = frozenset(q.name for q in quantities if q.assume == "positive")
         for node in given(problem):
@@ -83,7 +88,7 @@ class Manner:
 
     def anew(self) -> None:
         """Begin another section, which is written as if it were the only one."""
-        for memory in (self._known, self._below, self._within, self._squares):
+        for memory in (self._known, self._below, self._within, self._squares, self._beside):
             memory.clear()
 
     def __call__(self, node: Expression) -> Expression:
@@ -132,17 +137,50 @@ class Manner:
             case Sum(terms=(one, other)) if angle := difference_of_angles(one, other):
                 return angle
             case Sum():
+                node = self._beside_roots(node)
                 like = self._sums.like(node)
                 return self._sum(node) if like is None or like[0] != 1 else like[1]
             case Call(function="sqrt", arguments=(Quotient(numerator=Number(value=1)) as inner,)):
                 return Quotient(ONE, Call("sqrt", (inner.denominator,)))  # sqrt(1/x) = 1/sqrt(x)
+            case Call(function="sqrt", arguments=(Sum() | Product() as inner,)):
+                return Call("sqrt", (self._as_before(inner),))
             case _:
                 return node
 
+    def _as_before(self, node: Expression) -> Expression:
+        """A radicand, or what stands beside a root, as the section has written it before."""
+        value = multiplied_out(node)
+        if value is None:
+            return node
+        turned = frozenset((term, -c) for term, c in value.items())
+        if turned in self._beside and isinstance(before := self._beside[turned], Sum):
+            return negative_of(before)
+        return self._beside.setdefault(frozenset(value.items()), node)
+
+    def _beside_roots(self, node: Sum) -> Sum:
+        """a ± sqrt(b) with one a for both roots of an equation."""
+        roots = [term for term in node.terms if any(map(_is_root, walk(term)))]
+        rest = [term for term in node.terms if term not in roots]
+        if not roots or len(rest) < 2:
+            return node
+        before = terms_of(self._as_before(Sum((*rest,))))
+        return Sum((*roots, *before) if node.terms[0] in roots else (*before, *roots))
+
     def _sum(self, node: Sum) -> Expression:
         """The sum, its brackets as in the denominator above: a - b (u - v), not a + b (v - u)."""
-        first, *rest = with_versines(self._sums.within(self._multiplied(_ordered(node))).terms)
+        first, *rest = with_versines(self._sums.within(self._multiplied(self._ordered(node))).terms)
         return Sum((first, *map(self._as_within, rest))) if rest else first
+
+    def _ordered(self, node: Sum) -> Sum:
+        """The sum without brackets around inner sums, a positive term first where there is one."""
+        terms = [each for term in node.terms for each in terms_of(term)]
+        if not isinstance(terms[0], Negative):
+            return node if tuple(terms) == node.terms else Sum(tuple(terms))
+        if _accelerates(terms[0]):  # m l² θ'' − m l y'' sin θ + …
+            first = [t for t in terms if not isinstance(t, Negative) and _accelerates(t)][:1]
+            return Sum((*first, *(t for t in terms if t not in first)))
+        # in order anew: a bracket that was turned has changed the sign of its term
+        return Sum((*positive_first(sorted(terms, key=self._ordering.term)),))
 
     def _multiplied(self, node: Sum) -> Sum:
         """m1 m2 + m1 m3 + 4 m2 m3 for m1 (m2 + m3) + 4 m2 m3, of quantities of one kind."""
@@ -219,7 +257,12 @@ class Manner:
         return True if all(isinstance(t, Negative) for t in node.terms) else None
 
     def _function(self, node: Call, inner: Sum) -> Expression:
-        """sin(a − b) = −sin(b − a), cos(a − b) = cos(b − a)."""
+        """sin(a − b) = −sin(b − a), cos(a − b) = cos(b − a); sin((a − b)/2) for sin(a/2 − b/2)."""
+        ratio, shown = self._sums.like(inner) or (Fraction(1), inner)
+        if abs(ratio) != 1:
+            whole = product_of_powers(abs(ratio), {shown: 1}, self._ordering)
+            turned = Call(node.function, (whole,), node.primes)
+            return turned if node.function in EVEN or ratio > 0 else Negative(turned)
         if not self._wrong(inner) or _constant(inner):
             return node
         turned = Call(node.function, (negative_of(inner),), node.primes)
@@ -235,13 +278,23 @@ class Manner:
             if like is not None and abs(like[0]) == 1:
                 return Power(like[1], node.exponent)
             wrong = self._wrong(base)
-            if wrong or (wrong is None and _begins_better(base)):
+            turned = _begins_better(base) or self._late(base)
+            if wrong or (wrong is None and turned):
                 return Power(negative_of(base), node.exponent)
         return with_whole_powers(node)
+
+    def _late(self, node: Sum) -> bool:
+        """Whether it is a difference of letters, the first of which comes second in the file."""
+        match node.terms:
+            case (Name() as one, Negative(operand=Name() as other)):
+                return not one.primes and self._ordering.factor(one) > self._ordering.factor(other)
+            case _:
+                return False
 
     def _signed(self, node: Expression, *, inside: bool) -> Expression:
         """A product or quotient with every sum in its right sign, the sign of all before it."""
         minus, above, below = self._with_given_sums(*parts_of(node))
+        above, below = map(with_conjugates, cancelled(above, below))
         free: list[tuple[list[Expression], int]] = []  # sums that may stand either way
         for factors in (above, below):
             for place, factor in enumerate(factors):
@@ -308,10 +361,12 @@ class Manner:
         for factors, sign in (above, 1), (below, -1):
             for place, factor in enumerate(factors):
                 base, exponent = whole_power(factor)
-                like = self._sums.like(base) if isinstance(base, Sum) else None
-                if like is not None and like[0] != 1:
-                    number *= like[0] ** (sign * exponent)
-                    factors[place] = with_base(factor, like[1])
+                if not isinstance(base, Sum):
+                    continue
+                ratio, shown = self._sums.like(base) or with_content(base)
+                if ratio != 1:
+                    number *= ratio ** (sign * exponent)
+                    factors[place] = with_base(factor, shown)
         whole = [any(isinstance(f, Number) for f in factors) for factors in (above, below)]
         within = any(isinstance(f, Number) for factors in (above, below) for f in factors[1:])
         if number == 1 and not within and not all(whole):
@@ -347,16 +402,6 @@ def _terms(node: Expression) -> tuple[Expression, ...]:
 def negative_of(node: Sum) -> Sum:
     """The sum of the terms with their signs changed, a positive one first where there is one."""
     return Sum(tuple(positive_first([*map(opposite, node.terms)])))
-
-
-def _ordered(node: Sum) -> Sum:
-    """The sum without brackets around inner sums, a positive term first where there is one."""
-    terms: list[Expression] = []
-    for term in node.terms:
-        terms.extend(terms_of(term))
-    if not _accelerates(terms[0]):
-        terms = positive_first(terms)
-    return node if tuple(terms) == node.terms else Sum(tuple(terms))
 
 
 def _determinant(node: Sum) -> bool | None:
@@ -397,6 +442,10 @@ def _sums(node: Expression) -> bool:
 def _is_number(node: Expression) -> bool:
     inner = node.operand if isinstance(node, Negative) else node
     return isinstance(inner, Number)
+
+
+def _is_root(node: Expression) -> bool:
+    return isinstance(node, Call) and node.function == "sqrt"
 
 
 def _constant(node: Expression) -> bool:

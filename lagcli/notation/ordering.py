@@ -98,6 +98,12 @@ class Ordering:
         base = node.base if isinstance(node, Power) else node
         if isinstance(base, Call) and base.function == "sqrt":
             (base,) = base.arguments
+        elif (
+            isinstance(base, Call)
+            and base.function == "abs"
+            and isinstance(base.arguments[0], Name)
+        ):
+            return self.rank(base.arguments[0])
         key = self._term(base if isinstance(base, Sum) else node)
         if isinstance(base, Sum) and not any(self._is_fast(part) for part in walk(base)):
             nested = any(isinstance(part, Sum) for term in base.terms for part in walk(term))
@@ -132,7 +138,7 @@ class Ordering:
         """
         if not isinstance(node, Sum) or not self._is_plain(node):
             return False
-        which = any if all(map(_is_letter, node.terms)) else all
+        which = any if all(map(is_letter, node.terms)) else all
         return which(self._first(term) < first for term in node.terms)
 
     def _is_fast(self, node: Expression) -> bool:
@@ -228,7 +234,7 @@ def positive_first(terms: Sequence[Expression]) -> list[Expression]:
         return [*terms]
     begin = minus.index(False)
     end = begin + 1
-    while all(map(_is_letter, terms)) and end < len(terms) and not minus[end]:
+    while all(map(is_letter, terms)) and end < len(terms) and not minus[end]:
         end += 1
     return [*terms[begin:end], *terms[:begin], *terms[end:]]
 
@@ -245,11 +251,11 @@ def bases(term: Expression) -> Iterator[Expression]:
             yield term
 
 
-def _is_letter(node: Expression) -> bool:
+def is_letter(node: Expression) -> bool:
     """Whether a term is a letter, perhaps with a number before it."""
     match node:
         case Negative(operand=inner) | Product(factors=(Number(), inner)):
-            return _is_letter(inner)
+            return is_letter(inner)
         case _:
             return isinstance(node, Name)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
@@ -26,10 +26,10 @@ if TYPE_CHECKING:
 def derive(statements: Statements) -> CanonicalSection:
     """From the Hamiltonian, where there is one."""
     hamiltonian = statements.derivation.hamiltonian
-    pairs = hamiltonian.canonical_equations
-    if pairs is None:
+    if hamiltonian.velocities is None or hamiltonian.growth is None:
         return _none(statements, hamiltonian.reason, fold_of(statements))
-    return _stated(statements, statements.system.names, pairs, statements.readable.rate)
+    rates = [statements.readable.rate(*parts) for parts in hamiltonian.growth]
+    return _stated(statements, statements.system.names, hamiltonian.velocities, rates)
 
 
 def large(statements: LargeStatements) -> CanonicalSection:
@@ -40,20 +40,21 @@ def large(statements: LargeStatements) -> CanonicalSection:
 def phase_space(statements: PhaseSpaceStatements) -> CanonicalSection:
     """From the H of the file."""
     names = [coordinate.name for coordinate in statements.problem.coordinates]
-    pairs = statements.hamiltonian.canonical_equations
-    return _stated(statements, names, pairs, statements.as_written)
+    hamiltonian = statements.hamiltonian
+    rates = [statements.as_written(p) for p, _ in hamiltonian.growth]
+    return _stated(statements, names, hamiltonian.velocities, rates)
 
 
 def _stated(
     statements: Statements | PhaseSpaceStatements,
     names: Sequence[str],
-    pairs: Sequence[tuple[Expr, Expr]],
-    rate: Callable[[Expr], Expression],
+    velocities: Sequence[Expr],
+    rates: Sequence[Expression],
 ) -> CanonicalSection:
     return CanonicalSection(
         equations={
-            name: CanonicalPair(q=statements.as_written(q), p=rate(p))
-            for name, (q, p) in zip(names, pairs, strict=True)
+            name: CanonicalPair(q=statements.as_written(q), p=p)
+            for name, q, p in zip(names, velocities, rates, strict=True)
         }
     )
 

@@ -86,9 +86,13 @@ def stated_charge(statements: Statements, charge: NoetherCharge) -> Charge:
 
 def _function(statements: Statements, charge: NoetherCharge) -> Expression:
     """The charge, the energy and a momentum as they are written in their own sections."""
-    if charge.source == "time":
-        function = statements.derivation.energy.readable_function
-        return statements.by_terms(function, as_given=True)
+    from lagcli.algebra import is_zero
+
+    energy = statements.derivation.energy.readable_function
+    if charge.source == "time" or (
+        charge.name == "energy" and is_zero(charge.charge - energy) is True
+    ):
+        return statements.by_terms(energy, as_given=True)
     if charge.source == "cyclic":
         return statements.readable.linear(charge.charge)
     return statements.by_terms(charge.charge)

@@ -6,6 +6,14 @@ import pytest
 
 from lagcli.formatters.grammar import to_grammar
 from lagcli.pipeline import Request, derive, explain, read, state
+from lagcli.statements.answers import (
+    CanonicalSection,
+    EnergySection,
+    EquationsSection,
+    HamiltonianSection,
+    ReductionSection,
+)
+from lagcli.statements.motions import SteadySection
 
 # (coordinates, parameters, physics, {path: formula}, source)
 BOOK = [
@@ -69,7 +77,52 @@ BOOK = [
         "T: A*(theta'^2 + phi'^2*sin(theta)^2)/2 + C*(psi' + phi'*cos(theta))^2/2",
         {"momenta.phi": "(A*sin(theta)^2 + C*cos(theta)^2)*phi' + C*psi'*cos(theta)"},
     ),
+    (
+        "[y, z]", "m M k K l b g",  # two springs below one another, as free-body diagrams give it
+        "T: m*y'^2/2 + M*z'^2/2\nV: k*(y - l)^2/2 + K*(z - y - b)^2/2 - m*g*y - M*g*z",
+        {
+            "equations.y": "m*y'' - m*g + k*(y - l) - K*(z - y - b)",
+            "canonical_equations.y": "m*g - k*(y - l) + K*(z - y - b)",
+        },
+    ),
+    (
+        "[theta, phi]", "m l g k",  # French, Vibrations and Waves, chapter 5, with a torsion spring
+        "T: m*l^2*(theta'^2 + phi'^2)/2\nV: k*(theta - phi)^2/2 - m*g*l*(cos(theta) + cos(phi))",
+        {"accelerations.theta": "-k*(theta - phi)/(m*l^2) - g*sin(theta)/l"},
+    ),
+    (
+        "[theta, phi]", "m l g",  # two rods: p' = dL/dtheta, with the velocities in p
+        (
+            "T: m*l^2*(4*theta'^2 + phi'^2 + 3*theta'*phi'*cos(theta - phi))/6\n"
+            "V: -m*g*l*(3*cos(theta) + cos(phi))/2"
+        ),
+        {
+            "momenta.phi": "m*l^2*(3*theta'*cos(theta - phi) + 2*phi')/6",
+            "canonical_equations.phi": "18*(3*p_theta*cos(theta - phi) - 8*p_phi)"
+            "*(3*p_phi*cos(theta - phi) - 2*p_theta)*sin(theta - phi)"
+            "/(m*l^2*(7 + 9*sin(theta - phi)^2)^2) - m*g*l*sin(phi)/2",
+        },
+    ),
+    (
+        "{r: {assume: positive}, phi: }", "m e B U a b",  # Landau and Lifshitz, Mechanics, sect. 15
+        "L: m*(r'^2 + r^2*phi'^2)/2 + e*B*r^2*phi'/2 - e*U*log(r/a)/log(b/a)",
+        {"U_eff": "(p_phi - e*B*r^2/2)^2/(2*m*r^2) + e*U*log(r/a)/log(b/a)"},
+    ),
+    (
+        "[y, theta]", "M m l g",  # Landau and Lifshitz, Mechanics, section 5, problem 3, from below
+        (
+            "T: M*y'^2/2 + m*((y' - l*theta'*sin(theta))^2 + (l*theta'*cos(theta))^2)/2\n"
+            "V: -M*g*y - m*g*(y + l*cos(theta))"
+        ),
+        {
+            "equations.theta": "m*l^2*theta'' - m*l*y''*sin(theta) + m*g*l*sin(theta)",
+            "steady_motions.1": "sin(theta)",
+        },
+    ),
 ]  # fmt: skip
+
+
+PLACES = {"U_eff": "reduction"}
 
 
 def problem_of(coordinates, parameters, physics):
@@ -82,12 +135,24 @@ def problem_of(coordinates, parameters, physics):
 @pytest.mark.parametrize("row", BOOK, ids=lambda row: row[2].split("\n")[0][:40])
 def test_the_book_s_form_is_printed(row):
     *file, wanted = row
-    sections = ("accelerations", "momenta", "energy", "hamiltonian")
-    found = state(derive(problem_of(*file)), Request(sections=sections)).sections
-    printed = {"energy": found["energy"].function, "hamiltonian": found["hamiltonian"].hamiltonian}
-    for section in ("accelerations", "momenta"):
-        rows = getattr(found[section], section)
-        printed |= {f"{section}.{name}": formula for name, formula in rows.items()}
+    sections = dict.fromkeys(PLACES.get(path, path.split(".")[0]) for path in wanted)
+    found = state(derive(problem_of(*file)), Request(sections=tuple(sections))).sections
+    printed = {}
+    for path in wanted:
+        section, _, name = path.partition(".")
+        match found[PLACES.get(section, section)]:
+            case EquationsSection(equations=rows):
+                printed[path] = next(row.left for row in rows if row.coordinate == name)
+            case CanonicalSection(equations=pairs):
+                printed[path] = pairs[name].p
+            case SteadySection(conditions=rows):
+                printed[path] = rows[name]
+            case EnergySection(function=formula) | HamiltonianSection(hamiltonian=formula):
+                printed[path] = formula
+            case ReductionSection(effective_potential=formula):
+                printed[path] = formula
+            case rows:
+                printed[path] = getattr(rows, section)[name]
     assert {name: to_grammar(printed[name]) for name in wanted} == wanted
 
 

@@ -115,5 +115,5 @@ dissipation: b*x'^2/2
     for rate, angle in ((0.3, 0.0), (0.0, 0.7), (-1.1, 2.0)):
         at = {"x": rate, "theta": angle, "g": 9.0, "b": 0.4}  # of x the rate alone occurs
         dragged, turned = (value(tree, **at) for tree in section.conditions.values())
-        assert dragged == pytest.approx(0.4 * rate)
-        assert turned == pytest.approx(9.0 * sin(angle))  # without its number
+        assert dragged == pytest.approx(rate)  # b x' = 0 and m g l sin θ = 0, without what
+        assert turned == pytest.approx(sin(angle))  # cannot be 0

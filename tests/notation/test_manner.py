@@ -47,6 +47,12 @@ def manner():
             "m*cos(3*(phi - theta)) + g*sin(3*(phi - theta))",
             "m*cos(3*(theta - phi)) - g*sin(3*(theta - phi))",
         ),
+        ("g*sin(theta/2 - phi/2)", "g*sin((theta - phi)/2)"),
+        # numbers out of brackets, what is above and below, a difference of squares
+        ("6*(4*g*r - 2*m*phi)/(2*a)", "6*(2*g*r - m*phi)/a"),
+        ("m*(r + sin(phi))^2*g/(r + sin(phi))", "m*g*(r + sin(phi))"),
+        ("g*(a + m)*(m - a)", "g*(m^2 - a^2)"),
+        ("g*abs(m)*r", "g*abs(m)*r"),
         # a number first
         ("m*g*(cos(theta) - 1)", "-m*g*(1 - cos(theta))"),
         ("-g*(cos(theta) - 3)/r", "g*(3 - cos(theta))/r"),

@@ -82,10 +82,14 @@ class Atoms:
             self._expressions[tree] = expression
         return number
 
+    def is_known(self, atom: int) -> bool:
+        """Whether it is the name of a parameter."""
+        tree = self.trees[atom]
+        return isinstance(tree, Name) and self.writer.ordering.is_parameter(tree)
+
     def is_variable(self, atom: int) -> bool:
         """Whether it is the name of a coordinate, a velocity or a momentum."""
-        tree = self.trees[atom]
-        return isinstance(tree, Name) and not self.writer.ordering.is_parameter(tree)
+        return isinstance(self.trees[atom], Name) and not self.is_known(atom)
 
     def is_momentum(self, atom: int) -> bool:
         """Whether it is the name of a momentum."""

@@ -117,17 +117,23 @@ class Grouper:
             if best is None or candidate.score < best.score:
                 best = candidate
         assert best is not None
-        if self._of_forms(inner):
-            form = self._collected(inner, self.atoms.is_momentum, spread, others=False)
+        for degree in (2,) if self._of_forms(inner) else (1,):
+            form = self._collected(inner, self.atoms.is_momentum, spread, degree)
             if form is not None and form.cost <= _FORM * best.cost:
                 return form
-        form = self._collected(inner, self.atoms.is_rate, spread, others=True)
+        form = self._collected(inner, self.atoms.is_rate, spread, 2, others=True)
         return best if form is None or form.cost > best.cost + _RATES else form
 
     def _collected(
-        self, terms: Integers, kind: Callable[[int], bool], spread: bool, *, others: bool
+        self,
+        terms: Integers,
+        kind: Callable[[int], bool],
+        spread: bool,
+        degree: int,
+        *,
+        others: bool = False,
     ) -> PlannedSum | None:
-        """A form a p_x² + b p_x p_y + c p_y² with each of the three collected.
+        """A form a p_x² + b p_x p_y + c p_y² with each of the three collected, or a p_x + b p_y.
 
         With `others` beside terms without any: (a² − b²) u'² + (m + M) g.
         """
@@ -135,10 +141,10 @@ class Grouper:
         for term, value in terms.items():
             group = tuple(pair for pair in term if kind(pair[0]))
             groups.setdefault(group, {})[term] = value
-        few = len(groups) < (2 if others else 3) or len(groups) == len(terms)
+        few = len(groups) < (2 if others else degree + 1) or len(groups) == len(terms)
         if few or (() in groups) != others:
             return None
-        if any(sum(e for _, e in group) != 2 for group in groups if group):
+        if any(sum(e for _, e in group) != degree for group in groups if group):
             return None  # c (x' − y') stays together
         plans = [self._group(each, spread) for each in groups.values()]
         parts = [plan for plan in plans if isinstance(plan, PlannedProduct)]
@@ -216,12 +222,13 @@ class Grouper:
         """The product of the irreducible factors, None when there is only one."""
         if len(terms) > _MAX_FACTORED:
             return None
+        below, number, terms = content(terms, spread=False)
+        if any(exponent > 0 for _, exponent in below):
+            return None
         scales: dict[int, int] = {}
         powers: dict[int, Exponent] = {}  # added up over the terms
         for term in terms:
             for atom, exponent in term:
-                if exponent < 0:
-                    return None
                 powers[atom] = powers.get(atom, 0) + exponent
                 if isinstance(exponent, int):
                     scales.setdefault(atom, 1)
@@ -237,12 +244,12 @@ class Grouper:
             for atom, exponent in term:
                 exponents[used[atom]] = int(exponent * scales[atom])
             data[tuple(exponents)] = value
-        content, found = factorization(context.from_dict(data))
+        ratio, found = factorization(context.from_dict(data))
         factors = with_squares(found)
         if len(factors) == 1 and int(factors[0][1]) == 1:
             return None
-        parts: list[tuple[int | PlannedSum, Exponent]] = []
-        number: Coefficient = int(content)
+        parts: list[tuple[int | PlannedSum, Exponent]] = [*below]
+        coefficient: Coefficient = int(number * ratio)
         for factor, exponent in factors:
             inner: Integers = {}
             for key, value in factor.to_dict().items():
@@ -256,9 +263,9 @@ class Grouper:
             if isinstance(plan, PlannedSum):
                 parts.append((plan, int(exponent)))
             else:
-                number *= plan.coefficient ** int(exponent)
+                coefficient *= plan.coefficient ** int(exponent)
                 parts.extend((p, e * int(exponent)) for p, e in plan.parts)
-        return product(self.atoms, number, parts)
+        return product(self.atoms, coefficient, parts)
 
 
 def with_squares(factors: list[tuple[Poly, int]]) -> list[tuple[Poly, int]]:

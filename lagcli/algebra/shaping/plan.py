@@ -16,6 +16,8 @@ OPERATION = 6
 _HALF = Fraction(1, 2)
 #: A fraction inside brackets is worth that many bracketed operations.
 _FRACTION = 3
+#: The same over a product, with a parameter below: (k x/(m l) + g sin x)/l.
+_OVER = 12
 #: A fraction in a denominator, or in a sum over a sum, is written only where nothing else is
 #: possible: a/(b + c/d) is a*d/(b*d + c).
 _NESTED = 10_000
@@ -33,8 +35,8 @@ class PlannedProduct:
     parts: tuple[tuple[int | PlannedSum, Exponent], ...]
     cost: int
     strain: int
-    #: Whether a fraction occurs that no function holds.
-    fractional: bool = False
+    #: 1 where a fraction occurs that no function holds, 2 of one with a parameter below.
+    fractional: int = 0
 
     @property
     def score(self) -> int:
@@ -54,7 +56,7 @@ class PlannedSum:
     terms: tuple[PlannedProduct, ...]
     cost: int
     strain: int
-    fractional: bool = False
+    fractional: int = 0
 
     @property
     def score(self) -> int:
@@ -102,15 +104,18 @@ def product(
     if coefficient.denominator != 1 and not over_sum:
         coefficient = _halved(atoms, coefficient, signed)
     above = below = cost = strain = 0
-    fractional = coefficient.denominator != 1
+    fractional = int(coefficient.denominator != 1)
+    over = any(e < 0 for _, e in signed)
     for part, exponent in signed:
         size = abs(exponent)
         if isinstance(part, PlannedSum):
             cost += part.cost
             strain += part.cost + part.strain
-            fractional = fractional or part.fractional
+            fractional = max(fractional, part.fractional)
             if part.fractional:
-                strain += _NESTED if over_sum else _FRACTION
+                strain += (
+                    _NESTED if over_sum else _OVER if over and part.fractional > 1 else _FRACTION
+                )
         else:
             cost += atoms.costs[part]
         if size != 1:
@@ -119,7 +124,8 @@ def product(
             above += 1
         else:
             below += 1
-            fractional = True
+            divided = isinstance(part, int) and atoms.is_known(part)
+            fractional = max(fractional, 1 + divided)
     above += abs(coefficient.numerator) != 1 or not above
     below += coefficient.denominator != 1
     cost += above - 1 + below + (coefficient.numerator < 0)
@@ -131,7 +137,8 @@ def _halved(
 ) -> Coefficient:
     """(a + 2*b)/2 as a/2 + b where that shows less; the sum in `parts` is replaced.
 
-    Above a denominator a sum stays free of fractions: (a + 2*b)/(2*c).
+    Above a denominator a sum stays free of fractions: (a + 2*b)/(2*c).  So does one that would
+    have different numbers below: (2*a + 3*b)/6.
     """
     below, over = coefficient.denominator, any(e < 0 for _, e in parts)
     for position, (part, exponent) in enumerate(parts):
@@ -140,7 +147,7 @@ def _halved(
         before = sum(abs(t.coefficient) != 1 for t in part.terms)
         divided = [Fraction(t.coefficient) / below for t in part.terms]
         after = sum((abs(x.numerator) != 1) + (x.denominator != 1) for x in divided)
-        if after < before + 1:
+        if after < before + 1 and len({x.denominator for x in divided} - {1}) == 1:
             pairs = zip(divided, part.terms, strict=True)
             terms = [product(atoms, x, list(t.parts)) for x, t in pairs]
             parts[position] = (total(terms), exponent)
@@ -151,7 +158,7 @@ def _halved(
 def total(terms: list[PlannedProduct]) -> PlannedSum:
     """The sum of two or more products."""
     cost = sum(t.cost for t in terms) + len(terms) - 1
-    fractional = any(t.fractional for t in terms)
+    fractional = max(t.fractional for t in terms)
     return PlannedSum(tuple(terms), cost, sum(t.strain for t in terms), fractional)
 
 

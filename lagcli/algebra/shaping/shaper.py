@@ -11,7 +11,7 @@ from lagcli.algebra.division import commonest_ratio
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.ring import Monomial, Poly, factorization
-from lagcli.algebra.shaping.atoms import Atoms, Exponent, Terms, multiply
+from lagcli.algebra.shaping.atoms import Atoms, Exponent, Term, Terms, multiply
 from lagcli.algebra.shaping.expansions import LONG, Expansions
 from lagcli.algebra.shaping.grouping import Grouper, with_squares
 from lagcli.algebra.shaping.plan import (
@@ -286,10 +286,16 @@ class Shaper:
             if not divided:
                 continue
             yield self.grouper.group(divided, spread=True)
-            below_each = {tuple(pair for pair in term if pair[1] < 0) for term in divided}
-            cancels = len(below_each) > 1 and element.numerator.term_content().is_constant()
-            if cancels and len(divided) <= _FEW:  # p sin θ/(m r⁴) − 2 r' θ'/r
-                yield _expanded(self.atoms, divided)
+            below_each: dict[Term, Terms] = {}
+            for term, value in divided.items():
+                under = tuple(pair for pair in term if pair[1] < 0)
+                below_each.setdefault(under, {})[term] = value
+            content = self.atoms.terms(element.numerator.term_content())
+            known = [all(self.atoms.is_known(a) for t in x for a, _ in t) for x in (content, terms)]
+            # k (x − y)/(m l²) − g sin x/l, but k (l² − h²)/(m l²) and (1 − 2 M/r) s'
+            if len(below_each) > 1 and known[0] and (not known[1] or content.keys() == {()}):
+                parts = [self.grouper.group(each, spread=True) for each in below_each.values()]
+                yield total([_as_product(self.atoms, part) for part in parts])
 
     # -- polynomials ----------------------------------------------------------------------
 
@@ -442,7 +448,9 @@ class Shaper:
             if isinstance(plan, PlannedSum):
                 turned = plan.negated()
                 score = min(plan.score, turned.score)
-                score += OPERATION * plan.fractional  # its number below doubles the other terms
+                score += OPERATION * bool(
+                    plan.fractional
+                )  # its number below doubles the other terms
                 if turned.score < plan.score:
                     plan = PlannedProduct(
                         Fraction(-1), ((turned, 1),), turned.cost + 1, turned.cost

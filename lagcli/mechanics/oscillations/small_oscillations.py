@@ -20,6 +20,7 @@ from sympy import Expr, I, Symbol, im
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.equations import written
+from lagcli.algebra.positivity import vanishing_part
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import fraction
 from lagcli.expression import Expression, Power, Quotient, length, walk
@@ -75,7 +76,7 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
         at_all_times=rest.depends_on_time,
         edge=() if places else rest.edge,
         where=rest.restricted_to,
-        open=tuple(written(e, order) for e in open_),
+        open=tuple(written(vanishing_part(e), order) for e in open_),
         unless=() if places else unless_written(unless, order),
     )
 

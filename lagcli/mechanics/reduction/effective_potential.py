@@ -38,13 +38,16 @@ def effective_potential(
     if squares is None:
         return plain
     writer = Writer(order)
-    *quadratic, rest = squares
-    parts = [shape(each, order) for each in quadratic]
-    linear = not free_of(rest, momenta)
-    parts.append(terms(rest, order, {p.name for p in momenta}) if linear else given)
-    written = writer.sum(parts)
-    longer = operation_count(written) - operation_count(plain)
-    return written if longer <= (0 if linear else _LONGER) else plain
+    forms = []
+    for *quadratic, rest in squares:
+        parts = [shape(each, order) for each in quadratic]
+        linear = not free_of(rest, momenta)
+        moved = linear or rest != static
+        parts.append(terms(rest, order, {p.name for p in momenta}) if moved else given)
+        written = writer.sum(parts)
+        longer = operation_count(written) - operation_count(plain)
+        forms += [written] if longer <= (0 if moved else _LONGER) else []
+    return min(forms, key=operation_count, default=plain)
 
 
 def _as_given(potential: Expr, order: Sequence[str]) -> Expression:
@@ -53,22 +56,40 @@ def _as_given(potential: Expr, order: Sequence[str]) -> Expression:
     return given if operation_count(given) <= operation_count(found) + _LONGER else found
 
 
-def _squares(expression: Expr, momenta: Sequence[Symbol]) -> list[Expr] | None:
-    """[k_1 (p_1 + …)²/2, …, what is of lower degree in p]; None without a quadratic form."""
+def _squares(expression: Expr, momenta: Sequence[Symbol]) -> list[list[Expr]] | None:
+    """[k_1 (p_1 + …)²/2, …, what is of lower degree in p]; None without a quadratic form.
+
+    And with what is linear in p in the squares, (p - q A)², where there is such.
+    """
     second = [[simplify(expression.diff(a, b)) for b in momenta] for a in momenta]
     if not momenta or any(not free_of(entry, momenta) for row in second for entry in row):
         return None
-    rest = expression
-    found = []
+    at_rest = dict.fromkeys(momenta, S.Zero)
+    first = [simplify(expression.diff(p).xreplace(at_rest)) for p in momenta]
+    shifts = [[S.Zero] * len(momenta)] + ([first] if any(first) else [])
+    found = [_completed(expression, momenta, second, shift) for shift in shifts]
+    return [each for each in found if each is not None] or None
+
+
+def _completed(
+    expression: Expr,
+    momenta: Sequence[Symbol],
+    second: Sequence[Sequence[Expr]],
+    first: Sequence[Expr],
+) -> list[Expr] | None:
+    """The squares of p S p/2 + c p one after the other, and the rest."""
+    rest, found = expression, []
     for i in range(len(momenta)):
         pivot = second[i][i]
         if is_zero(pivot) is not False:
             return None
         along = [simplify(entry / pivot) for entry in second[i]]
-        linear = sum((c * q for c, q in zip(along[i:], momenta[i:], strict=True)), S.Zero)
+        shift = simplify(first[i] / pivot)
+        linear = sum((c * q for c, q in zip(along[i:], momenta[i:], strict=True)), shift)
         square = pivot * linear**2 / 2
         found.append(square)
         rest -= square
+        first = [simplify(c - pivot * a * shift) for c, a in zip(first, along, strict=True)]
         second = [
             [simplify(second[a][b] - pivot * along[a] * along[b]) for b in range(len(momenta))]
             for a in range(len(momenta))

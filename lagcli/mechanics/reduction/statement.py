@@ -34,6 +34,7 @@ from lagcli.expression import (
 )
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.readable import Readable
 from lagcli.mechanics.reduction.effective_potential import effective_potential
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Motion
 from lagcli.mechanics.reduction.one_freedom import free_name
@@ -70,9 +71,9 @@ class _Statement:
 
     def section(self) -> tuple[ReductionSection, Missing]:
         routh = self.routh
+        full = routh.full.dynamics
         momenta = {
-            self.names[j]: terms(routh.full.dynamics.lagrange.momenta[j], self.order, self.fast)
-            for j in routh.cyclic
+            self.names[j]: Readable(full).linear(full.lagrange.momenta[j]) for j in routh.cyclic
         }
         reduced = routh.reduced
         if reduced is None or routh.velocities is None:

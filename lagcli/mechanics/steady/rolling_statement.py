@@ -8,6 +8,7 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import written
+from lagcli.algebra.positivity import vanishing_part
 from lagcli.expression import Expression
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
@@ -45,7 +46,10 @@ def rolling_section(found: RollingMotions) -> SteadySection:
     """The conditions, and each motion with its stability."""
     names, order = found.system.names, found.system.order
     return SteadySection(
-        conditions={names[j]: written(_numerator(c), order) for j, c in found.conditions.items()},
+        conditions={
+            names[j]: written(vanishing_part(_numerator(c)), order)
+            for j, c in found.conditions.items()
+        },
         motions=tuple(_motion(found, motion) for motion in found.motions or ()),
         complete=found.complete,
         unless=() if found.motions else unless_written(found.unless, order),

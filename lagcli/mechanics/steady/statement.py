@@ -13,7 +13,7 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import rounded, written
 from lagcli.algebra.place import at
-from lagcli.algebra.positivity import without_moduli
+from lagcli.algebra.positivity import vanishing_part, without_moduli
 from lagcli.expression import Expression
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
@@ -82,7 +82,7 @@ class _SteadyStatement:
         found = steady.motions
         cyclic = tuple(steady.full.names[j] for j in self.routh.cyclic)
         conditions = (
-            {str(k): self._shape(c) for k, c in enumerate(steady.balance)}
+            {str(k): self._shape(vanishing_part(c)) for k, c in enumerate(steady.balance)}
             if self.routh.quadratic
             else {}
         )
