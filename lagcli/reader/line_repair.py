@@ -72,7 +72,7 @@ def _grouped(line: str) -> str:
     """`V: (m/2)*x` for `V: {m/2}*x`, `[m/2]*x` and `"m/2"*x`."""
     found = _ENTRY.fullmatch(line)
     group = None if found is None else _GROUP.fullmatch(found["value"])
-    if found is None or group is None:
+    if found is None or group is None or found["key"].strip(" :") in _TEXTS:
         return line
     inner = next(each for each in group.groups()[:-1] if each is not None)
     return f"{found['key']}({inner}){group['rest']}"

@@ -52,7 +52,8 @@ def with_whole(
     read
         Reads an expression, an equation or a comparison.
     """
-    if all(each.hint.startswith("did you mean '") for each in found):
+    stated = what == "dissipation" and "=" in node.value  # as a force: -c*x'
+    if stated or all(each.hint.startswith("did you mean '") for each in found):
         return found
     for written in _written(node.value, scope, equation=read is not read_expression):
         try:

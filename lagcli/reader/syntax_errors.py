@@ -141,7 +141,7 @@ def _missing_product(
         return Diagnostic("a formula is no program", span, f"write {written}")
     if left.type == "NUMBER" and str(right) == "percent":
         return Diagnostic("'percent' has no meaning", span, f"write {left}/100")
-    if "where" in {left, right} and "=" in excerpt.value:
+    if {"where", "with"} & {left, right} and re.search("[=<>]", excerpt.value):
         return Diagnostic("a formula has no conditions", span, "values stand under 'parameters'")
     if {str(left), str(right)} & CASES:
         return Diagnostic("a formula has no cases", span, CASE)

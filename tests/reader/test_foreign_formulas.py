@@ -94,6 +94,12 @@ NAMES = Vocabulary(("x", "theta"), frozenset({"m", "k", "g", "l", "a", "t", "pi"
         ("9,81 x", "9.81*x"),
         ("k*sin(30°)", "k*sin(30*pi/180)"),
         ("x == l", "x = l"),
+        ("½mlẋθ̇cosθ", "(1/2)*m*l*x'*theta'*cos(theta)"),
+        (r"k\sqrt[3]{x}", "k*x^(1/3)"),
+        ("m l²/2 (θ̇² + 1)", "m*l^2/2*(theta'^2 + 1)"),
+        ("self.m*self.dx**2", "m*x'^2"),
+        ("m＊x'ˆ2", "m*x'^2"),
+        ("m*Derivative[1][x][t]^2", "m*x'^2"),
     ],
 )
 def test_a_formula_is_read_as_its_author_reads_it(text, meant):
@@ -103,7 +109,7 @@ def test_a_formula_is_read_as_its_author_reads_it(text, meant):
 @pytest.mark.parametrize(
     "text",
     ["a/l x", "cos a x", "sin x^2", "sin x/2", "e^2x", "1,000*x", "U(x)", "x(t - 1)", "k*(x", "x y)",
-     "a(t)", "x^2^2", "k*x if x > 0 else 0"],
+     "a(t)", "x^2^2", "k*x if x > 0 else 0", "m*g*x [J]", "x'2"],
 )  # fmt: skip
 def test_what_may_mean_two_things_is_not_translated(text):
     with pytest.raises(Unclear):

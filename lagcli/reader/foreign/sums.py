@@ -33,7 +33,7 @@ class Sums(ABC):
     """One text on its way; each method takes a part of it from the left."""
 
     def __init__(self, text: str, names: Vocabulary) -> None:
-        self.tokens = tokens(prepared(text, names))
+        self.tokens = tokens(prepared(text, names), names)
         self.names = names
         self.at = 0
         self.depth = 0
@@ -114,7 +114,8 @@ class Sums(ABC):
             elif token is not None and self.begins(token):
                 above = text.rpartition("*")[2].partition("/")[0]
                 tells = _number(last.text) and (
-                    _number(above) or (token.apart and "*" not in text.partition("/")[0])
+                    _number(above)
+                    or (token.apart and (self.sign() == "(" or "*" not in text.partition("/")[0]))
                 )
                 if token.kind == "number":
                     raise Unclear  # x'2

@@ -6,7 +6,8 @@ import re
 import unicodedata
 from typing import NamedTuple
 
-from lagcli.reader.foreign.words import Vocabulary
+from lagcli.reader.foreign.words import Unclear, Vocabulary, parts_of
+from lagcli.reader.habits import unit_behind
 
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻½⅓⅔¼¾⅛"
 _LETTER = rf"[^\W\d{RAISED}]"
@@ -54,6 +55,9 @@ class Token(NamedTuple):
 
 def prepared(text: str, names: Vocabulary) -> str:
     """With the marks of web pages, v² and Leibniz' derivatives in the notation of a file."""
+    behind = re.search(r"\[([^\[\]]+)\]\s*$", text)
+    if behind and unit_behind(f"1 {behind[1]}"):
+        raise Unclear  # m*g*y [J]
     text = "".join(map(_on_the_keyboard, _RATE_OF_VECTOR.sub(r"\\vec{v}", text)))
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
     text = re.sub(r"(?<=\w)//(?=\w)", "/", text.strip(" =").rstrip(";,"))
@@ -96,7 +100,7 @@ def _leibniz(text: str, names: Vocabulary) -> str:
     return text
 
 
-def tokens(text: str) -> list[Token]:
+def tokens(text: str, names: Vocabulary) -> list[Token]:
     """The pieces of a text."""
     found = []
     at, apart = 0, False
@@ -105,7 +109,10 @@ def tokens(text: str) -> list[Token]:
         assert match is not None
         at = match.end()
         kind = match.lastgroup or ""
-        if kind != "skip":
+        if kind == "name":
+            first, *others = parts_of(match[0], names)
+            found += [Token(kind, first, apart), *(Token(kind, each, False) for each in others)]
+        elif kind != "skip":
             found.append(Token(kind, match[0], apart))
         apart = kind == "skip"
     return found

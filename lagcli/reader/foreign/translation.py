@@ -81,6 +81,9 @@ class _Translation(Functions):
         if word in {"frac", "dfrac", "tfrac"}:
             above, below = self.argument(), self.argument()
             return Part(f"{above.within(1)}/{below.within(2)}", 1)
+        if word == "sqrt" and self.sign() == "(" and self.tokens[self.at].text == "[":
+            degree = self.argument()
+            return Part(f"{self.argument().within(3)}^(1/{degree.within(2)})", 2)
         if word == "sqrt":
             return Part(f"sqrt({bare(self.argument())})", 3, is_call=True)
         if word in {"dot", "ddot"}:

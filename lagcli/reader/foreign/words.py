@@ -7,13 +7,17 @@ import unicodedata
 from typing import NamedTuple
 
 from lagcli.expression import FUNCTIONS
-from lagcli.notation.greek import BY_LETTER
-from lagcli.reader.habits import is_angle, meanings, product_meant
+from lagcli.notation.greek import BY_NAME
+from lagcli.reader.habits import is_angle, meanings
 from lagcli.reader.suggest import alike
 
 _DOTS = {"\u0307": 1, "\u0308": 2}
 #: Letters that are a velocity of the only coordinate: v of x, ω of an angle.
 VELOCITIES = frozenset({"v", "velocity", "speed", "omega", "ω"})
+
+
+#: A longer word is no product; one of Latin letters without a function is none that is as long.
+_LONGEST, _LETTERS = 40, 8
 
 
 class Unclear(Exception):
@@ -54,13 +58,31 @@ def meant(word: str, names: Vocabulary) -> tuple[str, int]:
             return same, primes
     if plain in meanings("functions") and meanings("functions")[plain] == "pi":
         return "pi", primes
-    rate = rate_meant(plain, names)
-    in_full = "".join(BY_LETTER.get(letter, letter) for letter in plain)
-    short = plain if len(plain) < 9 else ""
-    product = product_meant(short, known) or (product_meant(in_full, known) if short else "")
-    if rate and product:
-        raise Unclear
-    return rate or (product or plain, primes)
+    return rate_meant(plain, names) or (plain, primes)
+
+
+def parts_of(word: str, names: Vocabulary) -> list[str]:
+    """The letters of `mgl` and of `mlẋθ̇cosθ`; the word itself where it is no product of them."""
+    if word in {*names.known, *names.functions} or function_named(word, names):
+        return [word]
+    apart = unicodedata.normalize("NFD", word)
+    letters = {each: BY_NAME[each] for each in names.known if each in BY_NAME}
+    spelled = sorted({*names.known, *letters.values(), *FUNCTIONS}, key=len, reverse=True)
+
+    def split(text: str) -> list[str] | None:
+        if not text:
+            return []
+        for each in (unicodedata.normalize("NFD", name) for name in spelled):
+            end = len(each)
+            while text.startswith(each) and text[end : end + 1] in _DOTS and end < len(text):
+                end += 1
+            if text.startswith(each) and (rest := split(text[end:])) is not None:
+                return [unicodedata.normalize("NFC", text[:end]), *rest]
+        return None
+
+    found = split(apart) if len(apart) <= _LONGEST else None
+    is_long = word.isascii() and len(word) > _LETTERS and not any(map(word.__contains__, FUNCTIONS))
+    return [word] if found is None or is_long else found
 
 
 def function_named(word: str, names: Vocabulary) -> str:
