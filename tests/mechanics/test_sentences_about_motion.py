@@ -7,7 +7,10 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+import sympy
 
+from lagcli.algebra.positivity import sign_given
+from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.options import Options
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.mechanics.steady.statement import steady_motions
@@ -188,3 +191,33 @@ def test_a_pole_is_no_family(drag):
     [pole] = [e for e in found if "b" in e.indeterminate and e.verdict.minimum]
     assert not pole.verdict.across
     assert "family" not in answered(text, "equilibria").split("a = 0:")[-1].split("a = π:")[0]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_sign_that_a_condition_gives_holds_where_the_condition_does(seed):
+    """Random polynomials under a random condition, at random values that fulfil it."""
+    source, letters = random.Random(seed), sympy.symbols("a b c d", positive=True)
+    decided = 0
+    for _ in range(12):
+        p, q, r = (sympy.Mul(*source.sample(letters, source.randint(1, 2))) for _ in range(3))
+        condition = p - source.randint(1, 3) * q
+        expression = source.choice((1, -1)) * (r * condition + source.choice((1, -1)) * r * p)
+        known = sign_given(sympy.expand(expression), [condition])
+        for _ in range(60 if known else 0):
+            values = {s: 10 ** source.uniform(-1, 1) for s in letters}
+            if condition.subs(values) > 0:
+                decided += 1
+                assert expression.subs(values) * known > 0
+    assert decided
+
+
+def test_no_condition_is_stated_that_existence_excludes():
+    """Upside down in a turning frame it exists where k l > m g, and is never a minimum there."""
+    text = (
+        "coordinates: {r: {assume: positive}, a: {}}\n"
+        f"{_POSITIVE.replace('}}', '}, l: {assume: positive}}')}\n"
+        "L: m*(r'^2 + r^2*a'^2 + c^2*r^2*sin(a)^2)/2 + m*r*cos(a) - k*(r - l)^2/2\n"
+    )
+    found = equilibria(derive(text).dynamics).equilibria
+    upside_down = [e for e in found if to_grammar(e.at["a"]) == "pi"]
+    assert [e.verdict.stable for e in upside_down] == [False]

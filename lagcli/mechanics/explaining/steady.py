@@ -154,7 +154,7 @@ def _motion(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
         yield equations_of((Name(f"p_{name}"), p) for name, p in momenta.items())
         yield from two_rates(teller, motion)
     if motion.mirrored:
-        yield says("It exists with the opposite signs of these velocities and momenta too.")
+        yield says("The same holds with the opposite signs of these velocities and momenta.")
     if motion.where:
         yield says("It is possible for ", conditions(motion.where), ".")
     if motion.mass:
