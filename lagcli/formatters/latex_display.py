@@ -85,13 +85,15 @@ class LatexDisplay:
         return (sign, *inner, TextPiece(rf"\,\mathrm{{d}}{name}", 8.0 + width))
 
     def equations(self, block: Equations) -> Iterator[Display]:
-        """Set the displays of a block: rows with narrow left sides share one."""
+        """Set the displays of a block: rows share one with narrow left sides, or of one line."""
         shown = [self._shown(row) for row in block.rows]
         for narrow, rows in groupby(shown, key=lambda each: each.narrow):
             if narrow:
                 yield self._aligned(list(rows))
-            else:
-                yield from ([Set(row.formula, [*self._wide(row)])] for row in rows)
+                continue
+            display = [Set(row.formula, [*self._wide(row)]) for row in rows]
+            short = all(len(each.lines) == 1 for each in display)
+            yield from [display] if short else ([each] for each in display)
 
     def matrix(self, matrix: Matrix) -> Iterator[Display]:
         """Set a matrix in brackets, or its entries one by one where it is too wide."""
