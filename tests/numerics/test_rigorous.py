@@ -139,6 +139,20 @@ def test_a_collision_ends_the_proof_before_it(capsysbinary):
     assert status == 1
     assert content["refused"]["at"] == content["certificate"]["holds_until"] == 1.0
     assert content["rows"][-1][0] == 1.0
+    assert content["refused"]["reason"].endswith("the motion comes to a singularity")
+
+
+@pytest.mark.long
+def test_a_perihelion_of_a_millionth_is_passed():
+    """The semiaxis is 1: after 2 pi the motion is where it began."""
+    problem = lagcli.loads(
+        "{coordinates: [x, y], L: (x'^2 + y'^2)/2 + 1/sqrt(x^2 + y^2), "
+        "initial: {x: 2 - 1e-6, y': sqrt(2/(2 - 1e-6) - 1)}}"
+    )
+    found = prove(problem, asked_of(problem, until="2*pi", accuracy=1e-6, samples=2))
+    assert found.reached, found.refusal
+    for before, after in zip(found.rows[0][1:], found.rows[-1][1:], strict=True):
+        assert after.overlaps(before)
 
 
 def test_rows_where_a_column_is_next_to_0_get_the_bits_that_they_need():

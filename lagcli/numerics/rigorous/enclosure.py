@@ -54,8 +54,7 @@ _WIDE_BITS = 64
 #: Q beside K.  The flow multiplies radii only: at the usual lengths its remainder is 1e-6 of it.
 _FLOW_ORDER = 0.4
 #: E beside the error at the beginning, at first, and then beside the growth in the last step.
-_ROOM, _GROWN, _WIDEST = 1e3, 2.0, 1e9
-_TUBES = 4
+_ROOM, _GROWN, _WIDEST, _TUBES = 1e3, 2.0, 1e9, 4
 #: L - K beside K: what F_L overestimates weighs little then, and steps are nearly twice as long.
 _AHEAD = 0.6
 #: What D may be of P, on the errors at hand: 1000 steps widen them by a percent.
@@ -66,11 +65,10 @@ _SHORTER, _LONGER, _LEAST_PART, _ATTEMPTS = 0.85, 1.02, 0.01, 120
 #: Far from a narrow feature the last coefficients are 0 and say nothing of the length: a defect
 #: that stays too large after _FEW attempts halves the step; the next begins at _FARTHER times it.
 _FEW, _FARTHER = 4, 4.0
-#: A step that is a smaller part of the span comes to a set grown too wide, or to a singularity.
-_SHORTEST, _SINGULAR = 1e-10, 1e-13
-_LARGEST = 1e15
-#: As an exponent of 2.
-_LONGEST = 50.0
+#: A step that is a smaller part of what the Taylor series allows comes to a set grown too wide, a
+#: smaller part of the span to a singularity: a perihelion of 5e-8 needs 1e-13 of 14 units.
+_SHORTEST, _SINGULAR = 1e-3, 1e-16
+_LARGEST, _LONGEST = 1e15, 50.0  # the second is an exponent of 2
 #: The bounds over a step hold a little longer: the ball of a time may lie across its end.
 _BEYOND = 1 + 2.0**-20
 
@@ -81,6 +79,10 @@ class NotEnclosed(Exception):
 
 class ShortSteps(NotEnclosed):
     """The width of the set shortens the steps, which more bits may lengthen."""
+
+
+class Singularity(NotEnclosed):
+    """The Taylor series itself allows no step, which more bits do not change."""
 
 
 class TriedStep:
@@ -165,10 +167,10 @@ class Enclosures:
         """The end of a step for which bounds are found, and these."""
         polynomials = [*centre, *self.field.forces(t, centre)]
         ahead = self.field.left([t, 1], polynomials, self.order, round((1 + _AHEAD) * self.order))
-        h = min(self._part * self._length(centre), _FARTHER * self._last, float(until - t))
-        wide = False
+        allowed, wide = self._length(centre), False
+        h = min(self._part * allowed, _FARTHER * self._last, float(until - t))
         for attempt in range(_ATTEMPTS):
-            if h < (_SHORTEST if wide else _SINGULAR) * float(until):
+            if h < max(wide * _SHORTEST * allowed, _SINGULAR * float(until)):
                 break
             end = until if t + 1.05 * h >= until else self._ball(float(t + h))
             trial, flow = TriedStep(t, (end - t).abs_upper() * _BEYOND, polynomials), None
@@ -187,10 +189,9 @@ class Enclosures:
                 h, self._part = _SHORTER * h, max(_LEAST_PART, _SHORTER * self._part)
             else:
                 h /= 2
-        raise NotEnclosed(
-            "no enclosure was found over any step: the set has grown too wide, or the motion "
-            "comes to a singularity"
-        )
+        if allowed < _SINGULAR / _SHORTEST * float(until):
+            raise Singularity("the motion comes to a singularity")
+        raise NotEnclosed("no enclosure was found over any step: the set has grown too wide")
 
     @property
     def scales(self) -> list[float]:

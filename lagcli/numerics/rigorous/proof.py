@@ -12,7 +12,7 @@ from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.hybrid.request import Asked, Progress
 from lagcli.numerics.rigorous.accumulation import rest_after
 from lagcli.numerics.rigorous.crossings import UndecidedCrossing, Watched, behind, when
-from lagcli.numerics.rigorous.enclosure import NotEnclosed, ShortSteps
+from lagcli.numerics.rigorous.enclosure import NotEnclosed, ShortSteps, Singularity
 from lagcli.numerics.rigorous.initial import initial_state, setup_of
 from lagcli.numerics.rigorous.modes import ProofMode, ProofModes
 from lagcli.numerics.rigorous.piece import Piece
@@ -133,7 +133,7 @@ class Attempt:
         #: radius beside the scale of a component, the largest, at the last time
         self.width = 0.0
         self.last = 0.0
-        self.short, self.excess = False, 0.0
+        self.short, self.excess, self.singular = False, 0.0, False
         self.rows = Rows(setup, self.arithmetic)
 
     def proof(self) -> Proof:
@@ -142,6 +142,7 @@ class Attempt:
             self._go()
         except NotEnclosed as reason:
             self.refusal, self.short = str(reason), isinstance(reason, ShortSteps)
+            self.singular = isinstance(reason, Singularity)
             if isinstance(reason, UndecidedCrossing) and self.rows.impacts_accumulate():
                 self.refusal += ", where impacts accumulate: what follows them is not enclosed"
                 self.short = self.bits < _ACCUMULATED
@@ -174,6 +175,8 @@ class Attempt:
     def bits_needed(self) -> int:
         """For the whole span, by what was lost so far; 0 where more do not help."""
         accuracy, until = self.setup.asked.accuracy, self.setup.asked.until
+        if self.singular:
+            return 0
         if self.short:
             return self.bits + _MORE_BITS
         if self.rows.complete and 1 < self.excess < math.inf:
