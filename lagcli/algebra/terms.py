@@ -30,6 +30,7 @@ from lagcli.expression import (
     Sum,
     length,
     operation_count,
+    terms_of,
     walk,
 )
 from lagcli.notation.ordering import is_letter
@@ -93,8 +94,10 @@ def terms(
         static = given_rest
     elif len(at_rest) > 1 and not as_given:
         apart = writer.sum(shaper.shape(field(part)) for part in at_rest)
-        if operation_count(apart) <= operation_count(static):
-            static = apart  # k1 (x - l1) - k2 (y - x - l2), the terms of V differentiated
+        # k1 (x - l1) - k2 (y - x - l2), the terms of V differentiated; not x (U/d² - B²/m)
+        most = _GIVEN if any(map(_holds_fraction, terms_of(static))) else 1
+        if operation_count(apart) <= most * operation_count(static):
+            static = apart
     result = writer.sum([*split.moving, static])
     if not growth.is_one():
         one = Fraction(1)
