@@ -1,8 +1,8 @@
 """Poincaré sections: the states in which a motion passes a surface, or at every period of a drive.
 
-Where the surface is passed is found from the rows of the motion: the polynomials through ten of
-them around a change of sign have the root and the state in it. Forty rows a turn leave 1e-11 of an
-oscillation, and 1e-5 of its fifth harmonic.
+Where the surface is passed is found from the rows of the motion: the polynomials through twelve
+of them around a change of sign have the root and the state in it. At 24 rows a turn that leaves
+5e-12 of an oscillation, and 3e-6 of its third harmonic.
 
 References
 ----------
@@ -29,8 +29,8 @@ from lagcli.reader.columns import Column, phase_columns, read_along
 from lagcli.record import record, replace
 
 #: Rows at first and at most, rows between two passages at least, and what more is taken.
-_FIRST, _MOST, _BETWEEN, _MORE = 1001, 200_000, 40, 1.25
-_PLACES = 10
+_FIRST, _MOST, _BETWEEN, _MORE = 1001, 200_000, 24, 1.5
+_PLACES = 12
 _SECTION = "the section"
 #: Fewer points do not show what the motion is like.
 _FEW = 20
