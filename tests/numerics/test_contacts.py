@@ -384,3 +384,39 @@ def test_no_row_lies_behind_a_strike_that_is_within_the_error(seed):
         back = max(0.0, t - strike)
         assert abs(y - (2 * t - t * t - 4 * math.sqrt(depth) * back)) <= 2e-6
         assert abs(v - (2 - 2 * t - 4 * math.sqrt(depth) * (back > 0))) <= 4e-6
+
+
+def test_two_grazes_in_turn_are_bounded():
+    """The second disc is met at 3.7e-5 from its edge: errors grow 40000 times by both."""
+    from mpmath import mpf, sqrt, workdps
+
+    x2, y2, start, speed = "6.0022491906073", "0.027808361289384", "0.9999973236052108", "1.622"
+    text = f"""
+coordinates: [x, y]
+T: (x'^2 + y'^2)/2
+contacts:
+  disc: {{gap: x^2 + y^2 - 1 >= 0, restitution: 1}}
+  other: {{gap: (x - {x2})^2 + (y - {y2})^2 - 1 >= 0, restitution: 1}}
+initial: {{x: -3, y: {start}, x': {speed}}}
+"""
+    until = 8.5
+    result = simulated(text, until, 1e-9, "x,y", samples=2)
+    assert result.certificate.reached
+    with workdps(40):
+        place, velocity, left = (mpf(-3), mpf(start)), (mpf(speed), mpf(0)), mpf(until)
+        for centre in ((mpf(0), mpf(0)), (mpf(x2), mpf(y2))):
+            u, v = place[0] - centre[0], place[1] - centre[1]
+            square = velocity[0] ** 2 + velocity[1] ** 2
+            half = u * velocity[0] + v * velocity[1]
+            time = (-half - sqrt(half**2 - square * (u**2 + v**2 - 1))) / square
+            place = tuple(x + time * w for x, w in zip(place, velocity, strict=True))
+            normal = tuple(x - c for x, c in zip(place, centre, strict=True))
+            along = 2 * sum(n * w for n, w in zip(normal, velocity, strict=True))
+            velocity = tuple(w - along * n for n, w in zip(normal, velocity, strict=True))
+            left -= time
+        exact = [x + left * w for x, w in zip(place, velocity, strict=True)]
+    certificate = result.certificate
+    for name, x, y, scale in zip(
+        "xy", result.rows[-1][1:], exact, certificate.scales[1:], strict=True
+    ):
+        assert abs(x - y) <= certificate.global_error[name] * scale + 1e-15

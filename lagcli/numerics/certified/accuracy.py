@@ -224,8 +224,7 @@ class Controller:
         A fast clock may cancel what a motion feels of its initial values: a slow one then does not.
         """
         again = self._compared(*third, found.run, found.rows, found.tolerances)
-        worse = max(found, again, key=lambda each: (-each.good_rows, not each.reached, *each.held))
-        return replace(worse, is_against_two=True)
+        return replace(worse(found, again), is_against_two=True)
 
     def _run(
         self, tolerance: float, level: int, before: Run | None, *, slow: bool = False
@@ -376,6 +375,20 @@ def _distances(coarse: Sequence[Any], fine: Sequence[Any], factor: float) -> lis
     """Of the values of a column in two runs, this factor times |a - b|; 0 where one has none."""
     pairs = zip(coarse, fine, strict=False)
     return [0.0 if a is None or b is None else factor * abs(float(a - b)) for a, b in pairs]
+
+
+def worse(one: Outcome, other: Outcome) -> Outcome:
+    """Of two comparisons the one with fewer rows; the larger bounds where both reach the end."""
+    found = max(one, other, key=lambda each: (-each.good_rows, not each.reached, *each.held))
+    if not (one.reached and other.reached):
+        return found
+    (least, largest), (others_least, others_largest) = one.multiples, other.multiples
+    return replace(
+        found,
+        errors=[*map(max, one.errors, other.errors)],
+        held=[*map(max, one.held, other.held)],
+        multiples=(min(least, others_least), max(largest, others_largest)),
+    )
 
 
 def ended(outcome: Outcome, place: RankPlace) -> Outcome:
