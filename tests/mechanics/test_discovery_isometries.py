@@ -144,5 +144,7 @@ def test_two_bodies_have_total_momentum_in_polar_coordinates(name, V):
     if V == "-k/sqrt(D)":
         assert found.name == "Galilei in 2 dimensions + R, modulo constants"
         assert (len(linear), found.dimension) == (6, 7)
+        assert len(derivation.discovery.hidden_charges) == 2  # the Runge-Lenz vector
+        assert derivation.discovery.stopped == []
     assert (found.in_involution, found.integrable) == (4, True)
     assert min(digits_of(derivation).values()) > 20

@@ -54,8 +54,12 @@ class ExactSolver:
     ) -> dict[int, Expr] | None:
         """Coefficients by column for those modulo the prime; None where they were not found."""
         indices = sorted(vector)
-        values = self.recognized([vector[i] for i in indices])
-        values = values or self.solved([column(i) for i in indices])
+        numbers = [vector[i] for i in indices]
+        values = (
+            self.recognized(numbers)
+            or self.recognized(numbers, differences=True)
+            or self.solved([column(i) for i in indices])
+        )
         return None if values is None else dict(zip(indices, values, strict=True))
 
     # -- by recognition -------------------------------------------------------------------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 
 import sympy
 from sympy import Expr, Symbol
@@ -72,7 +73,11 @@ class Relation:
 
     def exact(self, vector: dict[int, int]) -> dict[int, Expr] | None:
         """The coefficients of one of them; None where they were not found."""
-        return ExactSolver(self.tree.points).of(vector, self.vectors.__getitem__)
+        return self._solver.of(vector, self.vectors.__getitem__)
+
+    @cached_property
+    def _solver(self) -> ExactSolver:
+        return ExactSolver(self.tree.points)
 
     def all(self) -> Iterator[dict[int, Expr]]:
         """Those of the basis whose coefficients were found."""
