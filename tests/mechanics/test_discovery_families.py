@@ -168,6 +168,10 @@ V: {V.replace("R", R).replace("kexp", "k*exp")}
 @pytest.mark.parametrize(
     ("parameters", "coordinates", "L", "values"),
     [
+        # damped with x^3, x^2 and x^5: Leach, J. Math. Phys. 26 (1985) 2510
+        ("{c: POS, a: POS}", "[x]", "exp(c*t)*(x'^2/2 - a*x^2/2 - x^4/4)", "a=2*c**2/9"),
+        ("{c: POS, a: POS}", "[s]", "exp(-2*c*t)*(s'^2/2 - a*s^2/2 + s^3)", "a=24*c**2/25"),
+        ("{c: POS, a: POS}", "[x]", "exp(c*t)*(x'^2/2 - a*x^2/2 - x^6)", "a=3*c**2/16"),
         # a power is linear at n = 2, constant at n = 1; -2: Jackiw, Physics Today 25 (1972) 23
         ("{m: POS, k: POS, n: {}}", f"{{x: {POS}}}", "m*x'^2/2 - k*x^n", "n=0 n=1 n=2 n=-2"),
         ("{m: POS, k: POS, j: {}}", f"{{s: {POS}}}", "m*s'^2/2 - k*s^(2*j)", "j=0 j=1/2 j=1 j=-1"),

@@ -143,6 +143,25 @@ def linear_powers(equations: SlotEquations) -> list[Expr]:
     return [e - k for e in sorted(open_, key=sympy.default_sort_key) for k in (0, 1)]
 
 
+def damped_powers(
+    accelerations: Sequence[Expr], exponents: Sequence[Exponent], q: Sequence[Symbol]
+) -> Iterator[Expr]:
+    """What vanishes where x'' + c x' + a x = b x^n has an integral that grows as exp of time.
+
+    The two exponents, with the sum -c and the product a, then have the ratio (n + 1)/2, as
+    9 a = 2 c^2 for n = 3 (Leach, J. Math. Phys. 26 (1985) 2510).
+    """
+    damped = [each for each in exponents if each.growth != 0 != each.frequency]
+    if not damped:
+        return
+    terms = [term for each in accelerations for term in sympy.Add.make_args(sympy.expand(each))]
+    degrees = {sympy.Poly(term, *q).total_degree() for term in terms if term.is_polynomial(*q)}
+    for each in damped:
+        square = each.growth**2 + each.frequency**2
+        for n in sorted(degree for degree in degrees if degree > 1):
+            yield sympy.expand(8 * (n + 1) * each.growth**2 - (n + 3) ** 2 * square)
+
+
 # -- candidates ---------------------------------------------------------------------------
 
 

@@ -21,6 +21,7 @@ from lagcli.mechanics.discovery.special import (
     SpecialCase,
     Value,
     candidates,
+    damped_powers,
     exchanged,
     linear_powers,
     new_charges,
@@ -58,6 +59,8 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
             values = exchanged(discovery.dynamics)
         else:
             factors = [*_factors(discovery, allowed), *linear_powers(discovery.equations)]
+            linear = discovery.accelerations or (), discovery.time_functions.exponents, system.q
+            factors += damped_powers(*linear)
             values = candidates(system, factors, _exponents(discovery))
         if len(values) > _MOST_VALUES:
             discovery.words.append(_NOT_TRIED)
