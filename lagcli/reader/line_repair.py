@@ -91,6 +91,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
     lambda line: re.sub(r"^(\s*\"?[^\W\d]\w*\"?)\s*(?:<-|←|:=|->|→|=>|=)\s*", r"\1: ", line),
     _formula,
+    lambda line: re.sub(r"^(\s*[\w ]+:\s+)-\s+(?=\S)", r"\1-", line),
     _grouped,
     lambda line: re.sub(r"^(\s*)-\s+(?=[^\W\d]\w*:\s)", r"\1", line),
     lambda line: re.sub(r"^(\s*[^\W\d]\w*);\s", r"\1: ", line),

@@ -121,7 +121,10 @@ def _declared(
     """The names of a list or of a map's keys, as far as they could be declared."""
     entries: list[tuple[Scalar, DocumentNode | None]]
     if given := _pairs(node):
-        file.error(f"{section} with values are a map", node.span, f"write {{{given}}}")
+        listed = ", ".join(re.findall(r"(\w+):", given))
+        state = f"write [{listed}], and below it initial: {{{given}}}"
+        hint = state if section == "coordinates" and "{" not in given else f"write {{{given}}}"
+        file.error(f"{section} with values are a map", node.span, hint)
         file.scope.refused.append("")
         return
     if isinstance(node, Mapping):

@@ -64,6 +64,9 @@ class Functions(Sums):
         if part.level < 3 or self.sign() in {"/", "^"} or (text and function == "sqrt"):
             raise Unclear  # sin x^2, sin x/2
         text += part.text
+        time = self.peek()
+        if time is not None and time.text == "t" and part.text not in self.names.coordinates:
+            text += f"*{self.power().text}"  # cos ωt
         if part.text.rstrip("'") not in self.names.coordinates and self.is_name(self.peek()):
             raise Unclear  # cos a x
         return Part(f"{function}({text})", 3, is_call=True)

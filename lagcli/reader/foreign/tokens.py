@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from html import unescape
 from typing import NamedTuple
 
 from lagcli.reader.foreign.words import Unclear, Vocabulary, parts_of
@@ -55,6 +56,7 @@ class Token(NamedTuple):
 
 def prepared(text: str, names: Vocabulary) -> str:
     """With the marks of web pages, v² and Leibniz' derivatives in the notation of a file."""
+    text = re.sub(r"^\s*r?(['\"])(.*)\1\s*$", r"\2", unescape(text))
     behind = re.search(r"\[([^\[\]]+)\]\s*$", text)
     if behind and unit_behind(f"1 {behind[1]}"):
         raise Unclear  # m*g*y [J]
