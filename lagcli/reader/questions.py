@@ -15,8 +15,6 @@ from lagcli.problem_data import (
     SimulationDefaults,
     Where,
 )
-from lagcli.reader.foreign.translation import translated
-from lagcli.reader.foreign.words import Unclear, Vocabulary
 from lagcli.reader.habits import name_meant
 from lagcli.reader.misshapen import range_end
 from lagcli.reader.names import derivative_order
@@ -104,6 +102,9 @@ def _state_name(
 
 def _translated(name: str, coordinates: list[str]) -> str:
     """`x'` for dx/dt, v, xdot and x'(0); nothing for what is no coordinate and no velocity."""
+    from lagcli.reader.foreign.translation import translated
+    from lagcli.reader.foreign.words import Unclear, Vocabulary
+
     try:
         meant = translated(name, Vocabulary(tuple(coordinates), frozenset()))
     except Unclear:
