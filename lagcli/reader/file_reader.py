@@ -108,6 +108,8 @@ class FileReader:
 
     def by_name(self, node: DocumentNode) -> str:
         """How a list or a text of values is written as a map by coordinate."""
+        if isinstance(node, Mapping):
+            return ""
         names = list(self.scope.of_kind("coordinate")) or ["x"]
         written = node.text.source.text[node.start : node.end].strip("[] \n")
         stated = [(self._meant(name), value) for name, value in _GIVEN.findall(written)]
