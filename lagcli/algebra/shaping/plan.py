@@ -105,7 +105,7 @@ def product(
         coefficient = _halved(atoms, coefficient, signed)
     above = below = cost = strain = 0
     fractional = int(coefficient.denominator != 1)
-    over = any(e < 0 for _, e in signed)
+    over = any(e < 0 and isinstance(p, int) and atoms.is_letter(p) for p, e in signed)
     for part, exponent in signed:
         size = abs(exponent)
         if isinstance(part, PlannedSum):
