@@ -13,6 +13,7 @@ from itertools import combinations
 
 import sympy
 from sympy import Expr, Symbol
+from sympy.functions.elementary.trigonometric import InverseTrigonometricFunction
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients, solve_for
@@ -246,12 +247,24 @@ class _Solver:
         )
         # sqrt(k)/k is nowhere 0
         factors = [
-            _with_equal_bases(f) for f in factors if not (f.is_Pow and _divides(f.base, below))
+            _with_equal_bases(f)
+            for f in factors
+            if not (f.is_Pow and f.exp.is_number and _divides(f.base, below))
         ]
         if field.doubtful and any(is_zero(f) is None and abs(_value(f)) < 1e-25 for f in factors
                                   if not f.free_symbols):  # fmt: skip
             return None
-        return [f for f in factors if self._in(f) and sign(f) not in (1, -1)]
+        open_ = [f for f in factors if self._in(f) and sign(f) not in (1, -1)]
+        # sin(y - 2 x) is not multiplied out: its roots are y = 2 x + n pi
+        whole = len(open_) == 1 and not field.ring.used(element.denominator)
+        return [equation] if whole and self._is_one_wave(equation) else open_
+
+    def _is_one_wave(self, equation: Expr) -> bool:
+        """Whether the unknowns occur in one sine or cosine of several of them alone."""
+        waves = [f for f in equation.atoms(sympy.sin, sympy.cos) if self._in(f)]
+        if len(waves) != 1:
+            return False
+        return not self._in(equation.xreplace({waves[0]: sympy.Dummy()}))
 
     def _solvable(self, factor: Expr) -> bool:
         unknowns = self._in(factor)
@@ -477,6 +490,8 @@ def _substituted(expression: Expr, unknown: Symbol, root: Expr) -> Expr:
     """The root put in, sines of multiples expanded first so that sin(acos(k)) is radical."""
     if unknown not in expression.free_symbols:
         return expression
+    if not root.has(InverseTrigonometricFunction):
+        return expression.subs(unknown, root)
     field = Field([expression])
     try:
         return field.to_sympy(field(expression)).subs(unknown, root)

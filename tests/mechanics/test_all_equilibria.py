@@ -261,3 +261,58 @@ V: -m*g*l*(cos(theta_1) + cos(theta_2)) + k*(theta_1 - theta_2)^2/2
     rest = RestPoints(derive(text.replace("POSITIVE", "{assume: positive}")).dynamics)
     assert rest.points is not None
     assert {0} in [set(point.values.values()) for point in rest.points]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_time_cancels_in_a_frame_that_turns(seed):
+    """A bead on a hoop about a point at the distance b, by its position in the laboratory.
+
+    m r² θ'' = -m r b w² sin(θ - a): only the two points on the line of the centres.
+    """
+    source = random.Random(seed)
+    a, axis = source.choice(("0", "pi/3")), source.choice(("z", "-z"))
+    out, across = (f"(b*{f}(w*t) + r*{f}(w*t + theta - {a}))" for f in ("cos", "sin"))
+    d = derive(
+        "coordinates: {theta: }\nparameters: {m: {assume: positive}, r: {assume: positive}, "
+        f"b: {{assume: positive}}, w: }}\npoints:\n  bead: {{position: [{out}, {across}, 0], "
+        f"mass: m}}\n".replace("w*t", f"{'-' if axis == '-z' else ''}w*t")
+    )
+    rest = RestPoints(d.dynamics)
+    assert rest.complete
+    expected = {_turned(x + (math.pi / 3 if a != "0" else 0)) for x in (0, math.pi)}
+    found = {_turned(float(p.values[d.system.q[0]])) for p in rest.points or ()}
+    assert {round(x, 9) for x in found} == {round(x, 9) for x in expected}
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_wave_of_two_unknowns_is_solved_after_the_other_equation(seed):
+    """wave(n y - k x) = c and a polynomial in x: y = (k x + arc)/n, where a is any parameter."""
+    source = random.Random(seed)
+    x, y = symbols("x y", real=True)
+    a = symbols("a", positive=True)
+    n, k, c = source.choice((1, 1, 2)), source.choice((1, -2, 3)), source.choice((0, 0, 1))
+    wave = source.choice((sin, cos))(n * y - k * x) - Rational(c, 2)
+    found = solve_system([wave, source.choice((x**2 - a**2, x**3 - a**2 * x))], [x, y])
+    assert found.complete
+    for value in (0.3, 1.1, 2.7):
+        numbers = [
+            {s: float(v.subs(a, value)) for s, v in each.values.items()} for each in found.solutions
+        ]
+        for place in sorted({each[x] for each in numbers}):
+            own = {round(_turned(each[y]), 6) for each in numbers if each[x] == place}
+            equation = lambdify(y, wave.subs(x, place), "math")
+            grid = [-math.pi + (j + 0.37) * math.pi / 500 for j in range(1001)]
+            assert all(abs(equation(each)) < 1e-5 for each in own)
+            assert len(own) == sum(equation(u) * equation(v) < 0 for u, v in pairwise(grid))
+
+
+@pytest.mark.parametrize("wave", ["sin(x/2)", "cos(x)", "sin(x)"])
+def test_an_open_power_may_rest_where_its_base_vanishes(wave):
+    """(V^n)' = n V^(n - 1) V': for n > 1 the places with V = 0 are equilibria, too."""
+    d = derive(
+        "coordinates: [x]\nparameters: {k: {assume: positive}, n: {assume: positive}}\n"
+        f"T: x'^2/2\nV: k*{wave}^n"
+    )
+    rest = RestPoints(d.dynamics)
+    assert rest.points
+    assert not rest.complete

@@ -91,9 +91,12 @@ class RestConditions:
 
     @cached_property
     def forcing(self) -> tuple[Expr, ...]:
-        """Of M q'' = forcing + A^T lambda, without a factor f(t) that all equations have."""
-        forcing = self.dynamics.lagrange.forcing
-        return forcing if self.growth == 1 else tuple(simplify(f / self.growth) for f in forcing)
+        """Of M q'' = forcing + A^T lambda, without a factor f(t) that all equations have.
+
+        The time is taken out where it cancels: cos(w t) sin(w t + q) - sin(w t) cos(w t + q).
+        """
+        forcing, timed = self.dynamics.lagrange.forcing, [self.system.t]
+        return tuple(f if free_of(f, timed) else simplify(f / self.growth) for f in forcing)
 
     @cached_property
     def mass_matrix(self) -> tuple[tuple[Expr, ...], ...]:
