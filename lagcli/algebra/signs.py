@@ -48,7 +48,24 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
         found = _sign(*put_in) if put_in[0] != expression else None
         roots = {} if found is not None else _positive_roots(expression, positive)
         found = sign(expression.xreplace(roots), positive) if roots else found
+        found = _beyond_bounds(expression, known) if found is None else found
     return found
+
+
+def _beyond_bounds(expression: Expr, positive: Sequence[Expr]) -> int | None:
+    """The sign with a + d for r where r - a = d > 0 is given: of 4 r³ - 3 a r² + b, of R² - l²."""
+    for given in positive:
+        for s in sorted(given.free_symbols & expression.free_symbols, key=str):
+            slope = given.diff(s)
+            if slope.has(s) or sign(slope) not in (1, -1):
+                continue
+            beyond = sympy.Dummy(positive=True)
+            put_in = {s: (beyond - given.xreplace({s: sympy.S.Zero})) / slope}
+            others = [e.xreplace(put_in) for e in positive if e is not given]
+            found = _sign(expression.xreplace(put_in), others)
+            if found is not None:
+                return found
+    return None
 
 
 def _by_angles_between(expressions: Sequence[Expr]) -> list[Expr] | None:

@@ -130,3 +130,21 @@ def test_a_root_of_a_sum_of_squares_is_not_negative(seed):
     inside = sympy.expand((i * a * b - j * c) ** 2 + n * b * c * x**2)
     assert sign(a * c + j * b + root(inside)) == 1
     assert sign(a * c - j * b + root(inside)) is None
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_beyond_a_bound_a_polynomial_has_the_sign_of_its_terms_in_the_distance(seed):
+    """R = a + d with d > 0: of c (R - a) Q(R, a) + P(R, a), and of no polynomial with both signs."""
+    rng = Random(seed)
+    a, b, R = sympy.symbols("a b R", positive=True)
+    coefficients = [rng.randint(-4, 6) for _ in range(4)]
+    whole = sympy.expand(sum(c * R**k * a ** (3 - k) for k, c in enumerate(coefficients)) + b)
+    given = rng.choice((R - a, (R - a) * (R + a), b * R / a - b, R**2 - 2 * a * R + R * a))
+    known = sign(whole, [given])
+    values = sympy.lambdify((R, a, b), whole, "math")
+    draws = [(10 ** rng.uniform(-2, 2), 10 ** rng.uniform(-2, 2)) for _ in range(300)]
+    found = {values(1 + d, 1, b_) > 0 for d, b_ in draws}
+    assert known is None or found == {known == 1}
+    in_distance = sympy.Poly(whole.subs(R, a + sympy.Symbol("d", positive=True)))
+    if all(c > 0 for c in in_distance.coeffs()):
+        assert known == 1

@@ -29,7 +29,8 @@ from lagcli.statements.wording import FINITE_MASS, INDEPENDENT, NOT_ZERO
 _MAX_EVIDENT = 64
 #: Why nothing is solved for where the forces at rest are 0/0.
 NO_VALUE_AT_REST = "a force has no value at rest, as v/|v| has none"
-_NO_CLOSED_SOLUTION = "no closed solution of the conditions of equilibrium was found"
+#: Why none is given where there may be some.
+NO_CLOSED_SOLUTION = "no closed solution of the conditions of equilibrium was found"
 #: Why nothing is solved for that is constant.
 TIMED = "the equations depend explicitly on the time"
 REACHED = "a contact moves, and may reach it"
@@ -98,7 +99,7 @@ class RestPoints(RestConditions):
             known = {tuple(p.values.get(q, q) for q in self.system.q) for p in found}
             found += [p for p in self._evident() if tuple(p.values.values()) not in known]
             if not found:
-                self.reason = _AT_A_KINK if kinks else _NO_CLOSED_SOLUTION
+                self.reason = _AT_A_KINK if kinks else NO_CLOSED_SOLUTION
                 self.reason = _AT_AN_OPEN_POWER if self.at_open_powers else self.reason
                 self.reason = TIMED if self.depends_on_time else self.reason
                 return None
@@ -213,8 +214,7 @@ class RestPoints(RestConditions):
         still = self.system.L.xreplace(dict.fromkeys(self.system.qdot, S.Zero))
         powers = (p for p in still.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q % 2 == 0)
         arguments = {*(p.base for p in powers), *(x.args[0] for x in still.atoms(sympy.log))}
-        moving = (x for x in arguments if not free_of(x, self.system.q))
-        for argument in sorted(moving, key=sympy.default_sort_key):
+        for argument in sorted(arguments, key=sympy.default_sort_key):
             there = at(argument, values)
             if free_of(there, self.system.q) and sign(there) is None:
                 yield there
