@@ -32,6 +32,10 @@ def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
         roots = (p for p in expression.atoms(sympy.Pow) if _divides_by_root(p))
         if any(is_zero(p.base.xreplace(present)) is True for p in roots):
             return S.NaN
+    elif all(v.is_number for v in present.values()) and not _divides_by(expression, present):
+        there = expression.xreplace(present)
+        if not there.has(S.NaN, S.ComplexInfinity, *CIRCULAR):
+            return rounded(simplify(there))
     field, element = Field([expression]), None
     with suppress(ZeroDivisionError):
         element = field(expression)
@@ -72,6 +76,12 @@ def vanishes(expression: Expr) -> bool:
         return vanishes_at_random(expression)
     value = expression.evalf(50)
     return value is not sympy.nan and bool(abs(value) < sympy.Float("1e-40"))
+
+
+def _divides_by(expression: Expr, moving: Mapping[Symbol, Expr]) -> bool:
+    """Whether a power of what moves may be a divisor."""
+    powers = (p for p in expression.atoms(sympy.Pow) if p.exp.is_nonnegative is not True)
+    return any(p.free_symbols & moving.keys() for p in powers)
 
 
 def _divides_by_root(power: sympy.Pow) -> bool:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import partial
 
-from sympy import Expr
+from sympy import Expr, Mul
 
 from lagcli.algebra.cancellation import cancelled
 from lagcli.algebra.division import commonest_ratio
@@ -61,7 +61,15 @@ def shape(
 
 def simplify(expression: Expr, relations: Relations | None = None) -> Expr:
     """The shortest readable shape as a SymPy expression; see `shape`."""
+    if relations is None and _is_monomial(expression):
+        return expression
     return shaped(expression, (), relations)[0]
+
+
+def _is_monomial(expression: Expr) -> bool:
+    """Whether it is a rational number times integer powers of symbols, which has one shape."""
+    powers = (factor.as_base_exp() for factor in Mul.make_args(expression))
+    return all(e.is_Integer and (b.is_Symbol or b.is_Rational) for b, e in powers)
 
 
 def shaped(

@@ -49,7 +49,7 @@ _NO_VALUE = " Without a value there: "
 def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
     """Word each equilibrium with its stability."""
     if section.equilibria is None:
-        yield Paragraph((f"Not found: {section.reason}.",))
+        yield Paragraph((f"Not found: {section.reason}" + (":" if section.open else "."),))
     elif not section.equilibria:
         complete, edge, where = section.complete, section.edge, section.where
         yield none_found("equilibrium", section.unless, complete=complete, edge=edge, where=where)
@@ -59,8 +59,8 @@ def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
         yield Paragraph(_stability(equilibrium, states))
     if section.equilibria and not section.complete:
         yield Paragraph(("There may be others" + (", which solve" if section.open else "."),))
-        if section.open:
-            yield vanishing(section.open)
+    if section.open and section.equilibria != ():
+        yield vanishing(section.open)
 
 
 def _without_place(equilibrium: Equilibrium) -> Equilibrium:

@@ -228,3 +228,68 @@ def test_a_point_on_a_sphere_rests_at_its_poles():
     places = {to_grammar(each.at["z"]): each.verdict.stable for each in found.equilibria}
     assert places == {"l": False, "-l": True}
     assert all(to_grammar(each.at["x"]) == "0" for each in found.equilibria)
+
+
+# -- conditions ----------------------------------------------------------------------------------
+
+
+def test_a_rod_in_a_bowl_rests_where_it_fits():
+    """Lamb, *Statics*: the rod of length 2 l hangs as a pendulum of length √(R² - l²), R > l."""
+    found = section(
+        "title: t\ncoordinates: {u: }\nparameters: {m: {assume: positive}, g: {assume: positive}, "
+        "R: {assume: positive}, l: {assume: positive}}\n"
+        "T: m*(R^2 - l^2 + l^2/3)*u'^2/2\nV: -m*g*sqrt(R^2 - l^2)*cos(u)\n",
+        "equilibria",
+    )
+    places = {to_grammar(each.at["u"]): each for each in found.equilibria}
+    assert {name: each.verdict.stable for name, each in places.items()} == {"0": True, "pi": False}
+    for each in places.values():
+        [needed] = each.where
+        assert (to_grammar(needed.left), to_grammar(needed.right)) == ("R", "l")
+
+
+@pytest.mark.parametrize("inertia", ["I", "0"])
+def test_masses_on_a_turning_rod_are_held_by_any_spring_that_is_stretched(inertia):
+    """r > a is the condition of existence, and 8 m r³ + a I > 6 m a r² then holds."""
+    found = section(
+        "title: t\ncoordinates: {r: {assume: positive}, phi: }\nparameters: {m: {assume: positive},"
+        " k: {assume: positive}, a: {assume: positive}, I: {assume: positive}}\n"
+        f"T: {inertia}*phi'^2/2 + m*(r'^2 + r^2*phi'^2)\nV: 2*k*(r - a)^2\n",
+        "steady_motions",
+    )
+    [motion] = (each for each in found.motions if each.where)
+    assert [to_grammar(x.left) + ">" + to_grammar(x.right) for x in motion.where] == ["r>a"]
+    assert motion.verdict.stable is True
+    assert not motion.verdict.unstable
+
+
+def test_conditions_without_a_closed_solution_are_printed():
+    """V = k x cos x: the extrema are at cot x = x."""
+    found = section(
+        "title: t\ncoordinates: [x]\nparameters: {m: {assume: positive}, k: {assume: positive}}\n"
+        "T: m*x'^2/2\nV: k*x*cos(x)\n",
+        "equilibria",
+    )
+    assert found.equilibria is None
+    [condition] = found.open
+    for place in (0.8603335890193798, 3.4256184594817283):
+        assert abs(number(condition, k=1, x=place)) < 1e-12
+    assert abs(number(condition, k=1, x=1)) > 0.1
+
+
+@pytest.mark.parametrize("n", [3, pytest.param(5, marks=pytest.mark.long)])
+def test_frequencies_of_a_chain_are_the_zeros_of_a_polynomial_of_laguerre(n):
+    """A hanging chain of n equal links, m = l = g = 1: L_n(w²) = 0 (D. Bernoulli, 1732)."""
+    q = [f"q{k}" for k in range(n)]
+    x, z = (
+        ["+".join(f"{wave}({angle})" for angle in q[: k + 1]) for k in range(n)]
+        for wave in ("sin", "cos")
+    )
+    points = "\n".join(f"  p{k}: {{position: [{x[k]}, -({z[k]})], mass: 1}}" for k in range(n))
+    found = section(
+        f"title: t\ncoordinates: [{', '.join(q)}]\npoints:\n{points}\nV: -({' + '.join(z)})\n",
+        "modes",
+    )
+    squares = [number(each.frequency) ** 2 for each in found.modes]
+    assert len(squares) == n
+    assert all(abs(mpmath.laguerre(n, 0, each)) < 1e-9 for each in squares)

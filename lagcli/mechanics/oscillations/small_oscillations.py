@@ -30,7 +30,7 @@ from lagcli.mechanics.oscillations.family_statement import relation_sides, shown
 from lagcli.mechanics.oscillations.normal_modes import NormalMode, never_oscillates, normal_modes
 from lagcli.mechanics.oscillations.reduced_verdict import ReducedVerdict
 from lagcli.mechanics.rest.characteristic import Characteristic
-from lagcli.mechanics.rest.equilibria import REACHED, TIMED, RestPoints
+from lagcli.mechanics.rest.equilibria import NO_CLOSED_SOLUTION, REACHED, TIMED, RestPoints
 from lagcli.mechanics.rest.exceptions import unless_written
 from lagcli.mechanics.rest.held import HeldCombination, held
 from lagcli.mechanics.rest.linearization import Linearization, Matrix
@@ -64,11 +64,14 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     """The states of rest with their stability."""
     oscillations = SmallOscillations(dynamics)
     rest, order = oscillations.rest, dynamics.system.order
-    if (places := oscillations.places) is None:
-        return EquilibriaSection(equilibria=None, reason=rest.reason)
+    places = oscillations.places
+    unsolved = () if oscillations.complete else rest.conditions
+    open_ = tuple(written(vanishing_part(e), order) for e in unsolved)
+    if places is None:
+        alone = rest.reason == NO_CLOSED_SOLUTION and len(oscillations.held) == 1
+        return EquilibriaSection(equilibria=None, reason=rest.reason, open=open_ if alone else ())
     several = [each.rest.unless for each in oscillations.held]  # contacts may be closed
     unless = several[0] if len(several) == 1 else None if any(x != () for x in several) else ()
-    open_ = () if oscillations.complete else rest.conditions
     return EquilibriaSection(
         equilibria=tuple(map(oscillations.equilibrium, places)),
         complete=oscillations.complete,
@@ -76,7 +79,7 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
         at_all_times=rest.depends_on_time,
         edge=() if places else rest.edge,
         where=rest.restricted_to,
-        open=tuple(written(vanishing_part(e), order) for e in open_),
+        open=open_,
         unless=() if places else unless_written(unless, order),
     )
 

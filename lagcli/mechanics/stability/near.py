@@ -76,8 +76,13 @@ class Near:
         Then M is nowhere less than semidefinite, and definite where it is regular, along
         constraints and for a Routhian, too.
         """
-        everywhere = self.linear.dynamics.lagrange.mass_matrix
-        return self.linear.regular and positive_definite(everywhere, (), beside_zeros=True)
+        if not self.linear.regular:
+            return False
+        system, everywhere = self.linear.system, self.linear.dynamics.lagrange.mass_matrix
+        static = system.V is not None and free_of(system.V, system.qdot)
+        if static and system.T is not None and system.T.is_nonnegative:  # a sum of squares
+            return True
+        return positive_definite(everywhere, (), beside_zeros=True)
 
     def signs(self, expressions: Sequence[Expr]) -> list[int | None]:
         """The sign of each; None where it depends on values."""
