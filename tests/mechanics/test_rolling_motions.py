@@ -117,3 +117,25 @@ dissipation: b*x'^2/2
         dragged, turned = (value(tree, **at) for tree in section.conditions.values())
         assert dragged == pytest.approx(rate)  # b x' = 0 and m g l sin θ = 0, without what
         assert turned == pytest.approx(sin(angle))  # cannot be 0
+
+
+@pytest.mark.parametrize("arm", [-2, -1, 1, 3])
+@pytest.mark.parametrize("direction", [0, 4])
+def test_a_sleigh_runs_straight_on_with_its_centre_of_mass_in_front(arm, direction):
+    """Chaplygin's sleigh (Bloch, chapter 1): φ'' = -m a v φ'/(I + m a²), v along the blade."""
+    turned = f"(phi + {direction}*pi/6)"
+    section, missing = steady_motions(
+        derive(f"""
+coordinates: [x, y, phi]
+T: ((x' - {arm}*phi'*sin{turned})^2 + (y' + {arm}*phi'*cos{turned})^2)/2 + phi'^2
+constraints: {{blade: x'*sin{turned} = y'*cos{turned}}}
+""")
+    )
+    assert not missing
+    [motion] = section.motions
+    assert not section.complete  # without an arm it runs in circles, too
+    [falls] = motion.verdict.hurwitz
+    for phi in (0.2, 1.3, 2.8, -2.0):
+        for v in (1.0, -1.0):
+            at = {"phi": phi, "x": v * cos(phi + direction * pi / 6)}  # of x the rate alone occurs
+            assert (value(falls.left, **at) > value(falls.right, **at)) == (arm * v > 0)

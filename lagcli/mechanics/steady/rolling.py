@@ -86,20 +86,22 @@ class RollingMotions:
         """The coordinates with u for velocity, and the other velocities by these.
 
         Those whose matrix in the constraints has a constant determinant are eliminated, so that
-        u is regular everywhere, also where the axes of the constraints turn.
+        u is regular everywhere, also where the axes of the constraints turn; without any, those
+        of another block: then only motions with constant axes are found.
         """
         system, constraints = self.system, self.dynamics.constraints
         rows = [constraints.equations[k] for k in self.dynamics.independent_constraints]
         n = len(system.q)
-        choices = sorted(combinations(range(n), len(rows)), key=self._turns)
-        for gone in choices[:_MOST_CHOICES]:
-            block = [[e.row[j] for j in gone] for e in rows]
-            whole = determinant(block)
-            if whole is None or not self._constant(whole) or is_zero(whole) is not False:
-                continue
+        choices = sorted(combinations(range(n), len(rows)), key=self._turns)[:_MOST_CHOICES]
+        blocks = {gone: [[e.row[j] for j in gone] for e in rows] for gone in choices}
+        wholes = {gone: determinant(block) for gone, block in blocks.items()}
+        regular = [g for g, x in wholes.items() if x is not None and is_zero(x) is False]
+        everywhere = [g for g in regular if self._constant(wholes[g] or S.Zero)]
+        self.complete = bool(everywhere)  # a blade that turns: y' = x' tan(phi), but x' varies
+        for gone in everywhere or regular[::-1]:
             kept = tuple(j for j in range(n) if j not in gone)
             right = [-sympy.Add(e.drift, *(e.row[j] * system.qdot[j] for j in kept)) for e in rows]
-            solution = solve_linear(block, right)
+            solution = solve_linear(blocks[gone], right)
             if solution is not None and all(x is not None for x in solution.values):
                 found = zip(gone, solution.values, strict=True)
                 return kept, {system.qdot[j]: x for j, x in found if x is not None}
