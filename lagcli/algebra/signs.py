@@ -55,17 +55,20 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
 def _beyond_bounds(expression: Expr, positive: Sequence[Expr]) -> int | None:
     """The sign with a + d for r where r - a = d > 0 is given: of 4 r³ - 3 a r² + b, of R² - l²."""
     for given in positive:
-        for s in sorted(given.free_symbols & expression.free_symbols, key=str):
-            slope = given.diff(s)
-            if slope.has(s) or sign(slope) not in (1, -1):
-                continue
-            beyond = sympy.Dummy(positive=True)
-            put_in = {s: (beyond - given.xreplace({s: sympy.S.Zero})) / slope}
+        for put_in in beyond(given, expression, sympy.Dummy(positive=True)):
             others = [e.xreplace(put_in) for e in positive if e is not given]
             found = _sign(expression.xreplace(put_in), others)
             if found is not None:
                 return found
     return None
+
+
+def beyond(given: Expr, expression: Expr, distance: sympy.Symbol) -> Iterator[dict[Expr, Expr]]:
+    """Each symbol of the expression by which `given`, linear in it, is the distance."""
+    for s in sorted(given.free_symbols & expression.free_symbols, key=str):
+        slope = given.diff(s)
+        if not slope.has(s) and sign(slope) in (1, -1):
+            yield {s: (distance - given.xreplace({s: sympy.S.Zero})) / slope}
 
 
 def _by_angles_between(expressions: Sequence[Expr]) -> list[Expr] | None:

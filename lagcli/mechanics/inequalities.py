@@ -7,12 +7,13 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations, permutations
 
 from mpmath import mpf
-from sympy import Expr, Symbol
+from sympy import Dummy, Expr, Symbol
 from sympy.core.function import AppliedUndef
 
 from lagcli.algebra import simplify
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.positivity import deciding, sign_of, weak_sign
+from lagcli.algebra.signs import beyond
 
 _DRAWS = 400  # a region that takes a hundredth of the values is missed once in 50 times
 _DIGITS = 15
@@ -45,12 +46,16 @@ def never_together(positive: Sequence[Expr]) -> bool:
 
 
 def one_is_negative(conditions: Sequence[Expr], positive: Sequence[Expr] = ()) -> bool:
-    """Whether for all values one is negative: a positive multiple of one and another are."""
-    plain = [deciding(e, positive) for e in conditions]
+    """Whether for all values one is negative: one is wherever another is not."""
+    plain, distance = [deciding(e, positive) for e in conditions], Dummy(nonnegative=True)
     return any(
         sign_of(sum_, positive) == -1
         for pair in permutations(plain, 2)
         for sum_ in shorter_sums(*pair)
+    ) or any(
+        sign_of(first.xreplace(put_in), [e.xreplace(put_in) for e in positive]) == -1
+        for first, second in permutations(plain, 2)
+        for put_in in beyond(second, first, distance)
     )
 
 

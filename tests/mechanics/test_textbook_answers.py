@@ -293,3 +293,19 @@ def test_frequencies_of_a_chain_are_the_zeros_of_a_polynomial_of_laguerre(n):
     squares = [number(each.frequency) ** 2 for each in found.modes]
     assert len(squares) == n
     assert all(abs(mpmath.laguerre(n, 0, each)) < 1e-9 for each in squares)
+
+
+@pytest.mark.parametrize(("a", "b"), [("a", "b"), ("a", "2*a"), ("a", "a")])
+def test_two_pendulums_joined_by_a_spring_are_never_stable_upside_down(a, b):
+    """det K > 0 needs m g > k (a + b), and then the trace of K is negative."""
+    found = section(
+        "title: t\ncoordinates: [u, v]\nparameters: {m: {assume: positive}, g: {assume: positive}, "
+        "a: {assume: positive}, b: {assume: positive}, k: {assume: positive}}\n"
+        f"T: m*(({a})^2*u'^2 + ({b})^2*v'^2)/2\n"
+        f"V: -m*g*({a}*cos(u) + {b}*cos(v)) + k*({a}*sin(u) - {b}*sin(v))^2/2\n",
+        "equilibria",
+    )
+    [top] = (
+        each for each in found.equilibria if {to_grammar(x) for x in each.at.values()} == {"pi"}
+    )
+    assert top.verdict.stable is False
