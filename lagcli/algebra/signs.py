@@ -128,8 +128,8 @@ def _sign(expression: Expr, positive: Sequence[Expr]) -> int | None:
     result, open_ = 1 if number > 0 else -1, list[Poly]()
     for factor, exponent in factors:
         found = _of_factor(field, factor, known)
-        if found is None and exponent < 0 and _is_nonnegative(field, factor):
-            found = 1
+        if found is None and _is_nonnegative(field, factor):
+            found = 1 if exponent < 0 or _is_modulus_of(field, factor, nonzero) else None
         if found is not None:
             result *= found if exponent % 2 else 1
             continue
@@ -215,6 +215,15 @@ def _is_nonnegative(field: Field, factor: Poly) -> bool:
     return factor == field.ring.generator(used[0]) and field.generators[used[0]].nonnegative
 
 
+def _is_modulus_of(field: Field, factor: Poly, nonzero: Sequence[Poly]) -> bool:
+    """Whether it is |x|, and all factors of x² are among what is not 0."""
+    modulus = field.polynomial_to_sympy(factor)
+    if not isinstance(modulus, sympy.Abs):
+        return False
+    square = field(modulus.args[0] ** 2).numerator
+    return all(_is_nonzero(field, f, nonzero) for f, _ in factorization(field.ring.lift(square))[1])
+
+
 def sign_of_circle(factor: Expr) -> int | None:
     """The sign of cos - 1 and cos + 1, where they are not 0."""
     constant, rest = factor.as_coeff_Add()
@@ -272,7 +281,7 @@ def _of_factor(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | No
 
 
 def _beside_root(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | None:
-    """The sign of a + b sqrt(c): that of a where a² > b² c, or where b has it, too."""
+    """The sign of a + b sqrt(c): that of a where a² > b² c or b has it, too, that of b else."""
     given = [field.polynomial_to_sympy(each) for each in positive]
     for g in field.ring.used(factor):
         parts = field.ring.coefficients(factor, g)
@@ -281,13 +290,16 @@ def _beside_root(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | 
         a, b = (field.polynomial_to_sympy(parts[k]) for k in (0, 1))
         root = field.generators[g].expression
         first, second = sign(a, given), sign(b, given)
-        if first and (root.is_real or 1 in (sign(root**2, given), sign_beside_zero(root**2))):
+        known = first or second
+        if known and (root.is_real or 1 in (sign(root**2, given), sign_beside_zero(root**2))):
+            if first == second:
+                return first
             rest = sympy.expand(a**2 - b**2 * root**2)
-            if first != second and _roots(rest) >= _roots(field.polynomial_to_sympy(factor)):
+            if _roots(rest) >= _roots(field.polynomial_to_sympy(factor)):
                 continue  # no simpler
-            larger = 1 if first == second else sign(rest, given)
-            if larger and (second or larger == 1):
-                return first * larger
+            decisive = {1: first, -1: second}.get(sign(rest, given) or 0)
+            if decisive:
+                return decisive
     return None
 
 

@@ -19,6 +19,7 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import shape, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.signs import sign
 from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.derivation import Derivation
@@ -43,7 +44,7 @@ def minimal(derivation: Derivation, *, rolling: bool = False) -> Derivation:
         return derivation
     while not all(free_of(value, solved) for value in solved.values()):
         solved = {q: value.xreplace(solved) for q, value in solved.items()}
-    if any(q.is_positive and value.is_positive is not True for q, value in solved.items()):
+    if any(q.is_positive and sign(value) != 1 for q, value in solved.items()):
         return derivation
     return _without(derivation, solved, kept_constraints)
 

@@ -83,8 +83,7 @@ def work_done() -> int:
 
 
 def _sympy_calls() -> int:
-    """Calls of SymPy's cached functions; 0 before it is loaded, and without its cache."""
-    module = sys.modules.get("sympy.core.cache")
-    functions = [] if module is None else list(module.CACHE)
+    """Calls of SymPy's cached functions; 0 before and while it is loaded, and without its cache."""
+    functions = list(getattr(sys.modules.get("sympy.core.cache"), "CACHE", ()))
     infos = [function.cache_info() for function in functions]
     return sum(info.hits + info.misses for info in infos)

@@ -1,5 +1,6 @@
 """Roots of quantities of either sign: what is simplified has the same values where it is real."""
 
+import math
 from itertools import product
 from random import Random
 
@@ -148,3 +149,28 @@ def test_beyond_a_bound_a_polynomial_has_the_sign_of_its_terms_in_the_distance(s
     in_distance = sympy.Poly(whole.subs(R, a + sympy.Symbol("d", positive=True)))
     if all(c > 0 for c in in_distance.coeffs()):
         assert known == 1
+
+
+@pytest.mark.parametrize("x", ["sin(a)", "cos(2*a)", "a", "a - p", "tan(a)"])
+def test_a_modulus_is_positive_where_its_square_is(x):
+    a, c = sympy.Symbol("a", real=True), sympy.Symbol("c", positive=True)
+    x = sympy.sympify(x, locals={"a": a, "p": p})
+    assert sign(-c * abs(x), [c * x**2]) == -1
+    assert sign(c * abs(x) ** 3 / p, [x**2]) == 1
+    assert sign(c * abs(x), [(a + 3) ** 2]) is None
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_root_outweighs_a_difference_of_either_sign(seed):
+    """i x - j y ± √(j² y² + n x²) has the sign of the root where n >= i², else both signs."""
+    rng = Random(seed)
+    x, y = sympy.symbols("x y", positive=True)
+    i, j, n = rng.randint(1, 4), rng.randint(1, 4), rng.randint(1, 20)
+    side = rng.choice((1, -1))
+    whole = i * x - j * y + side * root(j**2 * y**2 + n * x**2)
+    values = sympy.lambdify((x, y), whole, "math")
+    found = {math.copysign(1, values(10 ** rng.uniform(-2, 2), 1)) for _ in range(200)}
+    known = sign(whole)
+    assert known in (None, side)
+    assert known is None or found == {known}
+    assert known is not None or (side == -1 and n < i**2)

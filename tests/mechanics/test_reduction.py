@@ -99,6 +99,20 @@ constraints: {rod: r = l}
     assert same(section.routhian, "m*l^2*theta'^2/2 + m*g*l*cos(theta)")
 
 
+@pytest.mark.parametrize(("eccentricity", "put_in"), [("3/8", True), ("1/2", True), ("2", False)])
+def test_a_height_that_is_assumed_positive_is_put_in_where_it_is(eccentricity, put_in):
+    """A round body on a smooth floor: the height of its centre of mass, R (1 - e cos(theta))."""
+    section, _ = reduced(f"""
+coordinates: {{z: POSITIVE, theta: }}
+parameters: {{m: POSITIVE, g: POSITIVE, R: POSITIVE}}
+T: m*(z'^2 + R^2*theta'^2/4)/2
+V: m*g*z
+constraints: {{floor: z = R - {eccentricity}*R*cos(theta)}}
+""")
+    assert (section.eliminated == ("z",)) is put_in
+    assert (section.one_freedom is not None) is put_in
+
+
 def test_a_constraint_that_does_not_touch_the_cyclic_coordinate_stays():
     section, _ = reduced("""
 coordinates: [x, y, z]
