@@ -146,7 +146,7 @@ coordinates: {r: POSITIVE, phi: {}}
 parameters: {m: POSITIVE, c: POSITIVE, k: POSITIVE}
 L: -m*c^2*sqrt(1 - (r'^2 + r^2*phi'^2)/c^2) + k/r
 """)
-    assert section.effective_potential is None
+    assert same(section.effective_potential, "c*sqrt(p_phi^2/r^2 + m^2*c^2) - k/r")
     r, v, p, m, c = (mpf(x) for x in ("1.3", "0.2", "0.4", "0.9", "1.7"))
     names = {n: symbol(n) for n in ("r", "p_phi", "m", "c")}
     build = Builder(names, {}, lambda e: Symbol(e.name + "'", real=True))
@@ -155,6 +155,45 @@ L: -m*c^2*sqrt(1 - (r'^2 + r^2*phi'^2)/c^2) + k/r
     rate = mpf(str(found.evalf(30, subs={s: values[s.name] for s in found.free_symbols})))
     gamma = 1 / mpmath.sqrt(1 - (v**2 + r**2 * rate**2) / c**2)
     assert abs(gamma * m * r**2 * rate - p) < 1e-12
+
+
+@pytest.mark.parametrize(("V", "force"), [("x^2/2", lambda x: x), ("x^4/4", lambda x: x**3)])
+@pytest.mark.parametrize("a", [0.5, 2.0])
+def test_the_time_of_a_relativistic_oscillation(V, force, a):
+    """m = c = 1, x'' = -F (1 - x'²)^(3/2): a quarter of the period by Runge and Kutta."""
+    section, missing = reduced(f"coordinates: [x]\nL: -sqrt(1 - x'^2) - {V}")
+    assert not missing
+    one = section.one_freedom
+    assert one is not None
+    x, E = symbol("x"), symbol(one.constant)
+    build = Builder({"x": x, one.constant: E}, {}, lambda e: Symbol(e.name + "'"))
+    energy = 1 + float(build(parse_text(V)).subs(x, a))
+    turning = [sympy.N(build(each).subs(E, energy)) for each in one.turning_points or ()]
+    assert any(abs(each - a) < 1e-9 for each in turning)
+    rate = sympy.lambdify(x, build(one.rate).subs(E, energy), "mpmath")
+
+    def turned(s: mpf) -> mpf:
+        return rate(a * mpmath.sin(s)) * a * mpmath.cos(s)
+
+    quarter = mpmath.quad(turned, [0, mpmath.pi / 2], method="gauss-legendre")
+
+    def slopes(y: float, v: float) -> tuple[float, float]:
+        return v, -force(y) * (1 - v * v) ** 1.5
+
+    y, v, t, h = a, 0.0, 0.0, 1e-3
+    while y > 0:
+        before = y, v
+        k1 = slopes(y, v)
+        k2 = slopes(y + h / 2 * k1[0], v + h / 2 * k1[1])
+        k3 = slopes(y + h / 2 * k2[0], v + h / 2 * k2[1])
+        k4 = slopes(y + h * k3[0], v + h * k3[1])
+        y, v = (
+            u + h / 6 * (p + 2 * q + 2 * r + s)
+            for u, p, q, r, s in zip((y, v), k1, k2, k3, k4, strict=True)
+        )
+        t += h
+    t -= h * y / (y - before[0])
+    assert abs(quarter - t) < 1e-5
 
 
 def test_names_that_are_taken_get_others():

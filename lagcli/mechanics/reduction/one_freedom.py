@@ -52,6 +52,7 @@ class ReducedFreedom:
         self.q: Symbol = self.system.q[0]
         self.mass: Expr = simplify(self.dynamics.lagrange.mass_matrix[0][0])
         self.potential: Expr = routh.effective_potential
+        self.quadratic = routh.quadratic
         self.E: Symbol = symbol(free_name(routh, ENERGY))
         self.contacts = SteadyContacts(routh)
 
@@ -70,10 +71,32 @@ class ReducedFreedom:
         """Whether the kinetic energy is: the motion then is about the maxima of U_eff."""
         return sign(self.mass) == -1
 
-    @property
+    @cached_property
     def energy(self) -> Expr:
-        """M q'^2/2 + U_eff."""
-        return self.mass * self.system.qdot[0] ** 2 / 2 + self.potential
+        """M q'^2/2 + U_eff; q' dR/dq' - R of another R."""
+        [v] = self.system.qdot
+        if self.quadratic:
+            return self.mass * v**2 / 2 + self.potential
+        return simplify(v * self.system.L.diff(v) - self.system.L)
+
+    @cached_property
+    def pace(self) -> Expr | None:
+        """(dt/dq)^2 where R is not quadratic in q': E solved for its one root, then for q'."""
+        [v] = self.system.qdot
+        powers = {
+            p for p in self.energy.atoms(sympy.Pow) if p.exp.is_Rational and not free_of(p, [v])
+        }
+        roots = [p for p in powers if not p.exp.is_Integer]
+        if len({p.base for p in roots}) != 1 or any(p.exp.q != 2 for p in roots):
+            return None
+        root = sympy.Dummy(positive=True)
+        energy = self.energy.xreplace({p: root**p.exp.p for p in roots})
+        solved = solve_for(energy - self.E, root) if free_of(energy, [v]) else None
+        if solved is None or len(solved.values) != 1:
+            return None
+        velocities = solve_for(roots[0].base - solved.values[0] ** 2, v)
+        squares = {simplify(x**2) for x in velocities.values} if velocities else set()
+        return simplify(1 / squares.pop()) if len(squares) == 1 else None
 
     @property
     def turning_points(self) -> tuple[Expr, ...] | None:

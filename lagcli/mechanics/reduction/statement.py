@@ -89,10 +89,11 @@ class _Statement:
         assert isinstance(equations, EquationsSection)
         lines = equations.equations or ()
         potential, gyroscopic = None, {}
-        if routh.quadratic:
+        if routh.quadratic or self._other_freedom:
             potential = effective_potential(
                 routh.effective_potential, routh.momenta, self.order, routh.full.system.V
             )
+        if routh.quadratic:
             gyroscopic = {
                 q.name: self._shape(g)
                 for q, g in zip(reduced.system.q, routh.gyroscopic, strict=True)
@@ -103,7 +104,7 @@ class _Statement:
         return (
             ReductionSection(
                 momenta=momenta,
-                routhian=self._routhian(potential),
+                routhian=self._routhian(potential if routh.quadratic else None),
                 equations=lines,
                 constraints=equations.constraints,
                 reconstruction={
@@ -182,6 +183,13 @@ class _Statement:
     def _freedom(self) -> Motion:
         return Motion(self.routh)
 
+    @property
+    def _other_freedom(self) -> bool:
+        """Whether q' of one coordinate follows from E where R is not quadratic in it."""
+        reduced = self.routh.reduced
+        one = reduced is not None and len(reduced.system.q) == 1
+        return one and not self.routh.quadratic and self._freedom.pace is not None
+
     def _kinetic(self, motion: Motion) -> Expression:
         """M q'^2/2, or its shortest form where M has a bracket such as 1/3 + sin(q)^2."""
         mass = shape(motion.mass, self.order)
@@ -201,6 +209,8 @@ class _Statement:
         order = (*self.order, motion.E.name)
         if motion.why_not_conserved:
             return None
+        if motion.pace is not None:
+            return self._by_pace(motion, order)
         periods = Periods(motion)
         found = tuple(self._period(each) for each in periods.series)
         if periods.failed:
@@ -223,6 +233,23 @@ class _Statement:
             oscillates=not periods.excluded,
             when=self.routh.between_impacts.get("", ""),
             reason=periods.reason,
+        )
+
+    def _by_pace(self, motion: Motion, order: Sequence[str]) -> OneFreedom:
+        """Of a relativistic motion: the energy, the turning points and the time."""
+        points, writer = motion.turning_points, Writer(order)
+        assert motion.pace is not None
+        parts = sympy.fraction(sympy.together(motion.pace))
+        above_, below = (shape(sympy.sqrt(part), order) for part in parts)
+        return OneFreedom(
+            coordinate=motion.q.name,
+            constant=motion.E.name,
+            energy=terms(motion.energy, order, self.fast),
+            turning_points=None if points is None else tuple(written_alike(points, order)),
+            rate=writer.product(_ONCE, [(above_, _ONCE), (below, -_ONCE)]),
+            periods=(),
+            positive=bool(motion.q.is_positive),
+            when=self.routh.between_impacts.get("", ""),
         )
 
     def _period(self, found: Found) -> PeriodSeries:
