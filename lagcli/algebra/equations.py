@@ -16,11 +16,13 @@ import mpmath
 import sympy
 from sympy import Dummy, Expr, Rational, S, Symbol
 
+from lagcli.algebra.build import free_of
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.opening import common_multiple, phases, without_phases
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.roots import substitute_square
+from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import shape, simplify
 from lagcli.expression import Expression, signed
 
@@ -61,6 +63,8 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
     if not used:
         return Roots((), angle=False)
     first = field.generators[used[0]]
+    if any(field.generators[g].kind == "power" for g in used):
+        return _between_two_powers(field.polynomial_to_sympy(poly), unknown)
     if used == [field.number_of(unknown)]:
         found = polynomial_roots(field, poly, used[0])
         return None if found is None else Roots(tuple(found), angle=False)
@@ -95,6 +99,24 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
             tuple(a / factor for a in angles if -sympy.pi < a / factor <= sympy.pi), angle=True
         )
     return Roots(tuple(a / factor for a in angles), angle=False)
+
+
+def _between_two_powers(expression: Expr, unknown: Symbol) -> Roots | None:
+    """Of A u^m = B u^n with open exponents, where u > 0: u = (B/A)^(1/(m - n))."""
+    terms = sympy.Add.make_args(sympy.expand(expression))
+    if len(terms) != 2:
+        return None
+    ratio = sympy.powsimp(-terms[1] / terms[0], force=True)
+    constant, power = ratio.as_independent(unknown, as_Add=False)
+    side, (base, exponent) = sign(constant), power.as_base_exp()
+    if side is None or free_of(base, [unknown]) or not free_of(exponent, [unknown]):
+        return None
+    if exponent.is_nonzero is not True:
+        return None
+    if exponent.could_extract_minus_sign():
+        constant, exponent = 1 / constant, -exponent
+    value = (1 / constant) ** (1 / exponent)
+    return solve_for(base - value, unknown) if side == 1 else Roots((), angle=False)
 
 
 def _over_all_turns(angles: Sequence[Expr], n: int) -> tuple[Expr, ...]:

@@ -316,3 +316,26 @@ def test_an_open_power_may_rest_where_its_base_vanishes(wave):
     rest = RestPoints(d.dynamics)
     assert rest.points
     assert not rest.complete
+
+
+@pytest.mark.parametrize(
+    "V",
+    ["m*g*z + k/(n*z^n)", "k*z^(2*n) - m*z^n", "m*z*l^n - k*(l^2 + z^2)^(n + 1)/l", "g*z - k*z^n"],
+)
+def test_forces_with_open_exponents_balance_at_a_power_of_their_ratio(V):
+    """A z^p = B z^q with p - q not 0: every sign change of V' on a grid, and no other place."""
+    d = derive(
+        "coordinates: {z: {assume: positive}}\nparameters: {m: {assume: positive}, g: {assume: "
+        "positive}, k: {assume: positive}, l: {assume: positive}, n: {assume: positive}}\n"
+        f"T: m*z'^2/2\nV: {V}"
+    )
+    rest = RestPoints(d.dynamics)
+    [z], values = d.system.q, {"m": 1.3, "g": 0.7, "k": 0.4, "l": 0.9, "n": 2.5}
+    numbers = {s: values[s.name] for s in d.system.L.free_symbols if s.name in values}
+    slope = lambdify(z, d.system.L.diff(z).subs(numbers), "math")
+    grid = [0.01 * 1.02**k for k in range(400)]
+    changes = [u for u, v in pairwise(grid) if slope(u) * slope(v) < 0]
+    found = [p.values[z].subs(numbers) for p in rest.points or ()]
+    real = [float(x) for x in found if x.is_real]
+    assert all(abs(slope(x)) < 1e-9 for x in real)
+    assert len(real) == len(changes) or not rest.complete
