@@ -135,25 +135,6 @@ def sign_of(expression: Expr, positive: Sequence[Expr]) -> int | None:
     return known
 
 
-def sign_given(expression: Expr, positive: Sequence[Expr]) -> int | None:
-    """The same, with one of `positive` for a letter in which it is linear.
-
-    Where k l - m g = u > 0, w² (m g - k l) - k g is -w² u - k g.
-    """
-    known = sign_of(expression, positive)
-    for condition in positive if known is None else ():
-        for letter in sorted(condition.free_symbols & expression.free_symbols, key=str):
-            slope = condition.diff(letter)
-            if slope.has(letter) or sign(slope) not in (1, -1):
-                continue
-            u = sympy.Dummy(positive=True)
-            value = (u - condition.xreplace({letter: S.Zero})) / slope
-            known = sign(simplify(expression.xreplace({letter: value})))
-            if known in (1, -1):
-                return known
-    return known
-
-
 def _in_roots(expression: Expr, positive: Sequence[Expr]) -> int | None:
     """The sign with u² for each positive letter c whose root occurs: c - d² = (u - d)(u + d)."""
     indices: dict[Expr, list[int]] = {}

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import sympy
 
-from lagcli.algebra.positivity import sign_given
+from lagcli.algebra.positivity import sign_of
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.options import Options
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
@@ -202,7 +202,7 @@ def test_a_sign_that_a_condition_gives_holds_where_the_condition_does(seed):
         p, q, r = (sympy.Mul(*source.sample(letters, source.randint(1, 2))) for _ in range(3))
         condition = p - source.randint(1, 3) * q
         expression = source.choice((1, -1)) * (r * condition + source.choice((1, -1)) * r * p)
-        known = sign_given(sympy.expand(expression), [condition])
+        known = sign_of(sympy.expand(expression), [condition])
         for _ in range(60 if known else 0):
             values = {s: 10 ** source.uniform(-1, 1) for s in letters}
             if condition.subs(values) > 0:

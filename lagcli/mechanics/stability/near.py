@@ -12,7 +12,7 @@ from lagcli.algebra import dot, nullspace, rank, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant, determinant_in
 from lagcli.algebra.place import at
-from lagcli.algebra.positivity import is_positive, sign_given, sign_of, weak_sign
+from lagcli.algebra.positivity import is_positive, sign_of, weak_sign
 from lagcli.mechanics.rest.characteristic import Characteristic
 from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.mechanics.stability.evenness import even
@@ -86,7 +86,7 @@ class Near:
 
     def signs(self, expressions: Sequence[Expr]) -> list[int | None]:
         """The sign of each; None where it depends on values."""
-        return [sign_given(e, self.positive) for e in expressions]
+        return [sign_of(e, self.positive) for e in expressions]
 
     # -- the characteristic polynomial -------------------------------------------------------------
 
