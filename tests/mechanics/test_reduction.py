@@ -146,7 +146,7 @@ coordinates: {r: POSITIVE, phi: {}}
 parameters: {m: POSITIVE, c: POSITIVE, k: POSITIVE}
 L: -m*c^2*sqrt(1 - (r'^2 + r^2*phi'^2)/c^2) + k/r
 """)
-    assert same(section.effective_potential, "c*sqrt(p_phi^2/r^2 + m^2*c^2) - k/r")
+    assert same(section.effective_potential, "c*sqrt(p_phi^2 + m^2*c^2*r^2)/r - k/r")
     r, v, p, m, c = (mpf(x) for x in ("1.3", "0.2", "0.4", "0.9", "1.7"))
     names = {n: symbol(n) for n in ("r", "p_phi", "m", "c")}
     build = Builder(names, {}, lambda e: Symbol(e.name + "'", real=True))
