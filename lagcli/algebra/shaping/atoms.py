@@ -82,10 +82,6 @@ class Atoms:
             self._expressions[tree] = expression
         return number
 
-    def is_letter(self, atom: int) -> bool:
-        """Whether it is a name."""
-        return isinstance(self.trees[atom], Name)
-
     def is_known(self, atom: int) -> bool:
         """Whether it is the name of a parameter."""
         tree = self.trees[atom]
@@ -93,7 +89,7 @@ class Atoms:
 
     def is_variable(self, atom: int) -> bool:
         """Whether it is the name of a coordinate, a velocity or a momentum."""
-        return self.is_letter(atom) and not self.is_known(atom)
+        return isinstance(self.trees[atom], Name) and not self.is_known(atom)
 
     def is_momentum(self, atom: int) -> bool:
         """Whether it is the name of a momentum."""

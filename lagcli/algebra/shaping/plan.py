@@ -16,8 +16,6 @@ OPERATION = 6
 _HALF = Fraction(1, 2)
 #: A fraction inside brackets is worth that many bracketed operations.
 _FRACTION = 3
-#: The same over a product, with a parameter below: (k x/(m l) + g sin x)/l.
-_OVER = 12
 #: A fraction in a denominator, or in a sum over a sum, is written only where nothing else is
 #: possible: a/(b + c/d) is a*d/(b*d + c).
 _NESTED = 10_000
@@ -35,8 +33,8 @@ class PlannedProduct:
     parts: tuple[tuple[int | PlannedSum, Exponent], ...]
     cost: int
     strain: int
-    #: 1 where a fraction occurs that no function holds, 2 of one with a parameter below.
-    fractional: int = 0
+    #: Whether a fraction occurs that no function holds.
+    fractional: bool = False
 
     @property
     def score(self) -> int:
@@ -56,7 +54,7 @@ class PlannedSum:
     terms: tuple[PlannedProduct, ...]
     cost: int
     strain: int
-    fractional: int = 0
+    fractional: bool = False
 
     @property
     def score(self) -> int:
@@ -104,18 +102,15 @@ def product(
     if coefficient.denominator != 1 and not over_sum:
         coefficient = _halved(atoms, coefficient, signed)
     above = below = cost = strain = 0
-    fractional = int(coefficient.denominator != 1)
-    over = any(e < 0 and isinstance(p, int) and atoms.is_letter(p) for p, e in signed)
+    fractional = coefficient.denominator != 1
     for part, exponent in signed:
         size = abs(exponent)
         if isinstance(part, PlannedSum):
             cost += part.cost
             strain += part.cost + part.strain
-            fractional = max(fractional, part.fractional)
+            fractional = fractional or part.fractional
             if part.fractional:
-                strain += (
-                    _NESTED if over_sum else _OVER if over and part.fractional > 1 else _FRACTION
-                )
+                strain += _NESTED if over_sum else _FRACTION
         else:
             cost += atoms.costs[part]
         if size != 1:
@@ -124,8 +119,7 @@ def product(
             above += 1
         else:
             below += 1
-            divided = isinstance(part, int) and atoms.is_known(part)
-            fractional = max(fractional, 1 + divided)
+            fractional = True
     above += abs(coefficient.numerator) != 1 or not above
     below += coefficient.denominator != 1
     cost += above - 1 + below + (coefficient.numerator < 0)
@@ -158,7 +152,7 @@ def _halved(
 def total(terms: list[PlannedProduct]) -> PlannedSum:
     """The sum of two or more products."""
     cost = sum(t.cost for t in terms) + len(terms) - 1
-    fractional = max(t.fractional for t in terms)
+    fractional = any(t.fractional for t in terms)
     return PlannedSum(tuple(terms), cost, sum(t.strain for t in terms), fractional)
 
 

@@ -448,9 +448,7 @@ class Shaper:
             if isinstance(plan, PlannedSum):
                 turned = plan.negated()
                 score = min(plan.score, turned.score)
-                score += OPERATION * bool(
-                    plan.fractional
-                )  # its number below doubles the other terms
+                score += OPERATION * plan.fractional  # its number below doubles the other terms
                 if turned.score < plan.score:
                     plan = PlannedProduct(
                         Fraction(-1), ((turned, 1),), turned.cost + 1, turned.cost
