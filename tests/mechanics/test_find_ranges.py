@@ -255,3 +255,24 @@ def test_a_run_comes_to_the_top_only_above_the_bound():
     for setting, over in (("w0 = 6.26", False), ("w0 = 6.27", True)):  # 2 sqrt(9.81) = 6.264
         run = simulated(text, 8.0, settings=(setting,), samples=161, show="theta")
         assert (max(column(run, "theta")) > 3.2) is over
+
+
+@pytest.mark.parametrize("asked", ["k", "m"])
+@pytest.mark.parametrize("place", ["2", "a", "1 + a"])
+def test_a_parameter_on_which_the_motion_does_not_depend_decides_nothing(asked: str, place: str):
+    """Thrown up, a height h > 0 is reached where v0^2 >= 2 g h, whatever m and k."""
+    text = f"""
+coordinates: [x]
+parameters: {{m: POSITIVE, k: POSITIVE, g: POSITIVE, a: POSITIVE, v0: POSITIVE}}
+T: m*x'^2/2
+V: m*g*x
+initial: {{x: 0, x': v0}}
+find:
+  asked: {{reaches: x = {place}, for: {asked}}}
+  speed: {{reaches: x = {place}, for: v0}}
+"""
+    answer = answers(text)["asked"]
+    assert isinstance(answer, Ranges)
+    assert answer.ranges is None
+    if place != "1 + a":
+        assert found(text, "speed") == bounds([f">= sqrt(2*g*{place})"])

@@ -203,7 +203,8 @@ class LastingAnswer:
         wall = 1 if u.is_nonnegative else -1 if u.is_nonpositive else 0
         walk = Walk(line, start, strict=strict, wall=wall)
         events = self._events(line, start, wall)
-        return self._ranges([u], [*functions, *start.formulas], events, walk.verdict)
+        lengths = [u - place for place in (start.place, start.target) if place is not None]
+        return self._ranges([u], [*functions, *lengths, *start.formulas], events, walk.verdict)
 
     def _events(self, line: FunctionsOnLine, start: Start, wall: int) -> list[Expr]:
         events = [*line.events(), *line.at(start.place), start.velocity, start.acceleration]

@@ -86,7 +86,8 @@ def ranges(
     source = random.Random("lagcli ranges")
     cells = _Cells(special, _draw(special, others, source, 0), verdict, work)
     pattern = cells.true_ones()
-    if others and not scaled and not special.are_ordered(cells.order):
+    ordered = bool(cells.order) and special.are_ordered(cells.order)
+    if others and not scaled and not ordered:
         names = ", ".join(other.name for other in others)
         for k in range(1, _DRAWS):
             more = _Cells(special, _draw(special, others, source, k), verdict, work)
