@@ -272,7 +272,9 @@ def _confirmed(derivation: Derivation, told: Explanation, also: Sequence[str]) -
     from lagcli.statements.registry import find_section
     from lagcli.verification import verified
 
-    further = {one.title: (name,) for name in also if (one := find_section(name).told) is not None}
+    further = {
+        one.title: (name,) for name in also if (one := find_section(name).explained) is not None
+    }
     steps = {**_STEPS, **further}
     titles = [step.title for step in told.steps]
     names = tuple(dict.fromkeys(name for title in titles for name in steps.get(title, ())))

@@ -13,7 +13,7 @@ from lagcli.cli.output import has_place
 from lagcli.cli.plot import Dark
 from lagcli.cli.plotting import drawn, ending, is_drawn_as
 from lagcli.cli.simulate import Accuracy, File, Method, Project, Set, StopWhen, Until
-from lagcli.cli.simulating import SimulateOptions, asked_of
+from lagcli.cli.simulating import SimulateOptions, request_of
 from lagcli.cli.status import Status
 
 if TYPE_CHECKING:
@@ -65,16 +65,16 @@ def animate(
             f"-o {instead} needs nothing"
         )
         return Status.USAGE
-    found = understood(run, lambda p: asked_of(p, run))
+    found = understood(run, lambda p: request_of(p, run))
     if found is None:
         return Status.USAGE
-    problem, asked = found
+    problem, request = found
 
     def work() -> tuple[bytes, str]:
         from lagcli.pictures.scene import scene
 
         with shared("integrating") as progress:
-            made, refusal = scene(problem, asked, progress, forces=forces)
+            made, refusal = scene(problem, request, progress, forces=forces)
         return _written(made, run.output, dark=dark), refusal
 
     return drawn(problem, work, run.output)

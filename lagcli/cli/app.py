@@ -93,12 +93,12 @@ class SectionsInHelp(TyperCommand):
     """A command whose help names the sections, which are looked up when help is wanted."""
 
     def fill_in(self) -> None:
-        """Put the names of the sections in for {sections} and {told}."""
+        """Put the names of the sections in for {sections} and {steps}."""
         wanting = [p for p in self.params if "{" in (getattr(p, "help", None) or "")]
         if wanting:
-            from lagcli.statements.registry import every_section, told_in_order
+            from lagcli.statements.registry import every_section, explained_in_order
 
-            lists = {"{sections}": every_section(), "{told}": told_in_order()}
+            lists = {"{sections}": every_section(), "{steps}": explained_in_order()}
             for option in wanting:
                 for mark, declared in lists.items():
                     names = ", ".join(each.name for each in declared)

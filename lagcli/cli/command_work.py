@@ -15,7 +15,7 @@ from lagcli.reader.suggest import did_you_mean
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration
 from lagcli.statements.explanation import Explanation
-from lagcli.statements.registry import in_order, told_in_order
+from lagcli.statements.registry import explained_in_order, in_order
 
 Result = TypeVar("Result", Answers, Explanation)
 
@@ -50,6 +50,6 @@ WORKS: dict[str, CommandWork[Any]] = {
         render_explanations,
         _format_of_explanations,
         "--also",
-        told_in_order,
+        explained_in_order,
     ),
 }

@@ -11,7 +11,7 @@ from lagcli.cli.solve import Files, NoCache, Set, Standalone, Width
 _FORMATS = "text, latex, markdown, html, json or pdf." + BY_ENDING.format("text")
 Format = Annotated[str | None, option("--format -f", "NAME", _FORMATS, page_formats)]
 Also = Annotated[
-    list[str] | None, option("--also", "A,B", "Print these steps as well: {told}.", sections)
+    list[str] | None, option("--also", "A,B", "Print these steps as well: {steps}.", sections)
 ]
 
 

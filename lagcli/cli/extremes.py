@@ -78,20 +78,22 @@ class ExtremesOptions(StudyOptions):
     accuracy: str | None = None
 
 
-def _tried(wish: ExtremesOptions) -> Status:
+def _tried(options: ExtremesOptions) -> Status:
     """Try all cases, write, and say how it ended."""
-    good = is_known("--format", wish.format_name, STUDIES) & has_place(wish.output, wish.file)
-    found = understood(wish, lambda p: _wanted(p, wish))
-    return _study(*found, wish) if good and found is not None else Status.USAGE
+    good = is_known("--format", options.format_name, STUDIES) & has_place(
+        options.output, options.file
+    )
+    found = understood(options, lambda p: _wanted(p, options))
+    return _study(*found, options) if good and found is not None else Status.USAGE
 
 
-def _study(problem: Problem, wanted: Wanted, wish: ExtremesOptions) -> Status:
+def _study(problem: Problem, wanted: Wanted, options: ExtremesOptions) -> Status:
     from lagcli.numerics.equations.refusal import Refusal
     from lagcli.reader.suggest import did_you_mean
     from lagcli.studies.extremes.study import NoSuchCase, study
     from lagcli.studies.extremes.writing import WRITERS
 
-    words = [] if wish.cases is None else [word.strip() for word in wish.cases.split(",")]
+    words = [] if options.cases is None else [word.strip() for word in options.cases.split(",")]
     try:
         with counted("trying") as progress:
             made = study(problem, wanted, words, progress)
@@ -101,17 +103,17 @@ def _study(problem: Problem, wanted: Wanted, wish: ExtremesOptions) -> Status:
         return Status.USAGE
     except Refusal as refusal:
         return report_refusal(problem.source, refusal)
-    if not place(WRITERS[wish.format_name](made).encode(), wish.output):
+    if not place(WRITERS[options.format_name](made).encode(), options.output):
         return Status.USAGE
     return Status.NOT_FOUND if made.bad else Status.WELL
 
 
-def _wanted(problem: Problem, wish: ExtremesOptions) -> Wanted | None:
+def _wanted(problem: Problem, options: ExtremesOptions) -> Wanted | None:
     """What each case measures; None where an option is not a number, which is reported."""
     from lagcli.studies.extremes.trial import Wanted
 
-    options = option_reader(problem)
-    until, accuracy = options.until(wish.until), options.accuracy(wish.accuracy)
-    if not options.good:
+    reader = option_reader(problem)
+    until, accuracy = reader.until(options.until), reader.accuracy(options.accuracy)
+    if not reader.good:
         return None
-    return Wanted(until=until, accuracy=accuracy, limit=wish.limit)
+    return Wanted(until=until, accuracy=accuracy, limit=options.limit)

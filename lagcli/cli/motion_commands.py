@@ -63,31 +63,31 @@ class StudyOptions:
 
 
 def understood(
-    wish: OfFile, options: Callable[[Problem], Options | None]
+    options: OfFile, read_options: Callable[[Problem], Options | None]
 ) -> tuple[Problem, Options] | None:
     """The file's problem with its Lagrangian, and the options; None once all mistakes are reported.
 
     Where a setting is wrong, the options are read beside the values of the file.
     """
     try:
-        data = read_input(wish.file)
+        data = read_input(options.file)
     except OSError as error:
-        report_line(f"{wish.file}: error: {reason(error)}")
+        report_line(f"{options.file}: error: {reason(error)}")
         return None
-    found = read(wish.file, data, Request(settings=wish.settings, state=wish.state))
+    found = read(options.file, data, Request(settings=options.settings, state=options.state))
     report(found.source, found.diagnostics)
     problem = found.problem
     if problem is None:
-        plain = read(wish.file, data).problem
+        plain = read(options.file, data).problem
         if plain is not None:
-            options(plain)
+            read_options(plain)
         return None
     try:
         problem = with_lagrangian(problem)
     except ProblemError as error:
         report(error.source, error.diagnostics)
         return None
-    wanted = options(problem)
+    wanted = read_options(problem)
     return None if wanted is None else (problem, wanted)
 
 

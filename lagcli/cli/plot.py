@@ -72,6 +72,6 @@ def plot(
       lagcli plot kepler --kind path --dark -o kepler.svg
       lagcli plot kepler --show "x,y,energy" --until 20
     """  # noqa: D301 - click reads the control character \b
-    from lagcli.cli.plotting import PlotWish, plot_file
+    from lagcli.cli.plotting import PlotOptions, plot_file
 
-    return plot_file(gathered(PlotWish, locals()))
+    return plot_file(gathered(PlotOptions, locals()))

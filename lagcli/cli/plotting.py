@@ -14,12 +14,12 @@ from lagcli.cli.error_output import report, report_line, report_refusal
 from lagcli.cli.motion_commands import is_known, shared, understood
 from lagcli.cli.output import has_place, place
 from lagcli.cli.printing import PIPE_WIDTH
-from lagcli.cli.simulating import SimulateOptions, asked_of
+from lagcli.cli.simulating import SimulateOptions, request_of
 from lagcli.cli.status import Status
 from lagcli.record import record, replace
 
 if TYPE_CHECKING:
-    from lagcli.numerics.hybrid.request import Asked
+    from lagcli.numerics.hybrid.request import RunRequest
     from lagcli.pictures.drawing import Picture
     from lagcli.problem_data import Problem
 
@@ -30,7 +30,7 @@ _NO_END = 0.0
 
 
 @record(kw_only=True)
-class PlotWish(SimulateOptions):
+class PlotOptions(SimulateOptions):
     """The command line, as it was written."""
 
     kind: str | None = None
@@ -41,30 +41,32 @@ class PlotWish(SimulateOptions):
     ascii_only: bool
 
 
-def plot_file(wish: PlotWish) -> Status:
+def plot_file(options: PlotOptions) -> Status:
     """Compute, draw, and say how it ended."""
-    good = wish.kind is None or is_known("--kind", wish.kind, KINDS)
-    if not (good & is_drawn_as(wish.output, PICTURES)) or not has_place(wish.output, wish.file):
+    good = options.kind is None or is_known("--kind", options.kind, KINDS)
+    if not (good & is_drawn_as(options.output, PICTURES)) or not has_place(
+        options.output, options.file
+    ):
         return Status.USAGE
-    found = understood(wish, lambda p: _asked(p, wish))
-    return Status.USAGE if found is None else _draw(*found, wish)
+    found = understood(options, lambda p: _request(p, options))
+    return Status.USAGE if found is None else _draw(*found, options)
 
 
-def _draw(problem: Problem, asked: Asked, wish: PlotWish) -> Status:
+def _draw(problem: Problem, request: RunRequest, options: PlotOptions) -> Status:
     def work() -> tuple[bytes, str]:
         from lagcli.pictures.kinds import PictureRequest, picture_of
 
-        request = PictureRequest(
-            kind=_kind(asked, wish),
-            chosen=bool(wish.show),
-            section=wish.section,
-            orbits=wish.orbits,
+        drawing = PictureRequest(
+            kind=_kind(request, options),
+            chosen=bool(options.show),
+            section=options.section,
+            orbits=options.orbits,
         )
         with shared("integrating") as progress:
-            picture, refusal = picture_of(problem, asked, request, progress)
-        return _written(picture, wish), refusal
+            picture, refusal = picture_of(problem, request, drawing, progress)
+        return _written(picture, options), refusal
 
-    return drawn(problem, work, wish.output)
+    return drawn(problem, work, options.output)
 
 
 def drawn(problem: Problem, work: Callable[[], tuple[bytes, str]], output: Path | None) -> Status:
@@ -90,32 +92,32 @@ def drawn(problem: Problem, work: Callable[[], tuple[bytes, str]], output: Path 
     return Status.USAGE
 
 
-def _asked(problem: Problem, wish: PlotWish) -> Asked | None:
+def _request(problem: Problem, options: PlotOptions) -> RunRequest | None:
     """The options of the run; of a picture over time the coordinates, unless others are given."""
-    needs_no_end = wish.kind in {*_WITHOUT_MOTION, None} and not wish.show
-    if not wish.show and wish.kind in {None, "series"}:
-        wish = replace(wish, show=("coordinates",))
-    return asked_of(problem, wish, without_end=_NO_END if needs_no_end else None)
+    needs_no_end = options.kind in {*_WITHOUT_MOTION, None} and not options.show
+    if not options.show and options.kind in {None, "series"}:
+        options = replace(options, show=("coordinates",))
+    return request_of(problem, options, without_end=_NO_END if needs_no_end else None)
 
 
-def _kind(asked: Asked, wish: PlotWish) -> str:
+def _kind(request: RunRequest, options: PlotOptions) -> str:
     """The kind that was named; else the motion where it has an end, else the phase portrait."""
-    if wish.kind is not None:
-        return wish.kind
-    return "series" if asked.until > 0 else "phase"
+    if options.kind is not None:
+        return options.kind
+    return "series" if request.until > 0 else "phase"
 
 
-def _written(picture: Picture, wish: PlotWish) -> bytes:
-    if wish.output is not None:
+def _written(picture: Picture, options: PlotOptions) -> bytes:
+    if options.output is not None:
         from lagcli.pictures.figure import to_bytes
 
-        return to_bytes(picture, ending(wish.output), dark=wish.dark)
+        return to_bytes(picture, ending(options.output), dark=options.dark)
     from lagcli.pictures.terminal import Terminal, to_text
 
     encoding = (sys.stdout.encoding or "utf-8").lower()
     terminal = Terminal(
-        width=wish.width or _columns(),
-        unicode=encoding.startswith("utf") and not wish.ascii_only,
+        width=options.width or _columns(),
+        unicode=encoding.startswith("utf") and not options.ascii_only,
         colour=sys.stdout.isatty() and "NO_COLOR" not in os.environ,
     )
     return to_text(picture, terminal).encode(encoding, "replace")

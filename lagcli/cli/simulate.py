@@ -96,5 +96,5 @@ def simulate(
     from lagcli.cli.simulating import SimulateOptions, simulate_files
 
     form = format_of(format_name, output, TABLES, "table")
-    wish = gathered(SimulateOptions, locals(), file=files[0], format_name=form)
-    return simulate_files(files, wish)
+    options = gathered(SimulateOptions, locals(), file=files[0], format_name=form)
+    return simulate_files(files, options)

@@ -20,7 +20,7 @@ from lagcli.record import record
 if TYPE_CHECKING:
     from lagcli.problem_data import Problem
     from lagcli.studies.tradeoff.front import RunPoint
-    from lagcli.studies.tradeoff.study import Study, Teller
+    from lagcli.studies.tradeoff.study import RunPrinter, Study
     from lagcli.studies.tradeoff.trial import Given
 
 #: Seconds after which each run is reported as it is made.
@@ -108,13 +108,15 @@ class TradeoffOptions(StudyOptions):
     plot: Path | None = None
 
 
-def _measured(wish: TradeoffOptions) -> Status:
+def _measured(options: TradeoffOptions) -> Status:
     """Run, write, and say how it ended."""
-    good = is_known("--format", wish.format_name, STUDIES) & is_known("--cost", wish.cost, COSTS)
-    methods = _methods(wish.methods)
-    good = good & (methods is not None) & is_drawn_as(wish.plot, PICTURES, "--plot")
-    good = good & has_place(wish.output, wish.file) & has_place(wish.plot, wish.file)
-    found = understood(wish, lambda p: _end(p, wish))
+    good = is_known("--format", options.format_name, STUDIES) & is_known(
+        "--cost", options.cost, COSTS
+    )
+    methods = _methods(options.methods)
+    good = good & (methods is not None) & is_drawn_as(options.plot, PICTURES, "--plot")
+    good = good & has_place(options.output, options.file) & has_place(options.plot, options.file)
+    found = understood(options, lambda p: _end(p, options))
     if found is None or not good or methods is None:
         return Status.USAGE
     problem, until = found
@@ -123,27 +125,27 @@ def _measured(wish: TradeoffOptions) -> Status:
     given = Given(
         name=problem.source.name,
         text=problem.source.text,
-        settings=wish.settings,
-        state=wish.state,
+        settings=options.settings,
+        state=options.state,
         until=until,
-        samples=wish.samples,
-        project=wish.project,
+        samples=options.samples,
+        project=options.project,
         method="auto",
         tolerance=None,
         accuracy=None,
-        limit=wish.limit,
+        limit=options.limit,
     )
-    return _study(problem, given, methods, wish)
+    return _study(problem, given, methods, options)
 
 
-def _end(problem: Problem, wish: TradeoffOptions) -> float | None:
-    options = option_reader(problem)
-    until = options.end(wish.until)
-    return until if options.good else None
+def _end(problem: Problem, options: TradeoffOptions) -> float | None:
+    reader = option_reader(problem)
+    until = reader.end(options.until)
+    return until if reader.good else None
 
 
 def _study(
-    problem: Problem, given: Given, methods: tuple[str, ...], wish: TradeoffOptions
+    problem: Problem, given: Given, methods: tuple[str, ...], options: TradeoffOptions
 ) -> Status:
     from lagcli.numerics.equations.refusal import Refusal
     from lagcli.studies.tradeoff.study import study
@@ -153,19 +155,19 @@ def _study(
             made = study(
                 given,
                 methods,
-                cost=wish.cost,
-                repeat=wish.repeat,
+                cost=options.cost,
+                repeat=options.repeat,
                 progress=progress,
-                teller=_row_printer(),
+                run_printer=_row_printer(),
             )
     except Refusal as refusal:
         return report_refusal(problem.source, refusal)
-    if not _written(made, wish):
+    if not _written(made, options):
         return Status.USAGE
     return Status.NOT_FOUND if made.broken else Status.WELL
 
 
-def _row_printer() -> Teller:
+def _row_printer() -> RunPrinter:
     """Tells the runs that are made while others go on, once that has taken a while."""
     from lagcli.studies.tradeoff.writing import line_of
 
@@ -182,21 +184,21 @@ def _row_printer() -> Teller:
     return show_run
 
 
-def _written(made: Study, wish: TradeoffOptions) -> bool:
+def _written(made: Study, options: TradeoffOptions) -> bool:
     from lagcli.studies.tradeoff.writing import WRITERS
 
     parts: list[tuple[Path | None, bytes]] = [
-        (wish.output, WRITERS[wish.format_name](made).encode())
+        (options.output, WRITERS[options.format_name](made).encode())
     ]
-    if wish.plot is not None:
+    if options.plot is not None:
         from lagcli.pictures.drawing import CannotDraw
         from lagcli.pictures.figure import to_bytes
         from lagcli.studies.tradeoff.plot import picture_of
 
         try:
-            parts.insert(0, (wish.plot, to_bytes(picture_of(made), ending(wish.plot))))
+            parts.insert(0, (options.plot, to_bytes(picture_of(made), ending(options.plot))))
         except CannotDraw as error:
-            report_line(f"{wish.plot}: warning: nothing to draw: {error}")
+            report_line(f"{options.plot}: warning: nothing to draw: {error}")
     return all(place(data, path) for path, data in parts)
 
 
@@ -208,6 +210,6 @@ def _methods(text: str | None) -> tuple[str, ...] | None:
     every = METHODS[1:]  # without auto
     if text is None:
         return every
-    asked = [word.strip() for word in text.split(",")]
-    known = [is_known("--methods", word, every) for word in asked]
-    return tuple(asked) if all(known) else None
+    request = [word.strip() for word in text.split(",")]
+    known = [is_known("--methods", word, every) for word in request]
+    return tuple(request) if all(known) else None

@@ -83,7 +83,7 @@ def ensemble(
     ProblemError
         When an option does not fit the problem.
     """
-    from lagcli.interface.motion import asked_of
+    from lagcli.interface.motion import request_of
 
     ranges = [f"{name}={_range(values)}" for name, values in vary.items()]
     try:
@@ -92,10 +92,10 @@ def ensemble(
         raise ProblemError(problem.source, tuple(map(Diagnostic, error.lines))) from None
     if times:
         options["until"] = times[-1]
-    asked = asked_of(problem, samples=samples if along else 2, **options)
-    asked, along = at_times(asked, times), along or bool(times)
+    request = request_of(problem, samples=samples if along else 2, **options)
+    request, along = at_times(request, times), along or bool(times)
     with Journal(None, "") as journal:
-        return Sweep(sweep(problem, asked, plan, journal, along=along, jobs=jobs), problem.title)
+        return Sweep(sweep(problem, request, plan, journal, along=along, jobs=jobs), problem.title)
 
 
 def _range(values: str | Sequence[float]) -> str:

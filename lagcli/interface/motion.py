@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from lagcli.diagnostics import ProblemError
     from lagcli.interface.picture import Animation, Plot
     from lagcli.numerics.hybrid.events import Event
-    from lagcli.numerics.hybrid.request import Asked
+    from lagcli.numerics.hybrid.request import RunRequest
     from lagcli.numerics.hybrid.result import Certificate, Result
     from lagcli.problem_data import Problem
 
@@ -35,10 +35,10 @@ class Motion(Columns):
         Why the rows end early; empty when they do not.
     """
 
-    def __init__(self, result: Result, problem: Problem, asked: Asked) -> None:
+    def __init__(self, result: Result, problem: Problem, request: RunRequest) -> None:
         self._result = result
         self._problem = problem
-        self._asked = asked
+        self._request = request
         self.title = problem.title
         self.columns = result.columns
         self.rows = result.rows
@@ -88,12 +88,12 @@ class Motion(Columns):
             from lagcli.pictures.run import PicturedRun
             from lagcli.pictures.series import series
 
-            run = PicturedRun(self._problem, self._asked, result=self._result)
+            run = PicturedRun(self._problem, self._request, result=self._result)
             return Plot(series(run), self.refusal)
         if kind not in NAMES:
             raise ValueError(f"unknown kind {kind!r}: the kinds are {', '.join(NAMES)}")
-        request = PictureRequest(kind=kind, section=section, orbits=orbits)
-        return Plot(*picture_of(self._problem, self._asked, request))
+        drawing = PictureRequest(kind=kind, section=section, orbits=orbits)
+        return Plot(*picture_of(self._problem, self._request, drawing))
 
     def animate(self, *, forces: bool = False) -> Animation:
         """Show the motion as it goes on; `forces` adds arrows.
@@ -106,7 +106,7 @@ class Motion(Columns):
         from lagcli.interface.picture import Animation
         from lagcli.pictures.scene import scene
 
-        return Animation(*scene(self._problem, self._asked, forces=forces))
+        return Animation(*scene(self._problem, self._request, forces=forces))
 
     def __str__(self) -> str:
         from lagcli.numerics.tables.writing import to_table
@@ -150,12 +150,12 @@ def integrate(problem: Problem, **options: Any) -> Motion:
     """
     from lagcli.numerics.certified.simulate import simulate
 
-    asked = asked_of(problem, **options)
-    return Motion(simulate(problem, asked), problem, asked)
+    request = request_of(problem, **options)
+    return Motion(simulate(problem, request), problem, request)
 
 
-def asked_of(problem: Problem, **options: Any) -> Asked:
-    """The run that is asked for, by the names of `RunOptions`.
+def request_of(problem: Problem, **options: Any) -> RunRequest:
+    """The requested run, by the names of `RunOptions`.
 
     Raises
     ------
@@ -167,6 +167,6 @@ def asked_of(problem: Problem, **options: Any) -> Asked:
     def raised(error: ProblemError) -> None:
         raise error
 
-    asked = OptionReader(problem, PYTHON, raised).asked(RunOptions(**options))
-    assert asked is not None  # else a mistake was raised
-    return asked
+    request = OptionReader(problem, PYTHON, raised).request(RunOptions(**options))
+    assert request is not None  # else a mistake was raised
+    return request

@@ -21,7 +21,7 @@ class Solution(Rendered):
     """What `solve` answers.
 
     A section is an attribute (`solution.accelerations`) or an item
-    (`solution["accelerations"]`); one that was not asked for is not there.
+    (`solution["accelerations"]`); one that was not requested is not there.
 
     Attributes
     ----------
@@ -30,7 +30,7 @@ class Solution(Rendered):
     warnings : tuple of str
         Which answers are missing, and why.
     complete : bool
-        Whether everything that was asked for was found.
+        Whether every requested answer was found.
     """
 
     def __init__(self, answers: Answers, problem: Problem) -> None:
@@ -43,7 +43,7 @@ class Solution(Rendered):
 
     @property
     def sections(self) -> dict[str, SolutionPart]:
-        """Every section that was asked for, in order."""
+        """Every requested section, in order."""
         return {name: self[name] for name in self}
 
     def __iter__(self) -> Iterator[str]:

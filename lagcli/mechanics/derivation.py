@@ -1,4 +1,4 @@
-"""A derivation: everything that can be asked of one problem, each part worked out once."""
+"""A derivation: the whole theory of one problem, each part computed once."""
 
 from __future__ import annotations
 

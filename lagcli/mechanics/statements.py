@@ -142,7 +142,7 @@ class Statements(Stating):
             )
 
     def answers(self, sections: Sequence[str] | None) -> Answers:
-        """The asked sections; where a constraint has several factors, that they hold on each."""
+        """The requested sections; of a constraint with factors, whether they hold on each."""
         found = super().answers(sections)
         return replace(found, warnings=(*self._on_branches(), *found.warnings))
 

@@ -75,11 +75,11 @@ class Stating:
         raise NotImplementedError
 
     def answers(self, sections: Sequence[str] | None) -> Answers:
-        """The asked sections (the usual ones for None), in their fixed order."""
+        """The requested sections (the usual ones for None), in their fixed order."""
         problem = self.problem
-        asked = self._usual() if sections is None else sections
+        requested = self._usual() if sections is None else sections
         made: dict[str, Section] = {}
-        for declared in in_order(asked):
+        for declared in in_order(requested):
             section = self._made(declared)
             if section is not None:
                 made[declared.name] = section
@@ -94,7 +94,7 @@ class Stating:
             where=dict(self.where),
             warnings=tuple(dict.fromkeys(self.warnings)),
             complete=self.complete,
-            absent=tuple(name for name in asked if name not in made),
+            absent=tuple(name for name in requested if name not in made),
         )
 
     def _made(self, declared: Declaration) -> Section | None:

@@ -1,6 +1,6 @@
 """How far conserved quantities have moved from their values at the beginning.
 
-|Q(t) - Q(0)| relative to the largest |Q|, beside the accuracy that was asked for.  An impact
+|Q(t) - Q(0)| relative to the largest |Q|, beside the requested accuracy.  An impact
 changes the energy; from there on it is compared with its value just after the impact.
 """
 
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lagcli.expression import Name
-from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,
@@ -32,7 +32,7 @@ FLOOR = 1e-17
 _HEADROOM = 10.0
 
 
-def drift(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
+def drift(problem: Problem, request: RunRequest, progress: Progress = None) -> Drawn:
     """The drift of every charge that the run conserves.
 
     Raises
@@ -40,7 +40,7 @@ def drift(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
     CannotDraw
         Where nothing is conserved.
     """
-    run = run_with(problem, asked, _candidates(problem), progress)
+    run = run_with(problem, request, _candidates(problem), progress)
     drifts = run.result.certificate.charges
     conserved = [name for name in run.names[1:] if name in drifts]
     if not conserved:
@@ -54,7 +54,7 @@ def drift(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
         for name in conserved
     ]  # fmt: skip
     rule = Rule(
-        at=asked.accuracy, of="y", role="bound", colour=6, label=words("requested accuracy")
+        at=request.accuracy, of="y", role="bound", colour=6, label=words("requested accuracy")
     )
     return largest_of_each(run, curves, [rule], "change"), run.result.refusal
 
@@ -76,7 +76,7 @@ def largest_of_each(
     y = Axis(
         label=words(f"largest {what} so far, relative"),
         low=FLOOR,
-        high=_HEADROOM * max(largest, run.asked.accuracy),
+        high=_HEADROOM * max(largest, run.request.accuracy),
         logarithmic=True,
     )
     panel = Panel(x=run.time_axis(), y=y, items=(*items, *rules))

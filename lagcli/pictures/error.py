@@ -6,7 +6,7 @@ what the run of the file claims is compared with numbers that it has not seen.
 
 from __future__ import annotations
 
-from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.pictures.drawing import CannotDraw, Drawn, Piece, Rule, words
 from lagcli.pictures.drift import FLOOR, largest_of_each
 from lagcli.pictures.run import PicturedRun, short
@@ -18,7 +18,7 @@ _FINER, _DIGITS = 1e-3, 40
 _MOST = 7
 
 
-def error(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
+def error(problem: Problem, request: RunRequest, progress: Progress = None) -> Drawn:
     """The error of each column, relative to its scale, and the largest bound.
 
     Raises
@@ -26,9 +26,9 @@ def error(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
     CannotDraw
         Where the reference does not reach so far.
     """
-    run = PicturedRun(problem, asked, progress)
+    run = PicturedRun(problem, request, progress)
     finer = replace(
-        asked, accuracy=max(asked.accuracy * _FINER, 1e-25), digits=_DIGITS, until=asked.until
+        request, accuracy=max(request.accuracy * _FINER, 1e-25), digits=_DIGITS, until=request.until
     )
     reference = PicturedRun(problem, finer, progress)
     held = run.result.certificate

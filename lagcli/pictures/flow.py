@@ -19,7 +19,7 @@ from lagcli.graph.nodes import mask_of
 from lagcli.numerics.equations.contact import with_contacts
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.pictures.contours import grid, quiet, roots
 from lagcli.pictures.drawing import CannotDraw, Curve, Drawn, Item, Picture, equilibria, words
 from lagcli.pictures.labels import Labels
@@ -104,13 +104,13 @@ class Flow:
         return Rest(q=q, stable=by_q < 0 and by_v <= h, eigenvalues=pair)
 
 
-def flow(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
+def flow(problem: Problem, request: RunRequest, progress: Progress = None) -> Drawn:
     """The portrait, with the motion of the file where that has an end."""
     labels = Labels(problem)
     made = Flow(problem, labels)
     rests = made.rests()
     columns = phase_columns(made.name.name)
-    run = run_with(problem, asked, columns, progress) if asked.until > 0 else None
+    run = run_with(problem, request, columns, progress) if request.until > 0 else None
     (low, high), fastest, time = _window(made, rests, run)
     items: list[Item] = []
     label = words("motions")
@@ -195,9 +195,9 @@ def _line(
     """A motion from a state; none where it cannot be run."""
     q, v = start
     initial = {made.name: signed(q), Name(made.name.name, 1): signed(v)}
-    asked = Asked(until=time, accuracy=_ACCURACY, samples=_ROWS, columns=())
+    request = RunRequest(until=time, accuracy=_ACCURACY, samples=_ROWS, columns=())
     try:
-        run = run_with(replace(problem, initial=initial), asked, columns)
+        run = run_with(replace(problem, initial=initial), request, columns)
     except Refusal:
         return ()
     pieces = run.curve(1, 2)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.pictures.drawing import Drawn
 from lagcli.problem_data import Problem
 from lagcli.record import record
@@ -32,7 +32,7 @@ class PictureRequest:
 
 
 def picture_of(
-    problem: Problem, asked: Asked, request: PictureRequest, progress: Progress = None
+    problem: Problem, request: RunRequest, drawing: PictureRequest, progress: Progress = None
 ) -> Drawn:
     """The picture, and why the accuracy was not reached to the end; empty where it was.
 
@@ -43,35 +43,35 @@ def picture_of(
     Refusal
         When there is nothing to run.
     """
-    match request.kind:
+    match drawing.kind:
         case "phase":
             from lagcli.pictures.portrait import plane, portrait
 
-            return (plane if request.chosen else portrait)(problem, asked, progress)
+            return (plane if drawing.chosen else portrait)(problem, request, progress)
         case "path":
             from lagcli.pictures.path import path
 
-            return path(problem, asked, progress)
+            return path(problem, request, progress)
         case "potential":
             from lagcli.pictures.potential import potential
 
-            return potential(problem, asked)
+            return potential(problem, request)
         case "poincare":
             from lagcli.pictures.section import section
 
-            where, orbits = request.section, request.orbits
-            return section(problem, asked, where, orbits, progress, chosen=request.chosen)
+            where, orbits = drawing.section, drawing.orbits
+            return section(problem, request, where, orbits, progress, chosen=drawing.chosen)
         case "drift":
             from lagcli.pictures.drift import drift
 
-            return drift(problem, asked, progress)
+            return drift(problem, request, progress)
         case "error":
             from lagcli.pictures.error import error
 
-            return error(problem, asked, progress)
+            return error(problem, request, progress)
         case _:
             from lagcli.pictures.run import PicturedRun
             from lagcli.pictures.series import series
 
-            run = PicturedRun(problem, asked, progress)
+            run = PicturedRun(problem, request, progress)
             return series(run), run.result.refusal

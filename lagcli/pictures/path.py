@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.pictures.drawing import (
     Axis,
     CannotDraw,
@@ -30,7 +30,7 @@ _LEAST = 0.25
 _VIEWS = (("x", "z"), ("x", "y"))
 
 
-def path(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
+def path(problem: Problem, request: RunRequest, progress: Progress = None) -> Drawn:
     """The paths of all points.
 
     Raises
@@ -45,7 +45,7 @@ def path(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
             f"the points of this file have one component, {used[0]}: a path in space needs two; "
             "--kind series draws it over the time"
         )
-    run = run_with(problem, asked, components(found), progress)
+    run = run_with(problem, request, components(found), progress)
     views = [tuple(used[:2])] if len(used) == 2 else list(_VIEWS)
     panels = tuple(_view(run, found, *view, named=not k) for k, view in enumerate(views))
     picture = Picture(title=problem.title, panels=panels, notes=run.notes())

@@ -11,7 +11,7 @@ import math
 
 from lagcli.expression import Name
 from lagcli.formatters.unicode import unicode_name
-from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.pictures.contours import Contours, grid
 from lagcli.pictures.drawing import (
     CannotDraw,
@@ -39,7 +39,7 @@ _IN_A_WELL = (0.11, 0.44)
 _SEPARATRIX = 1
 
 
-def portrait(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
+def portrait(problem: Problem, request: RunRequest, progress: Progress = None) -> Drawn:
     """The portrait with the motion in it, where that has an end.
 
     Raises
@@ -50,9 +50,9 @@ def portrait(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn
     try:
         freedom = RemainingFreedom(problem)
     except EnergyNotConserved:
-        return flow(problem, asked, progress)
+        return flow(problem, request, progress)
     labels = Labels(problem)
-    run = run_with(problem, asked, freedom.columns, progress) if asked.until > 0 else None
+    run = run_with(problem, request, freedom.columns, progress) if request.until > 0 else None
     seen = tuple(run.values(1)) if run is not None else ()
     window = Window(freedom, labels, (min(seen), max(seen)) if seen else ())
     items = _levels(freedom, window)
@@ -107,7 +107,7 @@ def _levels(freedom: RemainingFreedom, window: Window) -> list[Item]:
 # -- any two columns -----------------------------------------------------------------------------
 
 
-def plane(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
+def plane(problem: Problem, request: RunRequest, progress: Progress = None) -> Drawn:
     """The motion in the plane of two columns; of one coordinate q, that of q and q'.
 
     Raises
@@ -115,7 +115,7 @@ def plane(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
     CannotDraw
         Where it is not two columns.
     """
-    columns = list(asked.columns[1:])
+    columns = list(request.columns[1:])
     first = columns[0].expression if columns else None
     if len(columns) == 1 and isinstance(first, Name) and first.primes < 2:
         rate = Name(first.name, first.primes + 1)
@@ -125,7 +125,7 @@ def plane(problem: Problem, asked: Asked, progress: Progress = None) -> Drawn:
             f"--kind phase draws one column over another, and {len(columns)} are given: "
             "--show x draws x' over x, --show x,y draws y over x"
         )
-    run = run_with(problem, asked, columns, progress)
+    run = run_with(problem, request, columns, progress)
     items = run.in_the_plane(named=False)
     if not items:
         raise CannotDraw("the columns have no values together")

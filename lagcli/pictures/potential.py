@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.pictures.contours import grid
 from lagcli.pictures.drawing import (
     Axis,
@@ -29,7 +29,7 @@ _PLACES = 1201
 _BELOW = 0.15
 
 
-def potential(problem: Problem, asked: Asked) -> Drawn:
+def potential(problem: Problem, request: RunRequest) -> Drawn:
     """U_eff over q, the energy of the initial state, and where the motion turns.
 
     Raises
@@ -37,7 +37,7 @@ def potential(problem: Problem, asked: Asked) -> Drawn:
     CannotDraw
         Where more than one degree of freedom is left, or the energy is not conserved.
     """
-    del asked  # states are drawn, no motion
+    del request  # states are drawn, no motion
     freedom = RemainingFreedom(problem)
     labels, window = Labels(problem), Window(freedom, Labels(problem))
     u, energy = freedom.potential, window.energy

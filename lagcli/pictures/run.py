@@ -12,7 +12,7 @@ from functools import cached_property
 
 from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.hybrid.events import Event
-from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.numerics.hybrid.result import Result
 from lagcli.pictures.drawing import (
     Axis,
@@ -51,19 +51,19 @@ class PicturedRun:
     def __init__(
         self,
         problem: Problem,
-        asked: Asked,
+        request: RunRequest,
         progress: Progress = None,
         result: Result | None = None,
     ) -> None:
-        self.problem, self.asked = problem, asked
-        self.result: Result = simulate(problem, asked, progress) if result is None else result
+        self.problem, self.request = problem, request
+        self.result: Result = simulate(problem, request, progress) if result is None else result
         self.names = self.result.columns
         self.labels = Labels(problem)
 
     @property
     def columns(self) -> tuple[Column, ...]:
         """Without the time."""
-        return self.asked.columns[1:]
+        return self.request.columns[1:]
 
     @cached_property
     def pieces(self) -> tuple[tuple[Values, ...], ...]:
@@ -120,18 +120,22 @@ class PicturedRun:
 
     @property
     def is_cut_short(self) -> bool:
-        """Whether the certificate ends before the time that was asked for."""
+        """Whether the certificate ends before the requested time."""
         return not self.result.certificate.reached
 
     def time_axis(self) -> Axis:
-        """From 0 to the end that was asked for, or to where an event has stopped the run."""
-        end = self.asked.until if self.is_cut_short else (self.values(0) or [self.asked.until])[-1]
-        return Axis(label=self.labels.axis(None), low=0.0, high=end or self.asked.until)
+        """From 0 to the requested end, or to where an event has stopped the run."""
+        end = (
+            self.request.until
+            if self.is_cut_short
+            else (self.values(0) or [self.request.until])[-1]
+        )
+        return Axis(label=self.labels.axis(None), low=0.0, high=end or self.request.until)
 
     def over_time(self, *, named: bool = True) -> list[Item]:
         """Events and the end of the certificate, for a panel whose x is the time."""
         items: list[Item] = list(event_rules(self.result.events, named=named))
-        if self.is_cut_short and self.certain_until < self.asked.until:
+        if self.is_cut_short and self.certain_until < self.request.until:
             items.append(
                 Rule(
                     at=self.certain_until,
@@ -140,7 +144,7 @@ class PicturedRun:
                     label=words("end of the certificate") if named else None,
                 )
             )
-            items.append(Band(low=self.certain_until, high=self.asked.until))
+            items.append(Band(low=self.certain_until, high=self.request.until))
         return items
 
     def notes(self) -> tuple[str, ...]:
@@ -206,12 +210,12 @@ def largest_so_far(pieces: tuple[Piece, ...]) -> tuple[Piece, ...]:
 
 def run_with(
     problem: Problem,
-    asked: Asked,
+    request: RunRequest,
     columns: Sequence[Column],
     progress: Progress = None,
     **changed: object,
 ) -> PicturedRun:
-    """A run with other columns than those asked for; the time is added."""
+    """A run with other columns than the requested ones; the time is added."""
     return PicturedRun(
-        problem, replace(asked, columns=(Column("t", None), *columns), **changed), progress
+        problem, replace(request, columns=(Column("t", None), *columns), **changed), progress
     )

@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import combinations, starmap
 
 from lagcli.expression import Expression, Name
-from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.pictures.drawing import Piece, widened
 from lagcli.pictures.forces import Arrow, arrows
 from lagcli.pictures.points import AXES, mass_of, tracks
@@ -107,7 +107,7 @@ class Scene:
 
 
 def scene(
-    problem: Problem, asked: Asked, progress: Progress = None, *, forces: bool = False
+    problem: Problem, request: RunRequest, progress: Progress = None, *, forces: bool = False
 ) -> tuple[Scene, str]:
     """The animation of a motion, and why it ends early; empty where it does not.
 
@@ -116,11 +116,13 @@ def scene(
     CannotDraw
         Where the file does not state where its bodies are.
     """
-    return _Maker(problem, asked, progress, forces=forces).made()
+    return _Maker(problem, request, progress, forces=forces).made()
 
 
 class _Maker:
-    def __init__(self, problem: Problem, asked: Asked, progress: Progress, *, forces: bool) -> None:
+    def __init__(
+        self, problem: Problem, request: RunRequest, progress: Progress, *, forces: bool
+    ) -> None:
         self.problem = problem
         self.tracks = tracks(problem)
         self.axes = "".join(a for a in AXES if any(a in track.axes for track in self.tracks))
@@ -129,7 +131,7 @@ class _Maker:
         self.formulas: dict[str, Expression] = {}
         self._gather()
         columns = (Column("t", None), *starmap(Column, self.formulas.items()))
-        self.run = PicturedRun(problem, replace(asked, columns=columns), progress)
+        self.run = PicturedRun(problem, replace(request, columns=columns), progress)
         self.rows = [row for piece in self.run.pieces for row in piece]
 
     def _gather(self) -> None:

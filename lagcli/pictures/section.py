@@ -19,7 +19,7 @@ from lagcli.expression import Expression, Name, Negative, Sum
 from lagcli.numerics.equations.parameter_formulas import numbers_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.extrema import crossing, polynomial
-from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.pictures.drawing import CannotDraw, Drawn, Marks, Picture, Point, extent
 from lagcli.pictures.labels import Labels
 from lagcli.pictures.run import PicturedRun, Values, run_with, short
@@ -47,7 +47,7 @@ class SectionSurface:
 
 def section(
     problem: Problem,
-    asked: Asked,
+    request: RunRequest,
     where: str | None,
     orbits: int = 1,
     progress: Progress = None,
@@ -58,7 +58,7 @@ def section(
 
     Parameters
     ----------
-    problem, asked
+    problem, request
         The motion; with `chosen` its two columns are the axes.
     where
         Such as `x`, `x = 1` or `t = 2*pi`; None for the first coordinate.
@@ -71,17 +71,17 @@ def section(
         Where the surface is not passed, or there are not two columns.
     """
     surface = _surface(problem, where)
-    columns = _plane(problem, asked, surface, chosen=chosen)
+    columns = _plane(problem, request, surface, chosen=chosen)
     labels = Labels(problem)
-    passages = [_passages(problem, asked, surface, columns, progress)]
+    passages = [_passages(problem, request, surface, columns, progress)]
     points = [_points(passages[0][0], labels, columns)]
     if surface.expression is not None:  # the others come through about as often
         samples = min(_MOST, round(_MORE * _BETWEEN * len(points[0])))
-        asked = replace(asked, samples=max(asked.samples, samples))
+        request = replace(request, samples=max(request.samples, samples))
     if orbits > 1:
         for other in other_starts(problem, _plain(surface), points[0], columns, orbits - 1):
             try:
-                passages.append(_passages(other, asked, surface, columns, progress))
+                passages.append(_passages(other, request, surface, columns, progress))
             except (CannotDraw, Refusal):
                 continue  # it does not come through the surface
             points.append(_points(passages[-1][0], labels, columns))
@@ -120,11 +120,11 @@ def _plain(surface: SectionSurface) -> str | None:
 
 
 def _plane(
-    problem: Problem, asked: Asked, surface: SectionSurface, *, chosen: bool
+    problem: Problem, request: RunRequest, surface: SectionSurface, *, chosen: bool
 ) -> list[Column]:
     """The two columns of the picture: a coordinate that is not the section's, and its velocity."""
     if chosen:
-        shown = list(asked.columns[1:])
+        shown = list(request.columns[1:])
         if len(shown) != 2:
             raise CannotDraw(f"a section has two axes, and {len(shown)} columns are given")
         return shown
@@ -138,22 +138,22 @@ def _plane(
 
 def _passages(
     problem: Problem,
-    asked: Asked,
+    request: RunRequest,
     surface: SectionSurface,
     columns: Sequence[Column],
     progress: Progress,
 ) -> tuple[list[tuple[float | None, ...]], PicturedRun]:
     """The rows in the section, and the run they are of."""
     if surface.expression is None:
-        count = int(asked.until / surface.period * (1 + 1e-12))
+        count = int(request.until / surface.period * (1 + 1e-12))
         times = {surface.period * k for k in range(count + 1)}
-        every = tuple(sorted({0.0, *times, asked.until}))
-        run = run_with(problem, asked, columns, progress, times=every, samples=len(every))
+        every = tuple(sorted({0.0, *times, request.until}))
+        run = run_with(problem, request, columns, progress, times=every, samples=len(every))
         return [row for row in run.result.rows if row[0] in times], run
-    found = _crossings(problem, asked, surface.expression, columns, progress)
+    found = _crossings(problem, request, surface.expression, columns, progress)
     if found is None:
         raise CannotDraw(
-            f"the motion does not pass {surface.text} upwards until t = {asked.until:g}: "
+            f"the motion does not pass {surface.text} upwards until t = {request.until:g}: "
             "give another --section, or a longer --until"
         )
     return found
@@ -161,16 +161,16 @@ def _passages(
 
 def _crossings(
     problem: Problem,
-    asked: Asked,
+    request: RunRequest,
     expression: Expression,
     columns: Sequence[Column],
     progress: Progress | None,
 ) -> tuple[list[tuple[float | None, ...]], PicturedRun] | None:
     """The columns where the expression passes 0 upwards; None where it never does."""
     every = [Column(_SECTION, expression), *columns]
-    samples = max(asked.samples, _FIRST)
+    samples = max(request.samples, _FIRST)
     while True:
-        run = run_with(problem, asked, every, progress, samples=samples)
+        run = run_with(problem, request, every, progress, samples=samples)
         passed = [
             (piece, k)
             for piece in run.pieces
@@ -261,7 +261,7 @@ def _certain(runs: Sequence[PicturedRun]) -> tuple[str, ...]:
         return runs[0].notes()
     accuracy = short(runs[0].result.certificate.accuracy)
     if not cut:
-        return (f"All are certain to {accuracy} until t = {runs[0].asked.until:g}.",)
+        return (f"All are certain to {accuracy} until t = {runs[0].request.until:g}.",)
     first = min(run.certain_until for run in cut)
     many = f"{len(cut)} of them" if len(cut) < len(runs) else "All"
     return (f"{many} end where the accuracy {accuracy} is lost, the first at t = {first:.4g}.",)

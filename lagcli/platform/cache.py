@@ -1,6 +1,6 @@
 """Finished results on disk, found by everything that determines them.
 
-An entry is one file, named by the digest of what was asked for.  It holds the digest of
+An entry is one file, named by the digest of the request.  It holds the digest of
 its own text, so what is cut off, damaged or half-written is not read but replaced.  It
 comes into being under another name and takes its own in one step, so that runs at the
 same time see a whole entry or none.  Whatever cannot be read or written is left out: a
@@ -204,18 +204,18 @@ def folder(environment: Mapping[str, str]) -> str | None:
     return os.path.join(base, "lagcli")  # noqa: PTH118
 
 
-def key(asked: Mapping[str, Any], files: Sequence[tuple[str, bytes]]) -> str:
+def key(request: Mapping[str, Any], files: Sequence[tuple[str, bytes]]) -> str:
     """The digest of all that determines a result.
 
     Parameters
     ----------
-    asked
+    request
         The options, as JSON can write them.
     files
         Names and contents of the problem files, in their order.
     """
     digests = [[name, sha256(data).hexdigest()] for name, data in files]
-    whole = [asked, digests, _program()]
+    whole = [request, digests, _program()]
     return sha256(json.dumps(whole, sort_keys=True).encode()).hexdigest()
 
 

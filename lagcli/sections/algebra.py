@@ -24,7 +24,7 @@ from lagcli.reader.shapes import (
 from lagcli.record import replace
 from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import AlgebraSection, Answers, SpecialValue
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.wording import rows_by_name
 
 if TYPE_CHECKING:
@@ -129,6 +129,8 @@ SECTION = declared(
     globals(),
     heading="Algebra of symmetries",
     order=160,
-    told=Told(title="The algebra of the symmetries", blocks=step("symmetries:algebra"), order=110),
+    explained=Explained(
+        title="The algebra of the symmetries", blocks=step("symmetries:algebra"), order=110
+    ),
     expected=(expected_of("algebra", _EXPECTED, judged("algebra:expected_algebra")),),
 )

@@ -13,7 +13,7 @@ from lagcli.reader.phase_space import BRACKETED
 from lagcli.reader.shapes import formula, of_known
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.phase_space import BracketsSection
 from lagcli.values import substituted
 
@@ -83,6 +83,6 @@ SECTION = declared(
     order=120,
     phase_space=derive,
     unasked=attrgetter("brackets"),
-    told=Told(title="Poisson brackets", blocks=step("phase_space:brackets"), order=70),
+    explained=Explained(title="Poisson brackets", blocks=step("phase_space:brackets"), order=70),
     expected=(expected_of("brackets", _EXPECTED, compare),),
 )

@@ -27,7 +27,7 @@ from lagcli.reader.schema_parts import FORMULA as EXPRESSION
 from lagcli.reader.shapes import YES, Shape, formula, of_known, one_of, record_of
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.phase_space import (
     ExaminedTransformation,
     GeneratingFunction,
@@ -179,7 +179,7 @@ SECTION = declared(
     order=130,
     phase_space=derive,
     unasked=attrgetter("canonical_transformations"),
-    told=Told(
+    explained=Explained(
         title="Canonical transformations", blocks=step("transformations:transformations"), order=80
     ),
     expected=(expected_of("canonical", _EXPECTED, compare),),

@@ -11,7 +11,7 @@ from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import FORMULA, map_of, record_of
 from lagcli.sections.hamiltonian import fold_of
 from lagcli.statements.answers import Answers, CanonicalPair, CanonicalSection
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.wording import fold, not_found
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ SECTION = declared(
     order=110,
     schema=map_of(record_of(("q", "p"), {"q": FORMULA, "p": FORMULA})),
     unasked=attrgetter("hamiltonian"),
-    told=Told(
+    explained=Explained(
         title="Canonical equations", blocks=step("phase_space:canonical_equations"), order=60
     ),
     content="equations",

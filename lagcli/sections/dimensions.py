@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Equations, Formula, Heading, Label, Paragraph
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.statements.answers import Answers, DimensionsSection, QuantityUnit
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.wording import unit_rows
 
 if TYPE_CHECKING:
@@ -82,5 +82,5 @@ SECTION = declared(
     order=240,
     large=derive,
     phase_space=derive,
-    told=Told(title="Units", blocks=step("quantities:dimensions"), order=140),
+    explained=Explained(title="Units", blocks=step("quantities:dimensions"), order=140),
 )

@@ -18,7 +18,7 @@ from lagcli.sections.charges import (
     stated_charge,
 )
 from lagcli.statements.answers import ChargesSection
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
@@ -54,7 +54,9 @@ SECTION = declared(
     heading="Discovered symmetries",
     order=150,
     schema=CHARGES,
-    told=Told(title="Discovered symmetries", blocks=step("symmetries:discovered"), order=100),
+    explained=Explained(
+        title="Discovered symmetries", blocks=step("symmetries:discovered"), order=100
+    ),
     content="charges",
     expected=(
         expected_of("discovered", by_name(EXPECTED_CHARGE), partial(compare, key="discovered")),

@@ -14,7 +14,7 @@ from lagcli.reader.shapes import PLACE, STABILITY, by_coordinate, equation, list
 from lagcli.record import replace
 from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.plus_minus import once
 from lagcli.statements.stability import at_the_limit, holding, stability
 from lagcli.statements.wording import State, alike_blocks, conditions, listed, none_found
@@ -126,6 +126,6 @@ SECTION = declared(
     globals(),
     heading="Equilibria",
     order=180,
-    told=Told(title="Equilibria", blocks=step("further:equilibria"), order=20),
+    explained=Explained(title="Equilibria", blocks=step("further:equilibria"), order=20),
     expected=(expected_of("equilibria", _EXPECTED, judged("reductions:equilibria")),),
 )

@@ -28,7 +28,7 @@ from lagcli.reader.schema_parts import map_of as names_to
 from lagcli.reader.scope import ANSWER
 from lagcli.record import replace
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Expected, Told, declared, step
+from lagcli.statements.declaration import Expected, Explained, declared, step
 from lagcli.statements.questions import (
     Answer,
     FindSection,
@@ -234,7 +234,7 @@ SECTION = declared(
     heading="Questions",
     order=170,
     unasked=attrgetter("find"),
-    told=Told(title="Questions", blocks=step("questions:questions"), order=10),
+    explained=Explained(title="Questions", blocks=step("questions:questions"), order=10),
     content="answers",
     abbreviated=True,
     expected=(

@@ -16,7 +16,7 @@ from lagcli.reader.scope import ANSWER
 from lagcli.reader.shapes import Shape, formula, of_known
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.statements.wording import only_along_its_path
 
@@ -216,7 +216,7 @@ SECTION = declared(
     globals(),
     heading="Forces",
     order=70,
-    told=Told(title="Forces", blocks=step("real_forces:real_forces"), order=120),
+    explained=Explained(title="Forces", blocks=step("real_forces:real_forces"), order=120),
     expected=(
         expected_of("forces", _EXPECTED, compare),
         expected_of(

@@ -12,7 +12,7 @@ from lagcli.problem_data import ExpectHamiltonJacobi
 from lagcli.reader.shapes import YES, by_coordinate, record_of, with_constants
 from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.motions import ActionPart, HamiltonJacobiSection
 from lagcli.statements.wording import conditions, listed, not_found
 
@@ -136,7 +136,7 @@ SECTION = declared(
     globals(),
     heading="Hamilton-Jacobi",
     order=220,
-    told=Told(
+    explained=Explained(
         title="The Hamilton-Jacobi equation", blocks=step("phase_space:hamilton_jacobi"), order=90
     ),
     expected=(expected_of("hamilton_jacobi", _EXPECTED, judged("reductions:hamilton_jacobi")),),

@@ -9,7 +9,7 @@ from lagcli.document import Block, Paragraph
 from lagcli.expression import Name
 from lagcli.formatters.json_values import Object, plain
 from lagcli.statements.answers import Answers, ModelSection
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.wording import listed, not_found, rows_by_name, with_names
 
 if TYPE_CHECKING:
@@ -58,5 +58,7 @@ SECTION = declared(
     heading="Model",
     order=230,
     large=derive,
-    told=Told(title="The model of a numerical run", blocks=step("quantities:model"), order=130),
+    explained=Explained(
+        title="The model of a numerical run", blocks=step("quantities:model"), order=130
+    ),
 )

@@ -17,7 +17,7 @@ from lagcli.reader.shapes import formulas
 from lagcli.record import replace
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, ModesOfFrequency, ModesSection
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.plus_minus import is_pair, modes_in_pairs, pairs
 from lagcli.statements.wording import alike_blocks
 
@@ -146,7 +146,9 @@ SECTION = declared(
     globals(),
     heading="Normal modes",
     order=190,
-    told=Told(title="Small oscillations", blocks=step("oscillations:oscillations"), order=30),
+    explained=Explained(
+        title="Small oscillations", blocks=step("oscillations:oscillations"), order=30
+    ),
     abbreviated=True,
     expected=(expected_of("modes", _EXPECTED, compare, wanted),),
 )

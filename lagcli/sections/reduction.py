@@ -24,7 +24,7 @@ from lagcli.reader.shapes import by_coordinate, formula, formulas, record_of, wi
 from lagcli.sections._expected import expected_of, judged
 from lagcli.sections.equations import equation_json
 from lagcli.statements.answers import Answers, ReductionSection
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.motions import OneFreedom, PeriodSeries
 from lagcli.statements.plus_minus import once, single
 from lagcli.statements.wording import (
@@ -189,7 +189,7 @@ SECTION = declared(
     globals(),
     heading="Reduction",
     order=200,
-    told=Told(title="The reduction", blocks=step("reduction:reduction"), order=40),
+    explained=Explained(title="The reduction", blocks=step("reduction:reduction"), order=40),
     abbreviated=True,
     expected=(expected_of("reduction", _EXPECTED, judged("reductions:reduction")),),
 )

@@ -30,7 +30,7 @@ from lagcli.reader.shapes import (
 )
 from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers
-from lagcli.statements.declaration import Told, declared, step
+from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.motions import SteadyMotion, SteadySection
 from lagcli.statements.plus_minus import once, single, unlike
 from lagcli.statements.stability import steady_stability
@@ -157,7 +157,7 @@ SECTION = declared(
     globals(),
     heading="Steady motions",
     order=210,
-    told=Told(title="Steady motions", blocks=step("steady:steady"), order=50),
+    explained=Explained(title="Steady motions", blocks=step("steady:steady"), order=50),
     content="motions",
     abbreviated=True,
     expected=(expected_of("steady_motions", _EXPECTED, judged("reductions:steady_motions")),),

@@ -1,7 +1,7 @@
 """A derivation as statements: what the formatters print, section by section.
 
 Every expression is a plain tree of `lagcli.expression`, already verified and already in
-the shape and order in which it is to be read.  A section that was not asked for is not
+the shape and order in which it is to be read.  A section that was not requested is not
 in `Answers.sections`; an answer that does not exist or was not found is None.
 """
 
@@ -377,7 +377,7 @@ class Answers:
 
     `symbols` gives LaTeX for names whose file sets `symbol`; `multipliers` names those
     names that are multipliers (name -> constraint).  `complete` is False when an answer
-    was asked for and not found: exit status 1.  `absent` names sections that were asked for
+    was requested and not found: exit status 1.  `absent` names sections that were requested
     and could not be made at all; `degrees_of_freedom` is None where the number could not be
     confirmed.  `where` holds the abbreviations that formulas use, in an
     order in which each uses only earlier ones.

@@ -32,23 +32,23 @@ def step(place: str) -> Callable[[Any, Any], Iterable[Block]]:
     """The function `module:name` of `lagcli.mechanics.explaining`, imported when it is called."""
     module, _, name = place.partition(":")
 
-    def blocks(teller: Any, statement: Any) -> Iterable[Block]:
+    def blocks(explainer: Any, statement: Any) -> Iterable[Block]:
         found = import_module(f"lagcli.mechanics.explaining.{module}")
-        return cast("Iterable[Block]", getattr(found, name)(teller, statement))
+        return cast("Iterable[Block]", getattr(found, name)(explainer, statement))
 
     return blocks
 
 
 @record(kw_only=True)
-class Told:
+class Explained:
     """The step of `lagcli explain --also` on a section.
 
     Attributes
     ----------
     title : str
         The heading of the step.
-    blocks : function (teller, statement) -> blocks
-        The sentences and formulas; `teller` is a `lagcli.mechanics.explaining.teller.Teller`.
+    blocks : function (explainer, statement) -> blocks
+        The sentences and formulas; `explainer` is that of `mechanics.explaining.explainer`.
     order : int
         The place among the further steps; that of the section where it is 0.
     """
@@ -116,7 +116,7 @@ class Declaration:
         no Lagrangian; None where the section is missing there.
     unasked : function (problem) -> bool
         Whether it is shown without a request.
-    told : Told or None
+    explained : Explained or None
         Its step in an explanation.
     expected : tuple of Expected
         Its keys in `expect`.
@@ -136,7 +136,7 @@ class Declaration:
     large: Callable[[Any], Any] | None = None
     phase_space: Callable[[Any], Any] | None = None
     unasked: Callable[[Any], bool] = never
-    told: Told | None = None
+    explained: Explained | None = None
     expected: tuple[Expected, ...] = ()
     content: str = ""
     abbreviated: bool = False

@@ -76,11 +76,11 @@ def in_order(names: Iterable[str] | None = None) -> list[Declaration]:
     return _sorted(each for name in dict.fromkeys(names) for each in _found(name))
 
 
-def told_in_order(names: Iterable[str] | None = None) -> list[Declaration]:
+def explained_in_order(names: Iterable[str] | None = None) -> list[Declaration]:
     """Those of the named sections (of all) with a step in an explanation, in the order of steps."""
     named = every_section() if names is None else in_order(names)
-    told = ((each, each.told) for each in named)
-    ordered = [(step.order or each.order, each) for each, step in told if step is not None]
+    explained = ((each, each.explained) for each in named)
+    ordered = [(step.order or each.order, each) for each, step in explained if step is not None]
     return [each for _, each in sorted(ordered, key=lambda pair: (pair[0], pair[1].name))]
 
 

@@ -7,7 +7,7 @@ from lagcli.expression import Name
 from lagcli.mechanics.explaining.words import difference
 from lagcli.numerics.equations.parameter_formulas import numbers_of
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.numerics.rigorous import prove
 from lagcli.numerics.rigorous.result import Proof
 from lagcli.numerics.rigorous.writing import proved_digits
@@ -38,7 +38,7 @@ def proved_answer(problem: Problem, question: Lasting | Reaching) -> Proved | st
         margin = difference(question.coordinate, question.value)
     try:
         [(until,)] = numbers_of(problem, [end])
-        asked = Asked(
+        request = RunRequest(
             until=until,
             end=end,
             accuracy=_ACCURACY,
@@ -47,7 +47,9 @@ def proved_answer(problem: Problem, question: Lasting | Reaching) -> Proved | st
             stop_when=margin,
             stop_name=question.name,
         )
-        return _told(prove(problem, asked, work=_WORK), until, lasts=isinstance(question, Lasting))
+        return _told(
+            prove(problem, request, work=_WORK), until, lasts=isinstance(question, Lasting)
+        )
     except (Refusal, ProblemError) as reason:
         return str(reason)
 

@@ -1,4 +1,4 @@
-"""What is asked of a run, read and checked: for the command line and for Python alike."""
+"""The request of a run, read and checked: for the command line and for Python alike."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import TypeVar
 from lagcli.diagnostics import Diagnostic, ProblemError, Source
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.problem_data import METHODS, Problem
 from lagcli.reader.columns import (
     Column,
@@ -88,7 +88,9 @@ class OptionReader:
         self._spelled = spelled
         self._tell = tell
 
-    def asked(self, options: RunOptions, *, without_end: float | None = None) -> Asked | None:
+    def request(
+        self, options: RunOptions, *, without_end: float | None = None
+    ) -> RunRequest | None:
         """The run, None after a mistake; it has this end where none is given."""
         file = self.problem.simulation
         if without_end is None or options.until is not None or file.until is not None:
@@ -108,7 +110,7 @@ class OptionReader:
         )
         if not self.good or until is None:
             return None
-        return Asked(
+        return RunRequest(
             until=until,
             end=self._formula("until", options.until),
             accuracy=accuracy,

@@ -70,7 +70,7 @@ class State:
 
 
 class Completed:
-    """The environment of a state; what follows from the laws is worked out when asked for."""
+    """The environment of a state; what follows from the laws is computed when needed."""
 
     def __init__(self, state: State) -> None:
         self._state = state

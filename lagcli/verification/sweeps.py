@@ -41,7 +41,7 @@ class Unknown(Exception):
 
 
 class StepValues:
-    """The values of steps where each symbol has a value, worked out when asked for.
+    """The values of steps where each symbol has a value, computed when needed.
 
     Parameters
     ----------

@@ -26,14 +26,14 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 from lagcli.diagnostics import ProblemError
 from lagcli.evaluation import value_of
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.pipeline import Request, read
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.studies.tradeoff.front import ACCURACIES
 from lagcli.studies.tradeoff.reference import ReferenceMotion, numbers, reference
 from lagcli.studies.tradeoff.study import answer
-from lagcli.studies.tradeoff.trial import Given, asked_of
+from lagcli.studies.tradeoff.trial import Given, request_of
 from tests.bench.measure import ROOT, Row, show
 from tests.bench.motions import SYSTEMS
 
@@ -116,8 +116,8 @@ def examined(given: Given) -> Found:
         given = replace(given, until=_BEFORE_END * end)
         found["until"] = given.until
     try:
-        problem, asked = asked_of(given)
-        known = _known(problem, asked, 3 * given.limit)
+        problem, request = request_of(given)
+        known = _known(problem, request, 3 * given.limit)
     except (Refusal, ProblemError) as refusal:
         return {**found, "why": str(refusal)}
     found |= {"reference": known.kind, "bound": known.bound}
@@ -127,13 +127,13 @@ def examined(given: Given) -> Found:
     return found
 
 
-def _known(problem: Problem, asked: Asked, limit: float) -> ReferenceMotion:
+def _known(problem: Problem, request: RunRequest, limit: float) -> ReferenceMotion:
     """A reference, if it is good enough by a method that `auto` does not begin with."""
     try:
-        found = reference(problem, replace(asked, method=_OTHER), limit)
+        found = reference(problem, replace(request, method=_OTHER), limit)
     except Refusal:
-        return reference(problem, asked, limit)
-    return found if found.bound <= _GOOD else reference(problem, asked, limit)
+        return reference(problem, request, limit)
+    return found if found.bound <= _GOOD else reference(problem, request, limit)
 
 
 def judged(told: Mapping[str, Any], accuracy: float, known: ReferenceMotion) -> Found:
@@ -164,21 +164,21 @@ def rows(found: Sequence[Found]) -> Iterator[Row]:
     yield Row("certificates that are true", share, "%", 100, at_least=True, note=note)
     regular = [(each, key, run) for each, key, run in runs if each["name"] not in CHAOTIC]
     for accuracy in (*(f"{a:.0e}" for a in ACCURACIES), ""):
-        asked = [run for _, key, run in regular if accuracy in ("", key)]
-        claimed = sum(run["reached"] for run in asked)
+        request = [run for _, key, run in regular if accuracy in ("", key)]
+        claimed = sum(run["reached"] for run in request)
         what = f"claimed, not chaotic, {accuracy or 'all'}"
-        share = 100 * claimed / len(asked) if asked else 0.0
-        yield Row(what, share, "%", None if accuracy else 95, at_least=True, note=f"{len(asked)}")
+        share = 100 * claimed / len(request) if request else 0.0
+        yield Row(what, share, "%", None if accuracy else 95, at_least=True, note=f"{len(request)}")
     residuals = [run.get("residual") or 0.0 for _, _, run in runs]
     worst = max(residuals, default=0.0)
     yield Row("constraint residual", worst * 1e12, "e-12", 1.0, note="the largest of all runs")
 
 
-def study(asked: Iterator[Given], workers: int, keep: Path | None) -> list[Found]:
+def study(request: Iterator[Given], workers: int, keep: Path | None) -> list[Found]:
     """Examine the problems, told as they come; what is kept is not examined again."""
     found = [json.loads(line) for line in keep.read_text().splitlines()] if _is_there(keep) else []
     done = {each["name"] for each in found}
-    left = [given for given in asked if given.name not in done]
+    left = [given for given in request if given.name not in done]
     with ProcessPoolExecutor(workers) as pool:
         for each in pool.map(examined, left):
             found.append(each)
@@ -214,9 +214,9 @@ def main() -> int:
     parser.add_argument("--limit", type=float, default=20, help="CPU seconds of each run")
     parser.add_argument("--keep", type=Path, help="a file that results are added to")
     parser.add_argument("--started", action="store_true", help="problems without a state, in one")
-    asked = parser.parse_args()
-    given = givens(asked.paths, asked.limit, started=asked.started)
-    found = study(given, asked.workers, asked.keep)
+    request = parser.parse_args()
+    given = givens(request.paths, request.limit, started=request.started)
+    found = study(given, request.workers, request.keep)
     measured = list(rows(found))
     for row in measured:
         show(row)

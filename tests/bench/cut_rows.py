@@ -30,7 +30,7 @@ from lagcli.diagnostics import ProblemError
 from lagcli.evaluation import value_of
 from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import Column, read_columns, usual_columns
@@ -133,7 +133,9 @@ def _gains(
     """
     end = problem.simulation.until
     until = span = float((end and value_of(end)) or _UNTIL)
-    asked = Asked(until=until, accuracy=_ACCURACY, samples=_SAMPLES, columns=columns, project=True)
+    asked = RunRequest(
+        until=until, accuracy=_ACCURACY, samples=_SAMPLES, columns=columns, project=True
+    )
     first: float | None = None
     last = (0.0, until, False)
     while until <= _LONGEST * span and not last[2]:
@@ -158,11 +160,11 @@ def _gains(
 def _is_less(simulation: Simulation, every: tuple[Column, ...]) -> bool:
     """Whether something is cut; where all is shown, whether a constraint is solved."""
     cut = simulation.cut
-    shows_all = simulation.asked.columns == every
+    shows_all = simulation.request.columns == every
     return cut is not None and bool(cut.eliminated or (cut.dropped and not shows_all))
 
 
-def _shortest(problem: Problem, asked: Asked) -> tuple[float | None, int]:
+def _shortest(problem: Problem, asked: RunRequest) -> tuple[float | None, int]:
     """Seconds of a run, None where it does not claim the accuracy, and its steps."""
     best, begun = float("inf"), process_time()
     for _ in range(_TIMES):

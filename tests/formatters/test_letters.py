@@ -17,7 +17,7 @@ from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.page import to_document
 from lagcli.notation.naming import Names, free
 from lagcli.pipeline import Request, derive, explain, read, render, state
-from lagcli.statements.registry import told_in_order
+from lagcli.statements.registry import explained_in_order
 
 LETTERS = "L R omega T E H a S W U V M".split()
 SECTIONS = (
@@ -102,7 +102,7 @@ def letters_beside(path, further):
         declared |= {quantity.name, f"p_{quantity.name}"}
     declared |= {c.multiplier for c in problem.constraints} | {s.name for s in problem.symmetries}
     answers = state(derive(problem), Request(sections=SECTIONS, abbreviate=True))
-    sections = [s.name for s in told_in_order() if s.name not in (*SPOKEN, "find")]
+    sections = [s.name for s in explained_in_order() if s.name not in (*SPOKEN, "find")]
     told = explain(derive(problem), sections)
     pages = to_document(answers), told_document(told)
     return {letter for page in pages for letter in letters_of_ours(page, declared)}

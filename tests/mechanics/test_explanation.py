@@ -19,7 +19,7 @@ from lagcli.expression import Diff, Expression, Name, Number, Power, Rate, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.pipeline import derive, explain
 from lagcli.rewriting import rebuilt
-from lagcli.statements.registry import told_in_order
+from lagcli.statements.registry import explained_in_order
 
 from .derived import derive as derive_text
 from .formulas import formula, normal
@@ -268,7 +268,7 @@ def also(name, *sections):
 @pytest.mark.long
 def test_the_further_steps_are_told_only_when_asked_for():
     titles = [step.title for step in told("pendulums/plane-pendulum").steps]
-    more = also("pendulums/plane-pendulum", *(each.name for each in told_in_order()))
+    more = also("pendulums/plane-pendulum", *(each.name for each in explained_in_order()))
     added = [step.title for step in more.steps if step.title not in titles]
     assert added == [
         "Questions",

@@ -12,7 +12,7 @@ from lagcli.formatters import explaining
 from lagcli.formatters.display_width import display_width
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.options import Options
-from lagcli.statements.registry import told_in_order
+from lagcli.statements.registry import explained_in_order
 
 from .formulas import formula, normal
 from .test_explanation import also, rows, slope, value, words
@@ -114,7 +114,7 @@ def test_units_go_from_those_given_to_those_of_momenta_and_forces():
 @pytest.mark.long
 @pytest.mark.parametrize("name", ["central/kepler", "contact/car-in-loop"])
 def test_every_further_step_is_set_in_every_format(name):
-    told = [also(name, *(each.name for each in told_in_order()))]
+    told = [also(name, *(each.name for each in explained_in_order()))]
     for line in explaining.render(told, "text", Options(width=80)).splitlines():
         assert display_width(line) <= 80, line
     for format_name in ("markdown", "html", "json", "latex"):

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from lagcli.numerics.certified.simulate import simulate
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.reader.columns import Column, read_along, read_columns, usual_columns
 
@@ -21,7 +21,7 @@ def simulated(text, until, accuracy=1e-9, show=None, samples=2, settings=(), sto
     shown = usual_columns(problem) if show is None else read_columns(problem, [show])
     return simulate(
         problem,
-        Asked(
+        RunRequest(
             until=until,
             accuracy=accuracy,
             samples=samples,

@@ -10,14 +10,14 @@ import pytest
 
 import lagcli
 from lagcli.cli.run import run
-from lagcli.interface.motion import asked_of
+from lagcli.interface.motion import request_of
 from lagcli.numerics.rigorous import prove
 from tests.oracle.interval_taylor import pendulum
 
 
 def proof(problem, until, accuracy=1e-9, samples=5, show=()):
     return prove(
-        problem, asked_of(problem, until=until, accuracy=accuracy, samples=samples, show=show)
+        problem, request_of(problem, until=until, accuracy=accuracy, samples=samples, show=show)
     )
 
 
@@ -149,7 +149,7 @@ def test_a_perihelion_of_a_millionth_is_passed():
         "{coordinates: [x, y], L: (x'^2 + y'^2)/2 + 1/sqrt(x^2 + y^2), "
         "initial: {x: 2 - 1e-6, y': sqrt(2/(2 - 1e-6) - 1)}}"
     )
-    found = prove(problem, asked_of(problem, until="2*pi", accuracy=1e-6, samples=2))
+    found = prove(problem, request_of(problem, until="2*pi", accuracy=1e-6, samples=2))
     assert found.reached, found.refusal
     for before, after in zip(found.rows[0][1:], found.rows[-1][1:], strict=True):
         assert after.overlaps(before)

@@ -10,7 +10,7 @@ import pytest
 
 import lagcli
 from lagcli.cli.run import run
-from lagcli.interface.motion import asked_of
+from lagcli.interface.motion import request_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.rigorous import prove
 from tests.numerics.test_rigorous import contains, proof
@@ -218,8 +218,8 @@ def test_a_sign_that_makes_a_condition_jump_is_not_followed():
     problem = lagcli.loads("{coordinates: [x], T: x'^2/2, initial: {x: 0, x': 1}}")
     stop = "1.2 - x - 0.2*(1 + sign(t - 1))"
     with pytest.raises(Refusal, match="jumps with a sign"):
-        prove(problem, asked_of(problem, until=3, stop_when=stop))
-    continuous = prove(problem, asked_of(problem, until=3, stop_when="abs(x - 1/2) - 1/10"))
+        prove(problem, request_of(problem, until=3, stop_when=stop))
+    continuous = prove(problem, request_of(problem, until=3, stop_when="abs(x - 1/2) - 1/10"))
     assert float(continuous.events[0].t) == pytest.approx(0.4, rel=1e-15)
 
 

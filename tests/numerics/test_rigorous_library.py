@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import lagcli
-from lagcli.interface.motion import asked_of
+from lagcli.interface.motion import request_of
 from lagcli.numerics.rigorous import prove
 
 PROBLEMS = Path(__file__).parents[2] / "problems"
@@ -27,7 +27,7 @@ def with_runs():
 @pytest.mark.parametrize("path", list(with_runs()))
 def test_the_certified_run_lies_in_the_proved_enclosure(path):
     problem = lagcli.load(path)
-    asked = asked_of(problem, accuracy=1e-9, samples=6)
+    asked = request_of(problem, accuracy=1e-9, samples=6)
     proof = prove(problem, asked)
     assert proof.reached, proof.refusal
     motion = lagcli.simulate(problem, asked.until, accuracy=1e-9, samples=6)
@@ -56,7 +56,7 @@ def test_in_80_bits_before_a_collision_the_bound_holds():
     motion = lagcli.simulate(problem, 20, accuracy=1e-14, samples=17)
     assert not motion.certificate.reached
     end = motion.rows[-1][0]
-    proof = prove(problem, asked_of(problem, until=end, times=[0.0, end], accuracy=1e-9))
+    proof = prove(problem, request_of(problem, until=end, times=[0.0, end], accuracy=1e-9))
     scales, bounds = motion.certificate.scales[1:], motion.certificate.global_error.values()
     assert proof.reached
     for ball, x, scale, bound in zip(

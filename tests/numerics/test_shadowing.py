@@ -9,7 +9,7 @@ from flint import arb, arb_mat, arb_series, ctx
 
 import lagcli
 from lagcli.cli.run import run
-from lagcli.interface.motion import asked_of
+from lagcli.interface.motion import request_of
 from lagcli.numerics.rigorous import Shadowing, prove
 from lagcli.numerics.rigorous.shadowing import SplitStep, bounds, hold
 
@@ -20,7 +20,7 @@ ORDER, STEP = 52, 1 / 16
 
 def shadow(until, samples):
     problem = lagcli.loads(SHAKEN)
-    return prove(problem, asked_of(problem, until=until, accuracy=1e-9, samples=samples), None,
+    return prove(problem, request_of(problem, until=until, accuracy=1e-9, samples=samples), None,
                  Shadowing)  # fmt: skip
 
 

@@ -23,7 +23,7 @@ from lagcli.mechanics.parameter_values import parameter_values, random_parameter
 from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import usual_columns
 from lagcli.record import replace
@@ -204,7 +204,7 @@ def _farthest(claim: Claim, until: float, source: random.Random) -> float | None
         },
     )
     columns = tuple(usual_columns(problem))
-    asked = Asked(
+    asked = RunRequest(
         until=until,
         accuracy=1e-6,
         samples=101,

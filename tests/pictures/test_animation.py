@@ -10,7 +10,7 @@ import pytest
 
 from lagcli import load
 from lagcli.cli.run import run
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pictures.page import to_html
 from lagcli.pictures.scene import scene
@@ -32,7 +32,7 @@ initial: {x: 1}
 
 
 def made(problem, until=2.0, **wanted):
-    asked = Asked(until=until, accuracy=1e-9, samples=41, columns=(Column("t", None),))
+    asked = RunRequest(until=until, accuracy=1e-9, samples=41, columns=(Column("t", None),))
     return scene(problem, asked, **wanted)[0]
 
 

@@ -5,7 +5,7 @@ from math import asin, pi, sqrt
 import pytest
 
 from lagcli.expression import signed
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.pictures.drawing import Curve, Marks
 from lagcli.pictures.flow import Flow, reversed_in_time
 from lagcli.pictures.labels import Labels
@@ -26,7 +26,7 @@ initial: {theta: 2, theta': 1}
 """
 SADDLE = "coordinates: [x]\nT: x'^2/2\nV: -x^2/2\ndissipation: x'^2/2\ninitial: {x: 0.5}\n"
 RATES = ((sqrt(5) - 1) / 2, -(sqrt(5) + 1) / 2)
-STATES = Asked(until=0.0, accuracy=1e-9, samples=2, columns=(Column("t", None),))
+STATES = RunRequest(until=0.0, accuracy=1e-9, samples=2, columns=(Column("t", None),))
 
 
 def marks(picture, role):
@@ -59,7 +59,7 @@ def test_the_manifolds_of_a_saddle_are_its_straight_lines():
 
 def test_with_the_time_reversed_a_motion_runs_back():
     problem = problem_of(PENDULUM)
-    asked = Asked(until=1.5, accuracy=1e-10, samples=31, columns=())
+    asked = RunRequest(until=1.5, accuracy=1e-10, samples=31, columns=())
     columns = [Column(str(name), name) for name in problem.initial]
     there = run_with(problem, asked, columns).result.rows
     names = list(problem.initial)

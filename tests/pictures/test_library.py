@@ -7,7 +7,7 @@ from lagcli.formatters.display_width import display_width
 from lagcli.library import entries
 from lagcli.numerics.equations.parameter_formulas import numbers_of
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.pictures.drawing import CannotDraw
 from lagcli.pictures.figure import to_bytes
 from lagcli.pictures.kinds import PictureRequest, picture_of
@@ -41,7 +41,7 @@ def drawn(path, *, written):
     columns = tuple(usual_columns(problem))
     method = problem.simulation.method or "auto"
     assert method in METHODS
-    asked = Asked(until=until, accuracy=1e-6, samples=101, columns=columns, method=method)
+    asked = RunRequest(until=until, accuracy=1e-6, samples=101, columns=columns, method=method)
     made = []
     for kind in KINDS:
         try:

@@ -155,7 +155,7 @@ def test_a_title_is_never_a_formula(plot, tmp_path):
 
 def test_the_error_stays_below_the_bound_of_the_certificate():
     from lagcli import load
-    from lagcli.numerics.hybrid.request import Asked
+    from lagcli.numerics.hybrid.request import RunRequest
     from lagcli.pictures.drawing import Curve, Rule
     from lagcli.pictures.error import error
     from lagcli.pictures.run import short
@@ -163,7 +163,7 @@ def test_the_error_stays_below_the_bound_of_the_certificate():
 
     problem = load(KEPLER)
     columns = tuple(usual_columns(problem))
-    picture, _ = error(problem, Asked(until=30.0, accuracy=1e-7, samples=201, columns=columns))
+    picture, _ = error(problem, RunRequest(until=30.0, accuracy=1e-7, samples=201, columns=columns))
     items = picture.panels[0].items
     largest = [i.pieces[-1][-1][1] for i in items if isinstance(i, Curve)]
     bound = min(i.at for i in items if isinstance(i, Rule) and i.of == "y")

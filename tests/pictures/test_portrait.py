@@ -4,7 +4,7 @@ from math import acos, cos, pi, sqrt
 
 import pytest
 
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.pictures.drawing import CannotDraw, Curve, Marks
 from lagcli.pictures.one_freedom import RemainingFreedom
 from lagcli.pictures.portrait import plane, portrait
@@ -33,8 +33,8 @@ T: m*R^2*(theta'^2 + omega^2*sin(theta)^2)/2
 V: -m*g*R*cos(theta)
 initial: {theta: 1}
 """
-STATES = Asked(until=0.0, accuracy=1e-9, samples=2, columns=(Column("t", None),))
-MOTION = Asked(until=10.0, accuracy=1e-9, samples=101, columns=(Column("t", None),))
+STATES = RunRequest(until=0.0, accuracy=1e-9, samples=2, columns=(Column("t", None),))
+MOTION = RunRequest(until=10.0, accuracy=1e-9, samples=101, columns=(Column("t", None),))
 
 
 def curves(picture, role):
@@ -142,7 +142,7 @@ def test_a_plane_of_columns_has_the_motion_alone():
     problem = problem_of(PENDULUM)
     from lagcli.expression import Name
 
-    chosen = Asked(
+    chosen = RunRequest(
         until=3.0, accuracy=1e-9, samples=31,
         columns=(Column("t", None), Column("theta", Name("theta"))),
     )  # fmt: skip

@@ -4,7 +4,7 @@ from math import cos, pi, remainder, sin, sqrt
 
 import pytest
 
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.pictures.drawing import CannotDraw, Marks
 from lagcli.pictures.section import section
 from lagcli.pictures.starts import other_starts
@@ -32,7 +32,7 @@ initial: {theta: 0.5, theta': 1, phi: 0, phi': 0.3}
 
 
 def motion(until, samples=50):
-    return Asked(until=until, accuracy=1e-10, samples=samples, columns=(Column("t", None),))
+    return RunRequest(until=until, accuracy=1e-10, samples=samples, columns=(Column("t", None),))
 
 
 def dots(picture):

@@ -24,7 +24,7 @@ def test_after_an_interruption_the_table_has_what_was_made(monkeypatch):
         tolerance=None, accuracy=None, limit=10.0,
     )  # fmt: skip
     told = []
-    found = study.study(given, ["dop853"], teller=told.append)
+    found = study.study(given, ["dop853"], run_printer=told.append)
     assert told == [*found.points, *found.certified, found.proved]
     first, second = found.points
     assert (first.error is not None, first.why) == (True, "")

@@ -1,7 +1,7 @@
 """The machine's view: a stable contract, every expression in the problem format's grammar.
 
 One object for one file, an array for several.  The keys and their order are those of the
-manual's page on output; a section that was not asked for has no key.
+manual's page on output; a section that was not requested has no key.
 """
 
 from __future__ import annotations

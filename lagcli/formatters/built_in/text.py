@@ -1,4 +1,4 @@
-"""For reading in a terminal: aligned equations in Unicode or ASCII, no wider than asked."""
+"""For reading in a terminal: aligned equations in Unicode or ASCII, no wider than requested."""
 
 from __future__ import annotations
 

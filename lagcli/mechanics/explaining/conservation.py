@@ -10,16 +10,16 @@ from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
 from lagcli.document import Block, Equations, Heading, Label, Row
 from lagcli.expression import Diff, Name, Product, Rate, Sum
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, listed, says, shows
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.statements.wording import TRIVIAL, enumerated
 
 
-def energy(teller: Teller) -> Iterator[Block]:
+def energy(explainer: Explainer) -> Iterator[Block]:
     """The energy function h, whether it equals T + V, whether it is conserved."""
-    function, letters = teller.derivation.energy, teller.letters
+    function, letters = explainer.derivation.energy, explainer.letters
     momentum = Diff(letters.L, letters.velocity)
     product = Product((letters.velocity, momentum))
     yield says(
@@ -29,10 +29,10 @@ def energy(teller: Teller) -> Iterator[Block]:
         letters.L,
         ":",
     )
-    yield shows(letters.h, teller.readable.by_terms(function.readable_function, as_given=True))
-    yield says(*_total(teller))
-    yield from _rate(teller)
-    if _has_hamiltonian(teller):
+    yield shows(letters.h, explainer.readable.by_terms(function.readable_function, as_given=True))
+    yield says(*_total(explainer))
+    yield from _rate(explainer)
+    if _has_hamiltonian(explainer):
         yield says(
             "The Hamiltonian is ",
             letters.h,
@@ -40,16 +40,16 @@ def energy(teller: Teller) -> Iterator[Block]:
         )
 
 
-def _has_hamiltonian(teller: Teller) -> bool:
+def _has_hamiltonian(explainer: Explainer) -> bool:
     """Whether the momenta determine the velocities."""
-    hamiltonian = teller.derivation.hamiltonian
-    return not teller.dynamics.degenerate and hamiltonian.fold is None
+    hamiltonian = explainer.derivation.hamiltonian
+    return not explainer.dynamics.degenerate and hamiltonian.fold is None
 
 
-def _total(teller: Teller) -> list[Part]:
+def _total(explainer: Explainer) -> list[Part]:
     """Whether h equals T + V, and why."""
-    system, letters = teller.system, teller.letters
-    function = teller.derivation.energy
+    system, letters = explainer.system, explainer.letters
+    function = explainer.derivation.energy
     h, T, V = letters.h, letters.T, letters.V
     if system.T is None or system.V is None:
         given = letters.L if system.H is None else letters.free("H")
@@ -79,12 +79,12 @@ def _total(teller: Teller) -> list[Part]:
     return [*reasons, ", " if reasons else "", *verdict, T, " + ", V, end]
 
 
-def _rate(teller: Teller) -> Iterator[Block]:
-    function, letters = teller.derivation.energy, teller.letters
+def _rate(explainer: Explainer) -> Iterator[Block]:
+    function, letters = explainer.derivation.energy, explainer.letters
     h = letters.h
     if not function.powers:
-        yield says(*_unchanged(teller), " So ", h, *_conserved(teller), ".")
-        yield from _work_of_drive(teller)
+        yield says(*_unchanged(explainer), " So ", h, *_conserved(explainer), ".")
+        yield from _work_of_drive(explainer)
         return
     changes = listed(
         [
@@ -95,39 +95,39 @@ def _rate(teller: Teller) -> Iterator[Block]:
     total = sympy.Add(*(power.value for power in function.powers))
     because = [] if function.conserved else ["It can change because ", *changes, ". "]
     yield says(*because, "Its rate is")
-    yield shows(Name(h.name, 1), teller.readable.by_terms(total, as_given=True))
+    yield shows(Name(h.name, 1), explainer.readable.by_terms(total, as_given=True))
     if function.conserved is None:
         yield says("Whether this vanishes on the motion was not decided.")
     elif function.conserved:
-        yield says("On the motion this is 0, so ", h, *_conserved(teller), ".")
-        yield from _work_of_drive(teller)
+        yield says("On the motion this is 0, so ", h, *_conserved(explainer), ".")
+        yield from _work_of_drive(explainer)
     else:
         rate = function.rate
-        if rate is not None and not total.free_symbols.isdisjoint(teller.system.multipliers):
+        if rate is not None and not total.free_symbols.isdisjoint(explainer.system.multipliers):
             yield says("With the values of the multipliers it is")
-            yield shows(Name(h.name, 1), teller.readable.on_surface(rate))
+            yield shows(Name(h.name, 1), explainer.readable.on_surface(rate))
         yield says("This is not 0 on every motion: ", h, " is not conserved.")
 
 
-def _unchanged(teller: Teller) -> list[Part]:
+def _unchanged(explainer: Explainer) -> list[Part]:
     """Why dh/dt has no terms: dL/dt = 0, Q . q' = 0, and b = 0 for every constraint."""
-    clauses: list[Part | list[Part]] = [[teller.letters.L, " does not depend on t explicitly"]]
-    clauses += ["the applied forces do no work"] if teller.forced else []
-    if constraints := len(teller.dynamics.constraints.equations):
+    clauses: list[Part | list[Part]] = [[explainer.letters.L, " does not depend on t explicitly"]]
+    clauses += ["the applied forces do no work"] if explainer.forced else []
+    if constraints := len(explainer.dynamics.constraints.equations):
         clauses += [f"the constraint{' does' if constraints == 1 else 's do'} no work"]
     return [*listed(clauses), "."]
 
 
-def _conserved(teller: Teller) -> list[Part]:
-    function = teller.derivation.energy
+def _conserved(explainer: Explainer) -> list[Part]:
+    function = explainer.derivation.energy
     named = "" if function.is_total_energy else ", Jacobi's integral,"
     when = f" {function.between_impacts}" if function.between_impacts else ""
     return [f"{named} is conserved{when}"]
 
 
-def _work_of_drive(teller: Teller) -> Iterator[Block]:
+def _work_of_drive(explainer: Explainer) -> Iterator[Block]:
     """d(T + V)/dt, where h is conserved and differs from T + V."""
-    function, letters = teller.derivation.energy, teller.letters
+    function, letters = explainer.derivation.energy, explainer.letters
     rate = function.total_rate
     if not function.driven or rate is None:
         return
@@ -138,26 +138,26 @@ def _work_of_drive(teller: Teller) -> Iterator[Block]:
         letters.T, " + ", letters.V,
         " is not conserved: what keeps up the prescribed motion does work. Its rate is",
     )  # fmt: skip
-    yield shows(Rate(Sum((letters.T, letters.V))), teller.readable.on_surface(rate))
+    yield shows(Rate(Sum((letters.T, letters.V))), explainer.readable.on_surface(rate))
 
 
-def charges(teller: Teller) -> Iterator[Block]:
+def charges(explainer: Explainer) -> Iterator[Block]:
     """Momenta of cyclic coordinates, and the conserved quantities of the candidates."""
-    for charge in teller.derivation.noether.charges:
+    for charge in explainer.derivation.noether.charges:
         if charge.source == "cyclic":
-            yield from _cyclic(teller, charge)
+            yield from _cyclic(explainer, charge)
         elif charge.source == "candidate":
-            yield from _candidate(teller, charge)
+            yield from _candidate(explainer, charge)
 
 
-def _cyclic(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
-    system, letters = teller.system, teller.letters
+def _cyclic(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
+    system, letters = explainer.system, explainer.letters
     index = list(charge.transformation.changes).index(sympy.S.One)
     name = system.names[index]
     q, v, p = Name(name), Name(name, 1), Name(f"p_{name}")
     right = sympy.Add(
         system.applied_forces[index],
-        *(e.multiplier * e.row[index] for e in teller.dynamics.constraints.equations),
+        *(e.multiplier * e.row[index] for e in explainer.dynamics.constraints.equations),
     )
     nothing = is_zero(right) is True
     yield Heading("The momentum of", 2, q)
@@ -172,7 +172,7 @@ def _cyclic(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
         ", of which there are none:" if nothing and charge.conserved else ". Its rate is",
     )
     if not nothing:
-        yield shows(Name(p.name, 1), teller.readable.by_terms(right))
+        yield shows(Name(p.name, 1), explainer.readable.by_terms(right))
     if charge.conserved is None:
         yield says("Whether that vanishes on the motion was not decided.")
         return
@@ -181,19 +181,19 @@ def _cyclic(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
             yield says("which is 0 on the motion. So this is conserved:")
     else:
         rate = charge.rate
-        if rate is not None and not right.free_symbols.isdisjoint(teller.system.multipliers):
+        if rate is not None and not right.free_symbols.isdisjoint(explainer.system.multipliers):
             yield says("and with the values of the multipliers")
-            yield shows(Name(p.name, 1), teller.readable.on_surface(rate))
+            yield shows(Name(p.name, 1), explainer.readable.on_surface(rate))
         yield says("so it is not conserved:")
-    yield shows(p, teller.readable.by_terms(charge.charge), _stays(charge))
+    yield shows(p, explainer.readable.by_terms(charge.charge), _stays(charge))
     if charge.conserved:
-        yield from _struck(teller, charge)
+        yield from _struck(explainer, charge)
 
 
-def _acting(teller: Teller) -> str:
+def _acting(explainer: Explainer) -> str:
     """Applied forces and constraints, as the subject of a sentence."""
-    constraints = len(teller.dynamics.constraints.equations)
-    forces = ["the applied forces"] * teller.forced + ["the dissipation"] * teller.damped
+    constraints = len(explainer.dynamics.constraints.equations)
+    forces = ["the applied forces"] * explainer.forced + ["the dissipation"] * explainer.damped
     forces += [f"the force{'s' * (constraints > 1)} of the constraint{'s' * (constraints > 1)}"
                ] * bool(constraints)  # fmt: skip
     if not forces:
@@ -203,11 +203,11 @@ def _acting(teller: Teller) -> str:
     return f"{words[0].upper()}{words[1:]} {'do' if several else 'does'}"
 
 
-def _work(teller: Teller, charge: NoetherCharge, *, with_gauge: bool) -> Iterator[Block]:
+def _work(explainer: Explainer, charge: NoetherCharge, *, with_gauge: bool) -> Iterator[Block]:
     """What forces do along a transformation whose Q is constant."""
-    working = teller.derivation.noether.working(charge)
+    working = explainer.derivation.noether.working(charge)
     if not working:
-        acting = _acting(teller)
+        acting = _acting(explainer)
         if acting:
             yield says(acting, " no work along this transformation.")
         return
@@ -215,14 +215,14 @@ def _work(teller: Teller, charge: NoetherCharge, *, with_gauge: bool) -> Iterato
     several = len(working) > 1 or words.startswith(("the applied", "the constraints"))
     do = "do" if several else "does"
     lead = f"{words[0].upper()}{words[1:]} {do} work along this transformation, which together "
-    letters = teller.letters
+    letters = explainer.letters
     total: list[Part] = ["the total time derivative of ", letters.G] if with_gauge else ["0"]
     yield says(lead, "with the change of ", letters.L, " is ", *total, ".")
 
 
-def _struck(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
+def _struck(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
     change = charge.transformation
-    when = between_impacts(teller.system, change.changes, change.time, charge.gauge)
+    when = between_impacts(explainer.system, change.changes, change.time, charge.gauge)
     if when:
         yield says(f"This holds {when}.")
 
@@ -231,18 +231,18 @@ def _stays(charge: NoetherCharge) -> str:
     return "constant" if charge.conserved else "not conserved"
 
 
-def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
-    letters, write = teller.letters, teller.readable.as_written
+def _candidate(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
+    letters, write = explainer.letters, explainer.readable.as_written
     change = charge.transformation
     yield Heading(charge.name, 2)
     yield says("The transformation of the file is")
-    named = [*zip(teller.system.names, change.changes, strict=True), ("t", change.time)]
+    named = [*zip(explainer.system.names, change.changes, strict=True), ("t", change.time)]
     rows = [Row(Label(name, change=True), write(by)) for name, by in named if by != 0]
     yield Equations(tuple(rows))
     gauge = charge.gauge
-    changed = teller.derivation.noether.change_of_action(change)
+    changed = explainer.derivation.noether.change_of_action(change)
     boundary = sympy.S.Zero if gauge is None else gauge
-    same = is_zero(changed - teller.system.total_derivative(boundary)) is True
+    same = is_zero(changed - explainer.system.total_derivative(boundary)) is True
     if gauge is None:
         yield says(
             "Under it the action changes, and no boundary term was found whose total time "
@@ -265,29 +265,29 @@ def _candidate(teller: Teller, charge: NoetherCharge) -> Iterator[Block]:
         yield shows(letters.G, write(gauge))
     applies = charge.conserved is not False
     with_gauge, with_time = bool(boundary != 0), change.time != 0
-    yield says(*noether_words(teller, applies, with_gauge=with_gauge, with_time=with_time))
-    yield shows(letters.Q, teller.readable.by_terms(charge.charge), _stays(charge)
+    yield says(*noether_words(explainer, applies, with_gauge=with_gauge, with_time=with_time))
+    yield shows(letters.Q, explainer.readable.by_terms(charge.charge), _stays(charge)
                 if charge.conserved is not None else "")  # fmt: skip
-    if teller.derivation.noether.is_trivial(charge):
+    if explainer.derivation.noether.is_trivial(charge):
         yield says(TRIVIAL)
         return
     if charge.conserved is None:
         why = f": {charge.broken_by}" if charge.broken_by else ""
         yield says(f"Whether it is conserved was not decided{why}.")
     elif charge.conserved:
-        yield from _work(teller, charge, with_gauge=bool(boundary != 0))
-        yield from _struck(teller, charge)
+        yield from _work(explainer, charge, with_gauge=bool(boundary != 0))
+        yield from _struck(explainer, charge)
     else:
         yield says(f"It is not conserved, because of {charge.broken_by}:")
         if charge.rate is not None:
-            yield shows(Name(letters.Q.name, 1), teller.readable.on_surface(charge.rate))
+            yield shows(Name(letters.Q.name, 1), explainer.readable.on_surface(charge.rate))
 
 
 def noether_words(
-    teller: Teller, applies: bool = True, *, with_gauge: bool, with_time: bool
+    explainer: Explainer, applies: bool = True, *, with_gauge: bool, with_time: bool
 ) -> list[Part]:
     """What Q is made of, by Noether's theorem, or all the same where it does not apply."""
-    letters = teller.letters
+    letters = explainer.letters
     momentum = Diff(letters.L, letters.velocity)
     change, delay = Label(letters.q.name, change=True), Label("t", change=True)
     several = letters.several

@@ -16,7 +16,7 @@ from lagcli.document import Block, Equations, Label, Matrix, Row
 from lagcli.expression import ZERO, Expression, Name, operation_count
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import SolvedMotion
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import matrix_law, names, quoted, says
 
 #: A matrix is set when its entries show no more operations than this together.
@@ -30,39 +30,39 @@ _ON_THE_WAY = 200
 _INLINE = 5
 
 
-def elimination(teller: Teller) -> Iterator[Block]:
+def elimination(explainer: Explainer) -> Iterator[Block]:
     """From the equations to q'' and the multipliers."""
-    motion = teller.dynamics.motion
+    motion = explainer.dynamics.motion
     if motion is None:
-        yield from _unsolved(teller)
-    elif teller.dynamics.constraints.equations:
-        yield from _with_multipliers(teller, motion)
+        yield from _unsolved(explainer)
+    elif explainer.dynamics.constraints.equations:
+        yield from _with_multipliers(explainer, motion)
     else:
-        yield from _free(teller, motion)
+        yield from _free(explainer, motion)
 
 
-def _unsolved(teller: Teller) -> Iterator[Block]:
-    degenerate = [teller.system.names[i] for i in teller.dynamics.undetermined]
+def _unsolved(explainer: Explainer) -> Iterator[Block]:
+    degenerate = [explainer.system.names[i] for i in explainer.dynamics.undetermined]
     if degenerate:
         yield says(
             "The equations are linear in the accelerations, but the matrix of their coefficients "
             "(the second derivatives of ",
-            teller.letters.L,
+            explainer.letters.L,
             " with respect to the velocities) has no inverse along ",
             names(degenerate),
             ": the Lagrangian is singular, and the equations do not determine the accelerations.",
         )
-        demanded = teller.dynamics.contradiction
+        demanded = explainer.dynamics.contradiction
         if demanded is not None:
             yield says("They imply")
-            yield Equations((Row(teller.readable.as_written(demanded), ZERO),))
+            yield Equations((Row(explainer.readable.as_written(demanded), ZERO),))
             yield says("which is false: this Lagrangian has no motion.")
         return
     yield says(
         "The equations are linear in the accelerations and multipliers, but too many for a "
         "readable "
         "solution. They stay in matrix form, to be solved numerically: ",
-        *matrix_law(constrained=bool(teller.dynamics.constraints.equations)),
+        *matrix_law(constrained=bool(explainer.dynamics.constraints.equations)),
         ". lagcli solve --show matrix_form prints its entries.",
     )
 
@@ -70,12 +70,12 @@ def _unsolved(teller: Teller) -> Iterator[Block]:
 # -- without constraints ----------------------------------------------------------------------
 
 
-def _free(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
-    n = len(teller.system.names)
-    M = teller.dynamics.lagrange.mass_matrix
+def _free(explainer: Explainer, motion: SolvedMotion) -> Iterator[Block]:
+    n = len(explainer.system.names)
+    M = explainer.dynamics.lagrange.mass_matrix
     if n == 1:
-        coefficient = teller.readable.as_written(M[0][0])
-        acceleration = teller.accelerations[0]
+        coefficient = explainer.readable.as_written(M[0][0])
+        acceleration = explainer.accelerations[0]
         if operation_count(coefficient) == 0:
             yield says("Solved for ", acceleration, ":")
         elif operation_count(coefficient) <= _INLINE:
@@ -95,10 +95,10 @@ def _free(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
             "The equations are linear in the accelerations and coupled: ",
             *matrix_law(constrained=False),
         )
-        yield from _matrices(teller, [])
-        yield says("The coefficients are the second derivatives of ", teller.letters.L,
+        yield from _matrices(explainer, [])
+        yield says("The coefficients are the second derivatives of ", explainer.letters.L,
                    " with respect to the velocities. The solution is")  # fmt: skip
-    yield Equations(tuple(_accelerations(teller, motion)))
+    yield Equations(tuple(_accelerations(explainer, motion)))
 
 
 def _diagonal(M: Sequence[Sequence[Expr]]) -> bool:
@@ -107,15 +107,15 @@ def _diagonal(M: Sequence[Sequence[Expr]]) -> bool:
     )
 
 
-def _accelerations(teller: Teller, motion: SolvedMotion) -> Iterator[Row]:
-    for name, value in zip(teller.accelerations, motion.accelerations, strict=True):
-        yield Row(name, teller.readable.on_surface(value))
+def _accelerations(explainer: Explainer, motion: SolvedMotion) -> Iterator[Row]:
+    for name, value in zip(explainer.accelerations, motion.accelerations, strict=True):
+        yield Row(name, explainer.readable.on_surface(value))
 
 
-def _matrices(teller: Teller, kept: Sequence[ConstraintEquation]) -> Iterator[Block]:
+def _matrices(explainer: Explainer, kept: Sequence[ConstraintEquation]) -> Iterator[Block]:
     """M, F, A and b, where they are not too long."""
-    lagrange, write = teller.dynamics.lagrange, teller.readable.as_written
-    coordinates = teller.system.names
+    lagrange, write = explainer.dynamics.lagrange, explainer.readable.as_written
+    coordinates = explainer.system.names
     rows = tuple(e.name for e in kept)
     shown = [
         ("M", [[write(x) for x in row] for row in lagrange.mass_matrix], coordinates, coordinates),
@@ -137,10 +137,10 @@ def _matrices(teller: Teller, kept: Sequence[ConstraintEquation]) -> Iterator[Bl
 # -- with constraints -------------------------------------------------------------------------
 
 
-def _with_multipliers(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
-    dynamics = teller.dynamics
+def _with_multipliers(explainer: Explainer, motion: SolvedMotion) -> Iterator[Block]:
+    dynamics = explainer.dynamics
     kept = [dynamics.constraints.equations[k] for k in dynamics.independent_constraints]
-    unknowns = len(teller.system.names) + len(kept)
+    unknowns = len(explainer.system.names) + len(kept)
     yield says(
         "With the multiplier there is one unknown more than equations of motion. The missing "
         "equation comes from the constraint: it holds at all times, and so do its time "
@@ -151,7 +151,7 @@ def _with_multipliers(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
         "equations come from the constraints: they hold at all times, and so do their time "
         "derivatives, which contain the accelerations:"
     )
-    yield Equations(tuple(_derivatives(teller, kept)))
+    yield Equations(tuple(_derivatives(explainer, kept)))
     if dynamics.redundant:
         one = len(dynamics.redundant) == 1
         yield says(
@@ -164,26 +164,26 @@ def _with_multipliers(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
         f"Together these are {unknowns} equations, linear in the {unknowns} unknown accelerations "
         f"and multipliers."
     )
-    steps = _eliminated(teller, motion, kept)
+    steps = _eliminated(explainer, motion, kept)
     if steps is None:
         yield says("In matrix form, ", *matrix_law(constrained=True), " with")
-        yield from _matrices(teller, kept)
+        yield from _matrices(explainer, kept)
         if dynamics.degenerate:
             yield says(
                 Label("M", matrix=True),
                 " alone has no inverse (",
-                names(teller.system.names[i] for i in dynamics.degenerate),
+                names(explainer.system.names[i] for i in dynamics.degenerate),
                 "), but together with the constraints the system has a unique solution. It is",
             )
         else:
             yield says("The solution, simplified with the constraints, is")
     else:
         yield from steps
-    yield from _solution(teller, motion)
+    yield from _solution(explainer, motion)
 
 
-def _derivatives(teller: Teller, kept: Sequence[ConstraintEquation]) -> Iterator[Row]:
-    system, by_terms = teller.system, teller.readable.by_terms
+def _derivatives(explainer: Explainer, kept: Sequence[ConstraintEquation]) -> Iterator[Row]:
+    system, by_terms = explainer.system, explainer.readable.by_terms
     for equation in kept:
         still = dot(equation.row, system.qdot) + equation.drift
         twice = dot(equation.row, system.qddot) + equation.bias
@@ -195,18 +195,18 @@ def _derivatives(teller: Teller, kept: Sequence[ConstraintEquation]) -> Iterator
 
 
 def _eliminated(
-    teller: Teller, motion: SolvedMotion, kept: Sequence[ConstraintEquation]
+    explainer: Explainer, motion: SolvedMotion, kept: Sequence[ConstraintEquation]
 ) -> list[Block] | None:
     """The accelerations by the multipliers, and these by the constraints; None: too long."""
-    by_multipliers = _by_multipliers(teller, kept)
+    by_multipliers = _by_multipliers(explainer, kept)
     if by_multipliers is None:
         return None
     conditions = [dot(e.row, by_multipliers) + e.bias for e in kept]
-    if not _agree(teller, motion, by_multipliers, conditions):
+    if not _agree(explainer, motion, by_multipliers, conditions):
         return None
-    by_terms = teller.readable.by_terms
+    by_terms = explainer.readable.by_terms
     solved = [by_terms(each) for each in by_multipliers]
-    rows = [_condition(teller, e, each) for e, each in zip(kept, conditions, strict=True)]
+    rows = [_condition(explainer, e, each) for e, each in zip(kept, conditions, strict=True)]
     formulas = [*solved, *(row.left for row in rows), *(row.right for row in rows)]
     if any(operation_count(x) > _ON_THE_WAY for x in formulas if isinstance(x, Expression)):
         return None
@@ -219,7 +219,7 @@ def _eliminated(
             symbols,
             ":",
         ),
-        Equations(tuple(map(Row, teller.accelerations, solved))),
+        Equations(tuple(map(Row, explainer.accelerations, solved))),
         says(
             "These are substituted into the differentiated "
             f"{'constraint' if one else 'constraints'}. {left} on ",
@@ -231,15 +231,15 @@ def _eliminated(
     ]
 
 
-def _by_multipliers(teller: Teller, kept: Sequence[ConstraintEquation]) -> list[Expr] | None:
+def _by_multipliers(explainer: Explainer, kept: Sequence[ConstraintEquation]) -> list[Expr] | None:
     """q'' = M^-1 (F + A^T lambda)."""
-    lagrange = teller.dynamics.lagrange
+    lagrange = explainer.dynamics.lagrange
     M = lagrange.mass_matrix
     right = [
         sympy.Add(force, *(e.multiplier * e.row[i] for e in kept))
         for i, force in enumerate(lagrange.forcing)
     ]
-    if teller.dynamics.degenerate:
+    if explainer.dynamics.degenerate:
         return None
     if _diagonal(M):
         return [force / M[i][i] for i, force in enumerate(right)]
@@ -250,39 +250,44 @@ def _by_multipliers(teller: Teller, kept: Sequence[ConstraintEquation]) -> list[
 
 
 def _agree(
-    teller: Teller, motion: SolvedMotion, by_multipliers: Sequence[Expr], conditions: Sequence[Expr]
+    explainer: Explainer,
+    motion: SolvedMotion,
+    by_multipliers: Sequence[Expr],
+    conditions: Sequence[Expr],
 ) -> bool:
     """Whether the formulas on the way hold for the solution that is printed."""
     chosen: dict[Expr, Expr] = {
         e.multiplier: value
-        for e, value in zip(teller.dynamics.constraints.equations, motion.independent, strict=True)
+        for e, value in zip(
+            explainer.dynamics.constraints.equations, motion.independent, strict=True
+        )
     }
     differences = [
         formula.xreplace(chosen) - value
         for formula, value in zip(by_multipliers, motion.accelerations, strict=True)
     ]
     rest = [condition.xreplace(chosen) for condition in conditions]
-    return teller.dynamics.verifier.all_zero([*differences, *rest]).holds is True
+    return explainer.dynamics.verifier.all_zero([*differences, *rest]).holds is True
 
 
-def _condition(teller: Teller, equation: ConstraintEquation, condition: Expr) -> Row:
+def _condition(explainer: Explainer, equation: ConstraintEquation, condition: Expr) -> Row:
     """What multiplies the multipliers on the left, the rest on the right."""
-    without = dict.fromkeys(teller.system.multipliers, sympy.S.Zero)
+    without = dict.fromkeys(explainer.system.multipliers, sympy.S.Zero)
     rest = condition.xreplace(without)
-    by_terms = teller.readable.by_terms
+    by_terms = explainer.readable.by_terms
     return Row(by_terms(condition - rest), by_terms(-rest), equation.name)
 
 
-def _solution(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
-    equations = teller.dynamics.constraints.equations
+def _solution(explainer: Explainer, motion: SolvedMotion) -> Iterator[Block]:
+    equations = explainer.dynamics.constraints.equations
     rows, unknown = [], []
     for equation, value in zip(equations, motion.multipliers, strict=True):
         if value is None:
             unknown.append(equation.multiplier.name)
         else:
-            shown = teller.readable.on_surface(value)
+            shown = explainer.readable.on_surface(value)
             rows.append(Row(Name(equation.multiplier.name), shown))
-    rows += _accelerations(teller, motion)
+    rows += _accelerations(explainer, motion)
     yield Equations(tuple(rows))
     if unknown:
         yield says(

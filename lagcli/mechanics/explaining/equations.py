@@ -10,19 +10,19 @@ from lagcli.algebra import is_zero
 from lagcli.document import Block, Equations, Heading, Label, Row
 from lagcli.expression import Diff, Expression, Name, Negative, Product, Rate, sum_of
 from lagcli.mechanics.constraints import ConstraintEquation
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
 
 
-def equations(teller: Teller) -> Iterator[Block]:
+def equations(explainer: Explainer) -> Iterator[Block]:
     """The law, then its terms for each coordinate."""
-    yield from _law(teller)
-    for index in range(len(teller.system.names)):
-        yield from _one(teller, index)
+    yield from _law(explainer)
+    for index in range(len(explainer.system.names)):
+        yield from _one(explainer, index)
 
 
-def _law(teller: Teller) -> Iterator[Block]:
-    letters, constrained = teller.letters, bool(teller.dynamics.constraints.equations)
+def _law(explainer: Explainer) -> Iterator[Block]:
+    letters, constrained = explainer.letters, bool(explainer.dynamics.constraints.equations)
     kind = "first kind (with multipliers)" if constrained else "second kind"
     if letters.several:
         yield says(
@@ -35,16 +35,16 @@ def _law(teller: Teller) -> Iterator[Block]:
     L = letters.L
     left = difference(Rate(Diff(L, letters.velocity)), Diff(L, letters.q))
     right: list[Expression] = []
-    if teller.forced:
+    if explainer.forced:
         right.append(letters.force)
-    if teller.damped:
+    if explainer.damped:
         right.append(Negative(Diff(letters.D, letters.velocity)))
-    for equation in teller.dynamics.constraints.equations:
+    for equation in explainer.dynamics.constraints.equations:
         gradient = Diff(letters.f(equation.name), _variable(letters.q, equation))
         right.append(Product((Name(equation.multiplier.name), gradient)))
     yield shows(left, sum_of(right))
     if constrained:
-        yield says(*_multipliers(teller))
+        yield says(*_multipliers(explainer))
 
 
 def _variable(coordinate: Name, equation: ConstraintEquation) -> Name:
@@ -52,8 +52,8 @@ def _variable(coordinate: Name, equation: ConstraintEquation) -> Name:
     return coordinate if equation.holonomic else Name(coordinate.name, 1)
 
 
-def _multipliers(teller: Teller) -> list[Part]:
-    found = teller.dynamics.constraints.equations
+def _multipliers(explainer: Explainer) -> list[Part]:
+    found = explainer.dynamics.constraints.equations
     one = len(found) == 1
     words: list[Part] = [
         "The constraint adds its force: its gradient times the multiplier "
@@ -70,9 +70,9 @@ def _multipliers(teller: Teller) -> list[Part]:
     return words
 
 
-def _one(teller: Teller, index: int) -> Iterator[Block]:
-    system, dynamics, readable = teller.system, teller.dynamics, teller.readable
-    letters, name = teller.letters, system.names[index]
+def _one(explainer: Explainer, index: int) -> Iterator[Block]:
+    system, dynamics, readable = explainer.system, explainer.dynamics, explainer.readable
+    letters, name = explainer.letters, system.names[index]
     q, v = Name(name), Name(name, 1)
     momentum = dynamics.lagrange.momenta[index]
     force = dynamics.lagrange.lagrangian_forces[index]
@@ -89,7 +89,7 @@ def _one(teller: Teller, index: int) -> Iterator[Block]:
         rows.append(Row(Rate(Diff(letters.L, v)), rate))
     if is_zero(system.forces[index]) is not True:
         rows.append(Row(Label("Q", (name,)), readable.as_written(system.forces[index])))
-    if teller.damped:
+    if explainer.damped:
         drag = system.D.diff(system.qdot[index])
         rows.append(Row(Diff(letters.D, v), readable.by_terms(drag)))
     acting = [e for e in dynamics.constraints.equations if is_zero(e.row[index]) is not True]

@@ -8,11 +8,11 @@ from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.explaining.conservation import charges, energy
 from lagcli.mechanics.explaining.elimination import elimination
 from lagcli.mechanics.explaining.equations import equations
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.forces import check, meaning
 from lagcli.mechanics.explaining.lagrangian import lagrangian
 from lagcli.mechanics.explaining.large import UNSOLVED
 from lagcli.mechanics.explaining.scene import scene
-from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import explained
 from lagcli.statements.explanation import Explanation, ExplanationStep
 
@@ -32,42 +32,42 @@ def explanation(derivation: Derivation, also: Sequence[str] = ()) -> Explanation
     ProblemError
         When the constraints cannot be used.
     """
-    teller = Teller(derivation)
-    dynamics = teller.dynamics
+    explainer = Explainer(derivation)
+    dynamics = explainer.dynamics
     motion = dynamics.motion
     constrained = bool(dynamics.constraints.equations)
     steps = [
-        ExplanationStep("The system", tuple(scene(teller))),
-        ExplanationStep("The Lagrangian", tuple(lagrangian(teller))),
-        ExplanationStep("Lagrange's equations", tuple(equations(teller))),
+        ExplanationStep("The system", tuple(scene(explainer))),
+        ExplanationStep("The Lagrangian", tuple(lagrangian(explainer))),
+        ExplanationStep("Lagrange's equations", tuple(equations(explainer))),
         ExplanationStep(
             "The multipliers are eliminated" if constrained else "The accelerations",
-            tuple(elimination(teller)),
+            tuple(elimination(explainer)),
         ),
     ]
     if motion is not None:
-        steps.append(ExplanationStep("The verification", tuple(check(teller, motion))))
+        steps.append(ExplanationStep("The verification", tuple(check(explainer, motion))))
         if constrained:
             steps.append(
-                ExplanationStep("What the multipliers mean", tuple(meaning(teller, motion)))
+                ExplanationStep("What the multipliers mean", tuple(meaning(explainer, motion)))
             )
-    steps.append(ExplanationStep("The energy", tuple(energy(teller))))
-    found = tuple(charges(teller))
+    steps.append(ExplanationStep("The energy", tuple(energy(explainer))))
+    found = tuple(charges(explainer))
     if found:
         steps.append(ExplanationStep("Conserved quantities", found))
-    missing = tuple(_missing(teller))
+    missing = tuple(_missing(explainer))
     if also:
         from lagcli.mechanics.explaining.further import further
 
-        more, unfound = further(teller, also)
+        more, unfound = further(explainer, also)
         steps += more
         missing = (*missing, *unfound)
-    return explained(teller.problem, dynamics.degrees_of_freedom, steps, missing)
+    return explained(explainer.problem, dynamics.degrees_of_freedom, steps, missing)
 
 
-def _missing(teller: Teller) -> Iterator[str]:
-    if teller.dynamics.motion is None:
+def _missing(explainer: Explainer) -> Iterator[str]:
+    if explainer.dynamics.motion is None:
         yield UNSOLVED
-    for charge in teller.derivation.noether.charges:
+    for charge in explainer.derivation.noether.charges:
         if charge.conserved is None:
             yield f"whether '{charge.name}' is conserved was not decided"

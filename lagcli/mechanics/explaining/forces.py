@@ -12,7 +12,7 @@ from lagcli.expression import Name
 from lagcli.mechanics.constraint_force import fixed_axes, forces_on_points
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import SolvedMotion
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import names, says
 from lagcli.statements.wording import only_along_its_path
 
@@ -21,18 +21,18 @@ _KINDS = {"m": "force", "cm": "force", "mm": "force", "km": "force", "rad": "tor
           "deg": "torque"}  # fmt: skip
 
 
-def check(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
+def check(explainer: Explainer, motion: SolvedMotion) -> Iterator[Block]:
     """How the solution was checked."""
-    constrained = bool(teller.dynamics.constraints.equations)
-    equations = "Lagrange's equations" if teller.letters.several else "Lagrange's equation"
-    one = "accelerations" if teller.letters.several else "acceleration"
+    constrained = bool(explainer.dynamics.constraints.equations)
+    equations = "Lagrange's equations" if explainer.letters.several else "Lagrange's equation"
+    one = "accelerations" if explainer.letters.several else "acceleration"
     what = f"{one} and multipliers" if constrained else one
     where = (
         f"into {equations} and into the differentiated constraints"
         if constrained
         else f"into {equations}"
     )
-    verb = "were" if constrained or teller.letters.several else "was"
+    verb = "were" if constrained or explainer.letters.several else "was"
     yield says(
         f"The {what} {verb} substituted {where}. The left side minus the right side is 0"
         + (" on the constraints" if constrained else "")
@@ -44,9 +44,9 @@ def check(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
     )
 
 
-def meaning(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
+def meaning(explainer: Explainer, motion: SolvedMotion) -> Iterator[Block]:
     """Each constraint's force along the coordinates, its direction, and on the points."""
-    dynamics = teller.dynamics
+    dynamics = explainer.dynamics
     on_points = forces_on_points(dynamics)
     yield says(
         "The generalized force of a constraint is its multiplier times its gradient: a force along "
@@ -59,7 +59,7 @@ def meaning(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
         multiplier = Name(equation.multiplier.name)
         along = [
             name
-            for name, entry in zip(teller.system.names, equation.row, strict=True)
+            for name, entry in zip(explainer.system.names, equation.row, strict=True)
             if is_zero(entry) is not True
         ]
         yield says(
@@ -71,31 +71,33 @@ def meaning(teller: Teller, motion: SolvedMotion) -> Iterator[Block]:
         yield equations_of(
             (
                 Label("Q", (name,)),
-                teller.readable.as_written(equation.multiplier * entry)
+                explainer.readable.as_written(equation.multiplier * entry)
                 if found is None
-                else teller.readable.on_surface(found[j]),
+                else explainer.readable.on_surface(found[j]),
             )
-            for j, (name, entry) in enumerate(zip(teller.system.names, equation.row, strict=True))
+            for j, (name, entry) in enumerate(
+                zip(explainer.system.names, equation.row, strict=True)
+            )
             if is_zero(entry) is not True
         )
-        yield from _direction(teller, equation, multiplier, along)
-        yield from _on_points(teller, on_points.get(equation.name, {}))
+        yield from _direction(explainer, equation, multiplier, along)
+        yield from _on_points(explainer, on_points.get(equation.name, {}))
         if motion.multipliers[k] is not None and is_zero(motion.multipliers[k]) is True:
             yield says("It is 0: the motion satisfies the constraint without a force.")
     if dynamics.redundant and dynamics.total_constraint_force is not None:
         yield says("The sum of the constraint forces is")
-        total = map(teller.readable.on_surface, dynamics.total_constraint_force)
-        labels = [Label("Q", (name,)) for name in teller.system.names]
+        total = map(explainer.readable.on_surface, dynamics.total_constraint_force)
+        labels = [Label("Q", (name,)) for name in explainer.system.names]
         yield equations_of(zip(labels, total, strict=True))
 
 
 def _direction(
-    teller: Teller, equation: ConstraintEquation, multiplier: Name, along: list[str]
+    explainer: Explainer, equation: ConstraintEquation, multiplier: Name, along: list[str]
 ) -> Iterator[Block]:
     """Where the multiplier is the force itself, and which way a positive one points."""
     if len(along) != 1:
         return
-    units = {c.name: c.unit for c in teller.problem.coordinates}
+    units = {c.name: c.unit for c in explainer.problem.coordinates}
     kind = _KINDS.get(units[along[0]] or "", "generalized force")
     q, entry = Name(along[0]), sympy.Add(*equation.row)
     if is_zero(entry - 1) is True:
@@ -104,14 +106,14 @@ def _direction(
         yield says(multiplier, f" equals minus this {kind}: positive towards smaller ", q, ".")
 
 
-def _on_points(teller: Teller, points: dict[str, tuple[sympy.Expr, ...]]) -> Iterator[Block]:
+def _on_points(explainer: Explainer, points: dict[str, tuple[sympy.Expr, ...]]) -> Iterator[Block]:
     if not points:
         return
-    fixed = {point: fixed_axes(teller.dynamics, point) for point in points}
+    fixed = {point: fixed_axes(explainer.dynamics, point) for point in points}
     yield says("In Cartesian components its force on the " + ("points is" if len(points) > 1
                else "point is"))  # fmt: skip
     yield equations_of(
-        (Label("F", (point, axis)), teller.readable.on_surface(component))
+        (Label("F", (point, axis)), explainer.readable.on_surface(component))
         for point, components in points.items()
         for axis, component in zip("xyz", components, strict=False)
         if axis not in fixed[point]

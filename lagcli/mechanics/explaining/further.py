@@ -9,9 +9,9 @@ from sympy import S
 
 from lagcli.document import Block, Equations, Heading, Label, vanishing
 from lagcli.expression import Expression
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.recurring import recurring
 from lagcli.mechanics.explaining.reduction import averaged_potential
-from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.mechanics.statements import Statements
@@ -29,17 +29,17 @@ if TYPE_CHECKING:
 _ABSENT = "This was not found: see the warnings."
 
 
-def further(teller: Teller, also: Sequence[str]) -> tuple[list[ExplanationStep], list[str]]:
+def further(explainer: Explainer, also: Sequence[str]) -> tuple[list[ExplanationStep], list[str]]:
     """The steps of these sections, and what was not found on the way."""
-    statements = Statements(teller.derivation)
+    statements = Statements(explainer.derivation)
     steps = []
     for name in also:
-        told = find_section(name).told
-        if told is None:
+        explained = find_section(name).explained
+        if explained is None:
             raise LookupError(f"the section '{name}' has no step in an explanation")
         section = statements.answers([name]).sections.get(name)
-        blocks = [says(_ABSENT)] if section is None else told.blocks(teller, section)
-        steps.append(ExplanationStep(told.title, tuple(blocks)))
+        blocks = [says(_ABSENT)] if section is None else explained.blocks(explainer, section)
+        steps.append(ExplanationStep(explained.title, tuple(blocks)))
     missing = [each for each in statements.warnings if not each.endswith((ALL_CYCLIC, NONE_LEFT))]
     return steps, list(dict.fromkeys(missing))
 
@@ -47,18 +47,18 @@ def further(teller: Teller, also: Sequence[str]) -> tuple[list[ExplanationStep],
 # -- equilibria ------------------------------------------------------------------------------------
 
 
-def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
+def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
     """The conditions of rest, then each equilibrium with its stability."""
     from lagcli.mechanics.rest.equilibria import RestPoints
 
     states = cast(EquilibriaSection, section)
     found = states.equilibria
-    rest = RestPoints(teller.dynamics)
-    constrained = bool(teller.dynamics.constraints.equations)
+    rest = RestPoints(explainer.dynamics)
+    constrained = bool(explainer.dynamics.constraints.equations)
     timed = rest.growth != 1
     sticking = any(each.sticking for each in found or ())
     solved = () if rest.has_no_value else rest.equations
-    conditions = unlike(teller.readable.as_written(e) for e in solved)
+    conditions = unlike(explainer.readable.as_written(e) for e in solved)
     end = (
         "."
         if sticking or rest.has_no_value
@@ -69,7 +69,7 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
     yield says(
         "At an equilibrium all velocities and accelerations are 0. Lagrange's equations then "
         "require that the generalized forces",
-        *((", divided by ", teller.readable.as_written(rest.growth), ",") if timed else ()),
+        *((", divided by ", explainer.readable.as_written(rest.growth), ",") if timed else ()),
         " vanish"
         + (" along every displacement that the constraints allow" if constrained else "")
         + end,
@@ -83,23 +83,23 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
         yield vanishing(conditions)
     if any(each.kinked for each in found or ()):
         yield says("Where a force jumps, it takes every value between those on the two sides.")
-    if teller.system.problem.contacts:
+    if explainer.system.problem.contacts:
         yield says("Each contact is either closed, and pushes, or open, and there is no force.")
     if states.at_all_times and found:
         yield says("An equilibrium is where they hold at all times.")
-        yield from averaged_potential(teller)
-    still = teller.system.L.xreplace(dict.fromkeys(teller.system.qdot, S.Zero))
+        yield from averaged_potential(explainer)
+    still = explainer.system.L.xreplace(dict.fromkeys(explainer.system.qdot, S.Zero))
     named = any(each.verdict.potential == "V_eff" for each in found or ())
     if named and still != 0 and not states.at_all_times:
-        yield says(Label("V", ("eff",)), " stands for the terms of ", teller.letters.L,
+        yield says(Label("V", ("eff",)), " stands for the terms of ", explainer.letters.L,
                    " without velocities, with the opposite sign:")  # fmt: skip
-        yield shows(Label("V", ("eff",)), teller.readable.as_written(-still))
+        yield shows(Label("V", ("eff",)), explainer.readable.as_written(-still))
     if found is None:
         yield says(f"These were not solved: {states.reason}.")
         return
     if not found:
         yield says(*_none(rest, states))
-    given = {constraint.name for constraint in teller.system.problem.constraints}
+    given = {constraint.name for constraint in explainer.system.problem.constraints}
     for number, each in enumerate(once(found), 1):
         yield Heading(f"Equilibrium {number}", 2)
         yield _state(each.at, each.on)
@@ -119,7 +119,7 @@ def equilibria(teller: Teller, section: Section) -> Iterator[Block]:
     if found and not states.complete:
         yield says("There may be others.")
     if found:
-        yield from recurring(teller)
+        yield from recurring(explainer)
 
 
 def _none(rest: RestPoints, states: EquilibriaSection) -> list[Part]:

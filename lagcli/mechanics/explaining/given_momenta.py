@@ -20,17 +20,17 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.positivity import weak_sign
 from lagcli.document import Block
 from lagcli.expression import Name
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import says
 from lagcli.statements.motions import SteadyMotion
 
 
-def two_rates(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
+def two_rates(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
     """The condition for each momentum that is quadratic in the one free velocity over itself."""
     rates = [name.rstrip("'") for name in motion.free if name.endswith("'")]
     if len(rates) != 1:
         return
-    system, write = teller.system, teller.readable.as_written
+    system, write = explainer.system, explainer.readable.as_written
     u = system.symbol_of(rates[0] + "'")
     for name, tree in motion.momenta.items():
         p = system.symbol_of(f"p_{name}")

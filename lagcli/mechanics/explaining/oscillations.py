@@ -13,7 +13,7 @@ from lagcli.algebra.signs import sign
 from lagcli.document import Block, Equations, Label, Row, equations_of, vanishing
 from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, operation_count, sum_of
 from lagcli.mechanics.conditions import above
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
 from lagcli.statements.plus_minus import modes_in_pairs
@@ -27,7 +27,7 @@ _SQUARE = Number(Fraction(2))
 _LONG = 120
 
 
-def oscillations(teller: Teller, section: Section) -> Iterator[Block]:
+def oscillations(explainer: Explainer, section: Section) -> Iterator[Block]:
     """One equilibrium after another."""
     from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
 
@@ -37,7 +37,7 @@ def oscillations(teller: Teller, section: Section) -> Iterator[Block]:
         lead = "They were not found" if found is None else "There are none"
         yield says(f"{lead}: {known.reason}.")
         return
-    small = SmallOscillations(teller.dynamics)
+    small = SmallOscillations(explainer.dynamics)
     by_place = {(tuple(mode.at.items()), mode.on): (mode.at, mode.on) for mode in found}
     alike: dict[tuple[Block, ...], list[tuple[Row, ...]]] = {}
     for at, on in by_place.values():
@@ -47,7 +47,7 @@ def oscillations(teller: Teller, section: Section) -> Iterator[Block]:
             if (small.equilibrium(p).at, small.equilibrium(p).on) == (at, on)
         )
         here = [mode for mode in found if (mode.at, mode.on) == (at, on)]
-        alike.setdefault(tuple(_near(teller, place, here)), []).append(place_rows(at, on))
+        alike.setdefault(tuple(_near(explainer, place, here)), []).append(place_rows(at, on))
     for blocks, places in alike.items():
         for k, rows in enumerate(places):
             lead = "and from" if k else "To first order in the displacements from"
@@ -56,34 +56,36 @@ def oscillations(teller: Teller, section: Section) -> Iterator[Block]:
         yield from blocks
 
 
-def _near(teller: Teller, place: Place, modes: Sequence[ModesOfFrequency]) -> Iterator[Block]:
+def _near(explainer: Explainer, place: Place, modes: Sequence[ModesOfFrequency]) -> Iterator[Block]:
     """The linear equations and their solutions."""
-    yield from _linear(teller, place)
+    yield from _linear(explainer, place)
     if place.characteristic.in_square is None:
-        yield from _damped(teller, place)
+        yield from _damped(explainer, place)
     else:
-        yield from _undamped(teller, modes, place)
+        yield from _undamped(explainer, modes, place)
 
 
 def _moving(velocity: Sequence[Sequence[Expr]]) -> bool:
     return any(is_zero(entry) is not True for row in velocity for entry in row)
 
 
-def _linear(teller: Teller, place: Place) -> Iterator[Block]:
+def _linear(explainer: Explainer, place: Place) -> Iterator[Block]:
     """M x'' + C x' + K x = 0."""
-    write = teller.readable.as_written
+    write = explainer.readable.as_written
     matrices = ([[write(e) for e in row] for row in matrix] for matrix in place.matrices)
     yield from linear_equations("the equations of motion are ", *matrices)
-    if teller.dynamics.constraints.equations:
+    if explainer.dynamics.constraints.equations:
         yield says("restricted to the displacements that the constraints allow.")
 
 
 # -- without damping -----------------------------------------------------------------------------
 
 
-def _undamped(teller: Teller, modes: Sequence[ModesOfFrequency], place: Place) -> Iterator[Block]:
+def _undamped(
+    explainer: Explainer, modes: Sequence[ModesOfFrequency], place: Place
+) -> Iterator[Block]:
     """det(K - omega^2 M) = 0, or det(K + s C + s^2 M) = 0 in s^2 = -omega^2 alone."""
-    omega, s = teller.letters.free("omega"), teller.letters.free("s")
+    omega, s = explainer.letters.free("omega"), explainer.letters.free("s")
     M, C, K = (Label(letter, matrix=True) for letter in "MCK")
     form: list[Part] = [K, " − ", Power(omega, _SQUARE), " ", M]
     if _moving(place.matrices[1]):
@@ -147,20 +149,20 @@ def _amplitudes(shape: Mapping[str, Expression]) -> Equations:
 # -- with damping --------------------------------------------------------------------------------
 
 
-def _damped(teller: Teller, place: Place) -> Iterator[Block]:
+def _damped(explainer: Explainer, place: Place) -> Iterator[Block]:
     """det(K + s C + s^2 M) = 0 with odd powers of s."""
-    s = teller.letters.free("s")
+    s = explainer.letters.free("s")
     M, C, K = (Label(letter, matrix=True) for letter in "MCK")
     form: list[Part] = [K, " + ", s, " ", C, " + ", Power(s, _SQUARE), " ", M]
     yield says("A motion proportional to exp(", s, " t) needs the determinant of ", form,
                " to vanish.")  # fmt: skip
     if len(place.linear.M) == 1:
-        yield from _one(teller, *(matrix[0][0] for matrix in place.matrices))
+        yield from _one(explainer, *(matrix[0][0] for matrix in place.matrices))
         return
     powers = place.characteristic.in_s
     if powers is None:
         return
-    symbol, order = Symbol(s.name, real=True), (*teller.system.order, s.name)
+    symbol, order = Symbol(s.name, real=True), (*explainer.system.order, s.name)
     falling = [shape(c * symbol**k, order) for k, c in reversed([*enumerate(powers)]) if c != 0]
     written = sum_of(falling)
     if operation_count(written) <= _LONG:
@@ -168,9 +170,9 @@ def _damped(teller: Teller, place: Place) -> Iterator[Block]:
         yield vanishing((written,))
 
 
-def _one(teller: Teller, M: Expr, C: Expr, K: Expr) -> Iterator[Block]:
+def _one(explainer: Explainer, M: Expr, C: Expr, K: Expr) -> Iterator[Block]:
     """s = -delta +- i sqrt(K/M - delta^2) with delta = C/(2 M), and its three cases."""
-    free, write = teller.letters.free, teller.readable.as_written
+    free, write = explainer.letters.free, explainer.readable.as_written
     s, omega, delta = free("s"), free("omega"), free("delta")
     rate, square = simplify(C / (2 * M)), simplify(K / M)
     if square == 0:
@@ -195,7 +197,7 @@ def _one(teller: Teller, M: Expr, C: Expr, K: Expr) -> Iterator[Block]:
     critical: list[Part] = ["it is exp(−", delta, f" t) times a linear function of t{end[1]}. "]
     strong: list[Part] = [f"it is a sum of two {kind} exponentials{end[2]}."]
     rest = 4 * M * K - C**2
-    known, compared = sign(rest), above(rest, teller.system.order)
+    known, compared = sign(rest), above(rest, explainer.system.order)
     if known is not None or compared is None:
         yield says("Here ", *(strong if known == -1 else critical if known == 0 else weak))
         return

@@ -7,7 +7,7 @@ from typing import cast
 
 from lagcli.document import Block, Bracket, Equations, Integral, Label, Row, equations_of
 from lagcli.expression import ZERO, Call, Diff, Expression, Name, Negative, Product, walk
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
 from lagcli.notation.letters import own
 from lagcli.statements.answers import CanonicalSection, Section
@@ -16,52 +16,55 @@ from lagcli.statements.phase_space import BracketsSection
 from lagcli.statements.wording import conditions, fold, used_to_eliminate
 
 
-def canonical_equations(teller: Teller, section: Section) -> Iterator[Block]:
+def canonical_equations(explainer: Explainer, section: Section) -> Iterator[Block]:
     """The Legendre transform, and Hamilton's equations."""
     found = cast(CanonicalSection, section)
-    derivation = teller.derivation
+    derivation = explainer.derivation
     yield says(
-        "The momenta are the derivatives of ", teller.letters.L, " with respect to the velocities:"
+        "The momenta are the derivatives of ",
+        explainer.letters.L,
+        " with respect to the velocities:",
     )
-    momenta = teller.dynamics.lagrange.momenta
+    momenta = explainer.dynamics.lagrange.momenta
     yield equations_of(
-        (Name(f"p_{name}"), teller.readable.as_written(p))
-        for name, p in zip(teller.system.names, momenta, strict=True)
+        (Name(f"p_{name}"), explainer.readable.as_written(p))
+        for name, p in zip(explainer.system.names, momenta, strict=True)
     )
-    H = teller.letters.free("H")
+    H = explainer.letters.free("H")
     function = derivation.hamiltonian.function
     if function is None or found.equations is None:
-        none = teller.dynamics.degenerate or found.fold is not None
+        none = explainer.dynamics.degenerate or found.fold is not None
         lead = "There is no Hamiltonian" if none else "The Hamiltonian was not found"
         yield says(f"{lead}: {found.reason or derivation.hamiltonian.reason}.")
         yield from fold(found.fold)
         return
     yield says(
         "Solved for the velocities, and substituted into the sum of momentum times velocity minus ",
-        teller.letters.L,
+        explainer.letters.L,
         ", they give",
     )
-    yield shows(H, teller.readable.as_written(function))
+    yield shows(H, explainer.readable.as_written(function))
     below = derivation.hamiltonian.folds_below
     if below is not None:
-        yield says("Where ", teller.readable.as_written(below), " < 0, the Legendre transform has "
-                   "several branches: the momenta do not determine the velocities.")  # fmt: skip
+        yield says("Where ", explainer.readable.as_written(below), " < 0, the Legendre "
+                   "transform has several branches: the momenta do not determine "
+                   "the velocities.")  # fmt: skip
     yield says("The velocities are its derivatives with respect to the momenta,")
     yield equations_of((Name(q, 1), pair.q) for q, pair in found.equations.items())
-    yield says(*_momentum_rates(teller))
+    yield says(*_momentum_rates(explainer))
     yield equations_of((Name(f"p_{q}", 1), pair.p) for q, pair in found.equations.items())
 
 
-def _momentum_rates(teller: Teller) -> list[Part]:
+def _momentum_rates(explainer: Explainer) -> list[Part]:
     """-dH/dq + Q - dD/dq' + lambda a."""
-    more = ["the applied forces"] * (teller.forced or teller.damped)
-    more += ["the forces of the constraints"] * bool(teller.dynamics.constraints.equations)
+    more = ["the applied forces"] * (explainer.forced or explainer.damped)
+    more += ["the forces of the constraints"] * bool(explainer.dynamics.constraints.equations)
     added = f", plus {' and '.join(more)}" if more else ""
     lead = "and the rates of the momenta are minus those with respect to the coordinates"
     return [f"{lead}{added}:"]
 
 
-def brackets(_: Teller, section: Section) -> Iterator[Block]:
+def brackets(_: Explainer, section: Section) -> Iterator[Block]:
     """{A, B} = sum of dA/dq dB/dp - dA/dp dB/dq."""
     found = cast(BracketsSection, section)
     A, B, q, p = own("A"), own("B"), own("q_j"), own("p_j")
@@ -93,7 +96,7 @@ def brackets(_: Teller, section: Section) -> Iterator[Block]:
         yield equations_of((Name(name, 1), rate) for name, rate in found.rates.items())
 
 
-def hamilton_jacobi(teller: Teller, section: Section) -> Iterator[Block]:
+def hamilton_jacobi(explainer: Explainer, section: Section) -> Iterator[Block]:
     """From H(q, dS/dq) = E to the parts of S, coordinate by coordinate."""
     found = cast(HamiltonJacobiSection, section)
     if found.hamiltonian is None:
@@ -105,7 +108,9 @@ def hamilton_jacobi(teller: Teller, section: Section) -> Iterator[Block]:
         return
     H, W = Label("H"), Label("W")
     left = {node.name for node in walk(found.hamiltonian) if isinstance(node, Name)}
-    gone = [n for n in teller.system.names if teller.dynamics.constraints and f"p_{n}" not in left]
+    gone = [
+        n for n in explainer.system.names if explainer.dynamics.constraints and f"p_{n}" not in left
+    ]
     if gone:
         momenta = ", and the momenta are those of the Lagrangian that is left."
         yield says(*used_to_eliminate(gone), momenta)

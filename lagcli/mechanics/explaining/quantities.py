@@ -7,13 +7,13 @@ from typing import cast
 
 from lagcli.document import Block, Equations, Items, Label, equations_of
 from lagcli.expression import Name
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import names, says
 from lagcli.statements.answers import DimensionsSection, ModelSection, QuantityUnit, Section
 from lagcli.statements.wording import unit_rows, with_names
 
 
-def model(_: Teller, section: Section) -> Iterator[Block]:
+def model(_: Explainer, section: Section) -> Iterator[Block]:
     """The coordinates that a numerical run integrates, and why not the others."""
     found = cast(ModelSection, section)
     if found.kept is None:
@@ -42,7 +42,7 @@ def model(_: Teller, section: Section) -> Iterator[Block]:
         yield Items(tuple(reasons))
 
 
-def dimensions(teller: Teller, section: Section) -> Iterator[Block]:
+def dimensions(explainer: Explainer, section: Section) -> Iterator[Block]:
     """From the units of the file to those of all other quantities."""
     found = cast(DimensionsSection, section)
     if not found.units_given:
@@ -60,7 +60,7 @@ def dimensions(teller: Teller, section: Section) -> Iterator[Block]:
     if any(each.unit for each in inferred.values()):
         yield says("This determines")
         yield from _units({n: Label(n, unit=True) for n in inferred}, inferred)
-    L = teller.letters.L
+    L = explainer.letters.L
     yield says("The unit of ", L, " is")
     yield from _units({"L": Label(L.name, unit=True)}, {"L": found.energy})
     yield says("A momentum has the unit of ", L, " divided by that of the velocity:")

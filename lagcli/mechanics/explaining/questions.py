@@ -7,7 +7,7 @@ from typing import cast
 
 from lagcli.document import Block, Equations, Heading, Row, equations_of
 from lagcli.expression import ZERO, Expression, Name
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, difference, listed, says, shows
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
 from lagcli.problem_data import Lasting, Question, Reaching, Rewrite, Where
@@ -26,19 +26,21 @@ from lagcli.statements.wording import remark
 _COMPARISONS = {"<": " < ", "<=": " ≤ ", ">": " > ", ">=": " ≥ "}
 
 
-def questions(teller: Teller, section: Section) -> Iterator[Block]:
+def questions(explainer: Explainer, section: Section) -> Iterator[Block]:
     """Each question, the substitutions, and its answer."""
     answers = cast(FindSection, section).answers
     if not answers:
         yield says("The file has no questions.")
         return
-    along = AlongTheMotion(teller.dynamics, teller.derivation.noether)
+    along = AlongTheMotion(explainer.dynamics, explainer.derivation.noether)
     yield from _known(along)
-    for question in teller.problem.find:
+    for question in explainer.problem.find:
         yield Heading(question.name, 2)
         yield says(*_asked(question))
-        yield from _on_the_way(teller, along, question)
-        is_open = isinstance(question, Where) and question.unknown.name not in teller.system.names
+        yield from _on_the_way(explainer, along, question)
+        is_open = (
+            isinstance(question, Where) and question.unknown.name not in explainer.system.names
+        )
         yield from _answer(answers[question.name], is_open=is_open or along.initial is None)
 
 
@@ -72,9 +74,9 @@ def _asked(question: Question) -> list[Part]:
             return ["For which ", unknown, " does ", coordinate, " reach ", value, "?"]
 
 
-def _on_the_way(teller: Teller, along: AlongTheMotion, question: Question) -> Iterator[Block]:
+def _on_the_way(explainer: Explainer, along: AlongTheMotion, question: Question) -> Iterator[Block]:
     """The quantity of the question on the motion, and the squared velocity, by one coordinate."""
-    system = teller.system
+    system = explainer.system
     if isinstance(question, Rewrite):
         return
     if isinstance(question, Reaching):

@@ -8,7 +8,7 @@ from typing import cast
 from lagcli.document import Block, Heading, Label, equations_of
 from lagcli.expression import Name, walk
 from lagcli.mechanics.constraint_force import on_points
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, says, shows
 from lagcli.statements.answers import Section
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
@@ -17,13 +17,13 @@ from lagcli.statements.wording import only_along_its_path
 _KINDS = {"normal": "normal force", "friction": "friction", "tension": "tension"}
 
 
-def real_forces(teller: Teller, section: Section) -> Iterator[Block]:
+def real_forces(explainer: Explainer, section: Section) -> Iterator[Block]:
     """From lambda df/dr to a signed magnitude along a unit vector."""
     found = cast(ForcesSection, section)
     if found.forces is None:
         yield says(f"These were not found: {found.reason}.")
         return
-    equations = teller.dynamics.constraints.equations
+    equations = explainer.dynamics.constraints.equations
     if not equations:
         yield says("There are no constraints and no forces of constraint.")
         return
@@ -34,7 +34,7 @@ def real_forces(teller: Teller, section: Section) -> Iterator[Block]:
         "coordinates of "
         "the point. The force is written as a magnitude with a sign, times a unit vector e."
     )
-    gradients = on_points(teller.dynamics, {e.name: e.row for e in equations})
+    gradients = on_points(explainer.dynamics, {e.name: e.row for e in equations})
     for equation in equations:
         forces = [each for each in found.forces if each.constraint == equation.name]
         torques = found.torques.get(equation.name, {})
@@ -50,7 +50,7 @@ def real_forces(teller: Teller, section: Section) -> Iterator[Block]:
             yield equations_of(
                 (
                     Label("F", (force.point, axis)),
-                    teller.readable.on_surface(equation.multiplier * slope),
+                    explainer.readable.on_surface(equation.multiplier * slope),
                 )
                 for axis, slope in rows
                 if axis not in force.fixed
@@ -61,7 +61,7 @@ def real_forces(teller: Teller, section: Section) -> Iterator[Block]:
             yield says("Along an angle on which no point depends it acts as a torque:")
             yield equations_of((Label("Q", (q,)), value) for q, value in torques.items())
     for needed in found.friction_needed:
-        yield from _friction(teller, needed)
+        yield from _friction(explainer, needed)
 
 
 def _magnitude(force: PointForce, multiplier: Name) -> Iterator[Block]:
@@ -92,7 +92,7 @@ def _magnitude(force: PointForce, multiplier: Name) -> Iterator[Block]:
         yield says("It is a pull where this is positive, a push where it is negative.")
 
 
-def _friction(teller: Teller, needed: FrictionNeeded) -> Iterator[Block]:
+def _friction(explainer: Explainer, needed: FrictionNeeded) -> Iterator[Block]:
     frictions = " and ".join(needed.frictions)
     yield Heading(f"The coefficient of friction of {frictions}", 2)
     if needed.coefficient is None:
@@ -111,14 +111,16 @@ def _friction(teller: Teller, needed: FrictionNeeded) -> Iterator[Block]:
         parts += [" and " if position else "This form holds where ", positive, " > 0"]
     if parts:
         yield says(*parts, ".")
-    if _leaves(teller, needed):
+    if _leaves(explainer, needed):
         yield says(f"Where {needed.normal} vanishes and {frictions} does not, it is infinite: the "
                    "slipping begins before the contact is lost.")  # fmt: skip
 
 
-def _leaves(teller: Teller, needed: FrictionNeeded) -> bool:
+def _leaves(explainer: Explainer, needed: FrictionNeeded) -> bool:
     """Whether the normal force is one-sided and |F|/N depends on the state."""
-    one_sided = any(c.name == needed.normal and c.holds_while for c in teller.problem.constraints)
+    one_sided = any(
+        c.name == needed.normal and c.holds_while for c in explainer.problem.constraints
+    )
     assert needed.coefficient is not None
     state = {node.name for node in walk(needed.coefficient) if isinstance(node, Name)}
-    return one_sided and not state.isdisjoint(teller.system.names)
+    return one_sided and not state.isdisjoint(explainer.system.names)

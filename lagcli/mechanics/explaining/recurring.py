@@ -13,14 +13,14 @@ from lagcli.algebra.build import free_of
 from lagcli.document import Block
 from lagcli.expression import Name
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import says
 
 
-def recurring(teller: Teller) -> Iterator[Block]:
+def recurring(explainer: Explainer) -> Iterator[Block]:
     """That all states recur after a period of a coordinate that is not a whole turn."""
-    for q, period in recurrences(teller.dynamics).items():
-        after = teller.readable.as_written(period)
+    for q, period in recurrences(explainer.dynamics).items():
+        after = explainer.readable.as_written(period)
         yield says("All of them recur where ", Name(q.name), " grows by ", after, ".")
 
 

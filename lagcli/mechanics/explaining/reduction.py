@@ -9,7 +9,7 @@ from typing import cast
 from lagcli.document import Block, Equations, Label, equations_of, vanishing
 from lagcli.expression import Expression, Name, Number, Power, Product, walk
 from lagcli.mechanics.averaged import averaged
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, names, says, shows
 from lagcli.mechanics.minimal import minimal
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
@@ -28,10 +28,10 @@ from lagcli.statements.wording import (
 _TWICE = "the period is twice the time between the turning points."
 
 
-def reduction(teller: Teller, section: Section) -> Iterator[Block]:
+def reduction(explainer: Explainer, section: Section) -> Iterator[Block]:
     """Momenta, Routhian, effective potential, equations, and the motion in one coordinate."""
     reduced = cast(ReductionSection, section)
-    yield from _cyclic(teller, reduced)
+    yield from _cyclic(explainer, reduced)
     if reduced.routhian is None:
         if reduced.reason in (ALL_CYCLIC, NONE_LEFT):
             other = " other" if reduced.reason == ALL_CYCLIC else ""
@@ -40,10 +40,10 @@ def reduction(teller: Teller, section: Section) -> Iterator[Block]:
             yield says(f"The reduction was not found: {reduced.reason}.")
         return
     if reduced.reconstruction:
-        yield from _routhian(teller, reduced, reduced.routhian)
+        yield from _routhian(explainer, reduced, reduced.routhian)
     tied = bool(reduced.constraints) and not reduced.momenta
     if reduced.effective_potential is not None and not tied and not _timed(reduced):
-        whole = teller.letters.free("R") if reduced.momenta else teller.letters.L
+        whole = explainer.letters.free("R") if reduced.momenta else explainer.letters.L
         yield says("The terms of ", whole,
                    " without velocities, with the opposite sign, are the effective "
                    "potential:")  # fmt: skip
@@ -53,7 +53,7 @@ def reduction(teller: Teller, section: Section) -> Iterator[Block]:
         yield equations_of((each.left, each.right) for each in reduced.equations)
     if reduced.one_freedom is not None:
         yield from _one_freedom(reduced.one_freedom)
-    yield from averaged_potential(teller)
+    yield from averaged_potential(explainer)
 
 
 def _timed(reduced: ReductionSection) -> bool:
@@ -62,7 +62,7 @@ def _timed(reduced: ReductionSection) -> bool:
     return any(node == Name("t") for node in parts)
 
 
-def _cyclic(teller: Teller, reduced: ReductionSection) -> Iterator[Block]:
+def _cyclic(explainer: Explainer, reduced: ReductionSection) -> Iterator[Block]:
     cyclic = list(reduced.momenta)
     if reduced.eliminated:
         yield says(*used_to_eliminate(reduced.eliminated), ".")
@@ -73,13 +73,15 @@ def _cyclic(teller: Teller, reduced: ReductionSection) -> Iterator[Block]:
         yield equations_of((Name(f"p_{name}"), value) for name, value in reduced.momenta.items())
     elif not reduced.irreducible and reduced.reason != NONE_LEFT:
         which = "None of the others" if reduced.eliminated else "No coordinate"
-        yield says(f"{which} is cyclic, so the Routhian is ", teller.letters.L, ".")
+        yield says(f"{which} is cyclic, so the Routhian is ", explainer.letters.L, ".")
     for name, why in reduced.irreducible.items():
-        yield says(*irreducible(name, why, teller.letters.L))
+        yield says(*irreducible(name, why, explainer.letters.L))
 
 
-def _routhian(teller: Teller, reduced: ReductionSection, routhian: Expression) -> Iterator[Block]:
-    L, R, cyclic = teller.letters.L, teller.letters.free("R"), list(reduced.momenta)
+def _routhian(
+    explainer: Explainer, reduced: ReductionSection, routhian: Expression
+) -> Iterator[Block]:
+    L, R, cyclic = explainer.letters.L, explainer.letters.free("R"), list(reduced.momenta)
     yield says("Solved for the velocities of the cyclic coordinates:")
     yield equations_of((Name(name, 1), value) for name, value in reduced.reconstruction.items())
     products = [Product((Name(f"p_{name}"), Name(name, 1))) for name in cyclic]
@@ -89,12 +91,12 @@ def _routhian(teller: Teller, reduced: ReductionSection, routhian: Expression) -
     yield shows(R, routhian)
 
 
-def averaged_potential(teller: Teller) -> Iterator[Block]:
+def averaged_potential(explainer: Explainer) -> Iterator[Block]:
     """V_eff of the motion averaged over a rapid drive, where there is one."""
-    found = averaged(minimal(teller.derivation).dynamics)
+    found = averaged(minimal(explainer.derivation).dynamics)
     if found is None:
         return
-    write = teller.readable.as_written
+    write = explainer.readable.as_written
     yield says(
         *(
             "For ",

@@ -8,16 +8,16 @@ from lagcli.algebra import is_zero
 from lagcli.document import Block, Equations, Items, Row, equations_of
 from lagcli.expression import ZERO, Name, Negative
 from lagcli.mechanics.constraints import ConstraintEquation
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, counted, names, quoted, says
 
 _COMPARISONS = {"<": " < ", "<=": " ≤ ", ">": " > ", ">=": " ≥ "}
 
 
-def scene(teller: Teller) -> Iterator[Block]:
+def scene(explainer: Explainer) -> Iterator[Block]:
     """What moves, and what restricts it."""
-    problem, dynamics = teller.problem, teller.dynamics
-    coordinates = teller.system.names
+    problem, dynamics = explainer.problem, explainer.dynamics
+    coordinates = explainer.system.names
     one = len(coordinates) == 1
     yield says(
         "The coordinate " if one else "The coordinates ",
@@ -29,7 +29,7 @@ def scene(teller: Teller) -> Iterator[Block]:
     if not equations:
         count = len(coordinates)
         yield says(f"No constraint acts: the system has {counted(count, 'degree')} of freedom.")
-        yield from _gaps(teller)
+        yield from _gaps(explainer)
         return
     what = counted(len(equations), "constraint").capitalize()
     verb = "restricts the motion, with this equal to 0:"
@@ -37,12 +37,12 @@ def scene(teller: Teller) -> Iterator[Block]:
         verb = "restrict the motion, with these equal to 0:"
     yield says(f"{what} {verb}")
     yield equations_of(
-        (teller.letters.f(e.name), teller.readable.as_written(e.f)) for e in equations
+        (explainer.letters.f(e.name), explainer.readable.as_written(e.f)) for e in equations
     )
-    yield Items(tuple(tuple(_kind(teller, equation)) for equation in equations))
-    yield from _contacts(teller)
-    yield from _freedom(teller)
-    yield from _gaps(teller)
+    yield Items(tuple(tuple(_kind(explainer, equation)) for equation in equations))
+    yield from _contacts(explainer)
+    yield from _freedom(explainer)
+    yield from _gaps(explainer)
 
 
 def _constants(parameters: list[str]) -> list[Part]:
@@ -53,8 +53,8 @@ def _constants(parameters: list[str]) -> list[Part]:
     return [" The parameters ", *names(parameters), " are constants."]
 
 
-def _kind(teller: Teller, equation: ConstraintEquation) -> list[Part]:
-    constraints = teller.dynamics.constraints
+def _kind(explainer: Explainer, equation: ConstraintEquation) -> list[Part]:
+    constraints = explainer.dynamics.constraints
     several = sum(not e.holonomic for e in constraints.equations) > 1
     kind = constraints.kinds[equation.name]
     parts: list[Part] = [f"'{equation.name}' "]
@@ -62,7 +62,7 @@ def _kind(teller: Teller, equation: ConstraintEquation) -> list[Part]:
         parts.append("contains no velocity, it is holonomic: it restricts the positions.")
     elif kind == "integrable":
         together = "together with the other velocity constraints " if several else ""
-        t = teller.system.t
+        t = explainer.system.t
         moving = any(e.drift != 0 or any(a.has(t) for a in e.row) for e in constraints.equations)
         timed = " and the time" if moving else ""
         parts.append(
@@ -84,8 +84,8 @@ def _kind(teller: Teller, equation: ConstraintEquation) -> list[Part]:
     return parts
 
 
-def _contacts(teller: Teller) -> Iterator[Block]:
-    contacts = [c for c in teller.problem.constraints if c.holds_while is not None]
+def _contacts(explainer: Explainer) -> Iterator[Block]:
+    contacts = [c for c in explainer.problem.constraints if c.holds_while is not None]
     for contact in contacts:
         bound = contact.holds_while
         assert bound is not None
@@ -98,12 +98,12 @@ def _contacts(teller: Teller) -> Iterator[Block]:
         )
 
 
-def _gaps(teller: Teller) -> Iterator[Block]:
+def _gaps(explainer: Explainer) -> Iterator[Block]:
     """The contacts of the file, which act only while they are closed."""
-    contacts = teller.problem.contacts
+    contacts = explainer.problem.contacts
     if not contacts:
         return
-    build, write = teller.system.build, teller.readable.as_written
+    build, write = explainer.system.build, explainer.readable.as_written
     one = len(contacts) == 1
     what = counted(len(contacts), "contact").capitalize()
     verbs = "acts only while its gap is 0 and pushes" if one else (
@@ -112,7 +112,7 @@ def _gaps(teller: Teller) -> Iterator[Block]:
     rows = []
     for contact in contacts:
         gap = build(contact.equation.left) - build(contact.equation.right)
-        rows.append(Row(teller.letters.free(f"gap_{contact.name}"), write(gap)))
+        rows.append(Row(explainer.letters.free(f"gap_{contact.name}"), write(gap)))
     yield Equations(tuple(rows))
     for contact in contacts:
         if contact.restitution is None:
@@ -127,9 +127,9 @@ def _gaps(teller: Teller) -> Iterator[Block]:
     yield says(f"What follows holds {when}while {'the gap is' if one else 'all gaps are'} open.")
 
 
-def _freedom(teller: Teller) -> Iterator[Block]:
-    dynamics = teller.dynamics
-    count, rank = len(teller.system.names), len(dynamics.independent_constraints)
+def _freedom(explainer: Explainer) -> Iterator[Block]:
+    dynamics = explainer.dynamics
+    count, rank = len(explainer.system.names), len(dynamics.independent_constraints)
     if dynamics.redundant:
         verbs = ("follows", "restricts") if len(dynamics.redundant) == 1 else ("follow", "restrict")
         yield says(

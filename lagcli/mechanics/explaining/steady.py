@@ -9,9 +9,9 @@ from typing import cast
 from lagcli.algebra.build import free_of
 from lagcli.document import Block, Equations, Heading, Row, equations_of, vanishing
 from lagcli.expression import ZERO, Expression, Name, Number, Power
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.given_momenta import two_rates
 from lagcli.mechanics.explaining.recurring import recurring
-from lagcli.mechanics.explaining.teller import Teller
 from lagcli.mechanics.explaining.words import Part, listed, names, says
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import Section
@@ -40,16 +40,16 @@ _BALANCED = {
 _NO_MOMENTUM = "No coordinate can be eliminated by a constant momentum"
 
 
-def steady(teller: Teller, section: Section) -> Iterator[Block]:
+def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
     """The relative equilibria: cyclic velocities constant, the other coordinates at rest."""
     found = cast(SteadySection, section)
     if "inertia" in found.acting:
         yield says(*_with_constant_velocities(found))
-        yield from _steady_states(teller, found)
+        yield from _steady_states(explainer, found)
         return
     if found.motions is None and found.reason == ALL_CYCLIC:
-        formulas = (teller.system.L, *(e.f for e in teller.dynamics.constraints.equations))
-        timed = any(not free_of(each, [teller.system.t]) for each in formulas)
+        formulas = (explainer.system.L, *(e.f for e in explainer.dynamics.constraints.equations))
+        timed = any(not free_of(each, [explainer.system.t]) for each in formulas)
         constant = (
             "momenta are constant" if timed else "velocities are constant: every motion is steady"
         )
@@ -62,9 +62,9 @@ def steady(teller: Teller, section: Section) -> Iterator[Block]:
         yield says(f"They were not found: {found.reason}.")
         return
     if not found.momenta and (found.conditions or found.motions):
-        lead = _steady_without_momenta(teller, found)
+        lead = _steady_without_momenta(explainer, found)
         yield says(_NO_MOMENTUM, lead if found.conditions else f"{lead[:-1]}.")
-        yield from _steady_states(teller, found)
+        yield from _steady_states(explainer, found)
         return
     yield says(
         "In a steady motion the coordinates that are not cyclic are constant, and the cyclic ones "
@@ -74,7 +74,7 @@ def steady(teller: Teller, section: Section) -> Iterator[Block]:
         POTENTIAL,
         f" {_BALANCED[found.acting]}, with the momenta of the cyclic coordinates as constants:",
     )
-    yield from _steady_states(teller, found)
+    yield from _steady_states(explainer, found)
 
 
 def _with_constant_velocities(found: SteadySection) -> list[Part]:
@@ -90,9 +90,9 @@ def _with_constant_velocities(found: SteadySection) -> list[Part]:
     return ["The constraints give ", *given, f" in a steady motion. So are{rest}"]
 
 
-def _steady_without_momenta(teller: Teller, found: SteadySection) -> str:
+def _steady_without_momenta(explainer: Explainer, found: SteadySection) -> str:
     """What is steady: the equilibria, under velocity constraints other states perhaps, too."""
-    if all(e.holonomic for e in teller.dynamics.constraints.equations):
+    if all(e.holonomic for e in explainer.dynamics.constraints.equations):
         frames = ", at rest or in a frame that moves along" * bool(found.frames)
         return f", so in these coordinates the steady motions are the equilibria{frames}:"
     if found.motions:
@@ -100,7 +100,7 @@ def _steady_without_momenta(teller: Teller, found: SteadySection) -> str:
     return ". At rest these vanish:"
 
 
-def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
+def _steady_states(explainer: Explainer, found: SteadySection) -> Iterator[Block]:
     wanted = unlike(found.conditions.values())
     if wanted:
         yield vanishing(wanted)
@@ -113,12 +113,12 @@ def _steady_states(teller: Teller, found: SteadySection) -> Iterator[Block]:
         yield says(_none(found))
     for number, motion in enumerate(once(found.motions), 1):
         yield Heading(f"Steady motion {number}", 2)
-        yield from _motion(teller, motion)
+        yield from _motion(explainer, motion)
     yield from in_moving_frames(found)
     if found.motions and not found.complete:
         yield there_may_be_others(found)
     if found.motions:
-        yield from recurring(teller)
+        yield from recurring(explainer)
 
 
 def _none(found: SteadySection) -> list[Part]:
@@ -129,9 +129,9 @@ def _none(found: SteadySection) -> list[Part]:
     return ["These have no solution: ", *none, "."]
 
 
-def _motion(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
+def _motion(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
     if motion.rolling:
-        yield from _rolling(teller, motion)
+        yield from _rolling(explainer, motion)
         return
     placed = bool(motion.at) or motion.on is not None
     rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
@@ -152,13 +152,13 @@ def _motion(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
     if momenta:
         yield says("and the momenta are" if rates else "The momenta are")
         yield equations_of((Name(f"p_{name}"), p) for name, p in momenta.items())
-        yield from two_rates(teller, motion)
+        yield from two_rates(explainer, motion)
     if motion.mirrored:
         yield says("The same holds with the opposite signs of these velocities and momenta.")
     if motion.where:
         yield says("It is possible for ", conditions(motion.where), ".")
     if motion.mass:
-        yield from _displaced(teller, motion)
+        yield from _displaced(explainer, motion)
     yield says(steady_stability(motion))
 
 
@@ -166,7 +166,7 @@ def _free(motion: SteadyMotion) -> list[Part]:
     return listed([Name(name.rstrip("'"), 1 if name.endswith("'") else 0) for name in motion.free])
 
 
-def _rolling(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
+def _rolling(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
     places = [Row(Name(name), value) for name, value in motion.at.items()]
     rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
     rows = (*places, *(Row(Name(name, 1), rate) for name, rate in rates.items()))
@@ -186,10 +186,10 @@ def _rolling(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
                    "squared frequency below.")  # fmt: skip
     yield says(steady_stability(motion))
     if motion.frequencies_squared:
-        yield _squares(teller, motion.frequencies_squared)
+        yield _squares(explainer, motion.frequencies_squared)
 
 
-def _displaced(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
+def _displaced(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
     """M x'' + C x' + K x = 0 and the squares of the frequencies."""
     unchanged = " at unchanged momenta" if motion.momenta else ""
     lead = f"Small displacements{unchanged} obey to first order "
@@ -197,10 +197,10 @@ def _displaced(teller: Teller, motion: SteadyMotion) -> Iterator[Block]:
     squares = dict.fromkeys(motion.frequencies_squared)
     if squares:
         yield says("The squares of the frequencies are the roots of the determinant:")
-        yield _squares(teller, squares)
+        yield _squares(explainer, squares)
 
 
-def _squares(teller: Teller, values: Iterable[Expression]) -> Equations:
+def _squares(explainer: Explainer, values: Iterable[Expression]) -> Equations:
     """omega^2 = ..., with a letter that the file does not use."""
-    square = Power(teller.letters.free("omega"), Number(Fraction(2)))
+    square = Power(explainer.letters.free("omega"), Number(Fraction(2)))
     return equations_of((square, value) for value in values)

@@ -16,7 +16,7 @@ from lagcli.mechanics.canonical.poisson import poisson
 from lagcli.mechanics.discovery.lie_algebra import MODULO_CONSTANTS
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.explaining.conservation import noether_words
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, says, shows
 from lagcli.statements.answers import AlgebraSection, Charge, ChargesSection, Section
 from lagcli.statements.wording import conditions
@@ -27,12 +27,12 @@ _MOST = 7
 _CHECKED = {"exact": "exactly", "50 digits": "at random states to 50 digits"}
 
 
-def discovered(teller: Teller, section: Section) -> Iterator[Block]:
+def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
     """The ansatz, the condition, and each conserved quantity with its check."""
     found = cast(ChargesSection, section).charges
-    discovery = teller.derivation.discovery
-    letters = teller.letters
-    constrained = bool(teller.dynamics.constraints.equations)
+    discovery = explainer.derivation.discovery
+    letters = explainer.letters
+    constrained = bool(explainer.dynamics.constraints.equations)
     forced = "" if discovery.canonical else " plus the work of the applied forces"
     yield says(
         "A symmetry is a change of the coordinates and the time under which the action "
@@ -44,7 +44,7 @@ def discovered(teller: Teller, section: Section) -> Iterator[Block]:
         one = "In proportion to the arc length is "
         lead = "The Cartesian coordinates are " if len(discovery.cartesian) > 1 else one
         named = [
-            part for X in discovery.cartesian for part in (", ", teller.readable.as_written(X))
+            part for X in discovery.cartesian for part in (", ", explainer.readable.as_written(X))
         ]
         yield says(lead, *named[1:], ".")
     yield says(
@@ -68,7 +68,7 @@ def discovered(teller: Teller, section: Section) -> Iterator[Block]:
     if charges:
         timed = any("t" in each.transformation for each in charges)
         gauge = any(each.gauge not in {None, ZERO} for each in charges)
-        law = noether_words(teller, with_gauge=gauge, with_time=timed)[:-1]
+        law = noether_words(explainer, with_gauge=gauge, with_time=timed)[:-1]
         G, L = letters.G, letters.L
         rate: list[Part] = [", where the total time derivative of ", G, " is the change of ", L]
         boundary = [*rate, forced] if gauge else []
@@ -80,11 +80,11 @@ def discovered(teller: Teller, section: Section) -> Iterator[Block]:
             "outside of the ansatz was searched.",
         )  # fmt: skip
     for charge in found:
-        yield from _charge(teller, charge)
+        yield from _charge(explainer, charge)
 
 
-def _charge(teller: Teller, charge: Charge) -> Iterator[Block]:
-    letters = teller.letters
+def _charge(explainer: Explainer, charge: Charge) -> Iterator[Block]:
+    letters = explainer.letters
     yield Heading(charge.name, 2)
     moves = charge.source == "momentum equation"
     rows = [Row(Label(name, change=True), by) for name, by in charge.transformation.items()]
@@ -120,18 +120,18 @@ def _quick(change: Expression) -> bool:
 # -- the algebra ---------------------------------------------------------------------------------
 
 
-def algebra(teller: Teller, section: Section) -> Iterator[Block]:
+def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
     """Brackets of the conserved quantities, their algebra, and Liouville's count."""
     found = cast(AlgebraSection, section)
-    charges = teller.derivation.discovery.charges
+    charges = explainer.derivation.discovery.charges
     if not charges:
         yield says(f"No symmetry was found and proved. Searched: {found.ansatz}.")
         return
     if found.in_involution is None:
-        yield says(_no_brackets(teller))
-    yield from _brackets(teller, closed=found.closed)
+        yield says(_no_brackets(explainer))
+    yield from _brackets(explainer, closed=found.closed)
     yield from _dimension(found)
-    number, n = found.independent, teller.dynamics.degrees_of_freedom
+    number, n = found.independent, explainer.dynamics.degrees_of_freedom
     if found.number > 1 and number is not None:
         yield says(
             f"Of the {found.number} conserved quantities {number} {'is' if number == 1 else 'are'} "
@@ -139,7 +139,7 @@ def algebra(teller: Teller, section: Section) -> Iterator[Block]:
         )
     if found.in_involution is not None:
         yield says(*_integrability(found, n))
-    if any("special values" in note for note in teller.derivation.discovery.words):
+    if any("special values" in note for note in explainer.derivation.discovery.words):
         yield says("Not all special values of the parameters were tried.")
     for case in found.special:
         yield Heading("More symmetries for one value of", 2, Name(case.parameter))
@@ -152,12 +152,12 @@ def algebra(teller: Teller, section: Section) -> Iterator[Block]:
         yield equations_of((Name(name), value) for name, value in case.charges.items())
 
 
-def _no_brackets(teller: Teller) -> str:
+def _no_brackets(explainer: Explainer) -> str:
     """Why the conserved quantities are not compared by Poisson brackets."""
-    kinds = teller.dynamics.constraints.kinds.values()
+    kinds = explainer.dynamics.constraints.kinds.values()
     if any(kind != "holonomic" for kind in kinds):
         return "Under velocity constraints no Poisson brackets are taken."
-    if not teller.derivation.discovery.canonical:
+    if not explainer.derivation.discovery.canonical:
         return "Applied forces act, so no Poisson brackets are taken."
     return "The Poisson brackets were not worked out."
 
@@ -199,11 +199,11 @@ def _integrability(found: AlgebraSection, n: int) -> list[Part]:
     return [law, here + verdict]
 
 
-def _brackets(teller: Teller, *, closed: bool) -> Iterator[Block]:
+def _brackets(explainer: Explainer, *, closed: bool) -> Iterator[Block]:
     """{A, B} by multiples of the charges, where the Legendre transform is to be had."""
-    discovery, hamiltonian = teller.derivation.discovery, teller.derivation.hamiltonian
+    discovery, hamiltonian = explainer.derivation.discovery, explainer.derivation.hamiltonian
     charges = discovery.charges
-    free = not teller.dynamics.constraints.equations and discovery.canonical
+    free = not explainer.dynamics.constraints.equations and discovery.canonical
     if not free or len(charges) < 2 or hamiltonian.velocities is None:
         return
     if len(charges) > _MOST:
@@ -215,23 +215,23 @@ def _brackets(teller: Teller, *, closed: bool) -> Iterator[Block]:
             )
         return
     known = {
-        teller.letters.free(each.name).name: hamiltonian.in_phase_space(each.charge)
+        explainer.letters.free(each.name).name: hamiltonian.in_phase_space(each.charge)
         for each in charges
     }
     rows, commuting, other = [], 0, 0
     for one, two in combinations(known, 2):
-        value = poisson(known[one], known[two], teller.system)
+        value = poisson(known[one], known[two], explainer.system)
         if is_zero(value) is True:
             commuting += 1
             continue
         try:
-            multiple = _multiple(teller, value, known)
+            multiple = _multiple(explainer, value, known)
         except TooMuchWork:
             multiple = None
         if multiple is None:
             other += 1
             continue
-        order = (*teller.system.order, *known)
+        order = (*explainer.system.order, *known)
         rows.append(Row(Bracket(Name(one), Name(two)), shape(multiple, order)))
     if not rows and not other:
         two = "The Poisson bracket of the two conserved quantities vanishes."
@@ -248,9 +248,9 @@ def _brackets(teller: Teller, *, closed: bool) -> Iterator[Block]:
         yield says("All others are 0.")
 
 
-def _multiple(teller: Teller, value: Expr, known: Mapping[str, Expr]) -> Expr | None:
+def _multiple(explainer: Explainer, value: Expr, known: Mapping[str, Expr]) -> Expr | None:
     """The bracket as a constant, or a constant times a charge, or that times the energy."""
-    system = teller.system
+    system = explainer.system
     moving = (*system.q, *system.momenta, system.t)
     if free_of(value, moving):
         return value

@@ -11,7 +11,7 @@ from lagcli.algebra import shape
 from lagcli.document import Block, Bracket, Equations, Formula, Heading, Label, Row, equations_of
 from lagcli.expression import Diff, Expression, Name, Negative, Number, Product, walk
 from lagcli.mechanics.canonical.transformation import CanonicalTest
-from lagcli.mechanics.explaining.teller import Teller
+from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import says, shows
 from lagcli.notation.letters import own
 from lagcli.statements.answers import Section
@@ -43,7 +43,7 @@ _LAWS = {
 }
 
 
-def transformations(teller: Teller, section: Section) -> Iterator[Block]:
+def transformations(explainer: Explainer, section: Section) -> Iterator[Block]:
     """Each transformation of the file: is it canonical, what generates it, what is K."""
     found = cast(TransformationsSection, section).transformations
     if not found:
@@ -56,8 +56,8 @@ def transformations(teller: Teller, section: Section) -> Iterator[Block]:
         "Hamilton's "
         "equations keep their form for every Hamiltonian."
     )
-    given = {each.name: each for each in teller.derivation.given.canonical_transformations}
-    system = teller.derivation.hamiltonian.system
+    given = {each.name: each for each in explainer.derivation.given.canonical_transformations}
+    system = explainer.derivation.hamiltonian.system
     for each in found:
         yield Heading(each.name, 2)
         yield from _transformation(CanonicalTest(system, given[each.name]), each)

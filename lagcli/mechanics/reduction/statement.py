@@ -47,7 +47,7 @@ from lagcli.statements.motions import Irreducible, OneFreedom, PeriodSeries
 _ONCE = Fraction(1)
 _HALF = Fraction(1, 2)
 
-#: What was asked for and not found, and why.
+#: What was requested and not found, and why.
 Missing = list[tuple[str, str]]
 
 

@@ -20,7 +20,7 @@ class Stability:
         Whether it is asymptotically stable, where it is stable.
     minimum, spectrum, hurwitz
         What must be positive for a minimum of V, for frequencies that are real and distinct,
-        for roots that all have negative real parts; empty: it is always so.  None: not asked
+        for roots that all have negative real parts; empty: it is always so.  None: not examined
         for, never so, or not decided.
     reverses
         Whether it is unstable where one of `minimum` is negative.  (Of the others it is.)

@@ -9,7 +9,7 @@ from lagcli.numerics.certified.accuracy import Outcome
 from lagcli.numerics.certified.methods import AUTO, METHODS, MORE_DIGITS, SHARP, SHARPER
 from lagcli.numerics.certified.prepared import Precision, outcome_of
 from lagcli.numerics.hybrid.modes import Modes
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.steps import NotPossible
 
@@ -17,11 +17,11 @@ from lagcli.numerics.integrators.steps import NotPossible
 _LEAST_DOUBLE = 1e-13
 
 
-def groups(asked: Asked) -> Sequence[Sequence[str]]:
+def groups(request: RunRequest) -> Sequence[Sequence[str]]:
     """The methods, each group for what those before it do not reach."""
-    if asked.method != "auto":
-        return ((asked.method,),)
-    return AUTO[1:] if asked.accuracy < _LEAST_DOUBLE else AUTO
+    if request.method != "auto":
+        return ((request.method,),)
+    return AUTO[1:] if request.accuracy < _LEAST_DOUBLE else AUTO
 
 
 def attempt(
@@ -50,6 +50,6 @@ def attempt(
                 setup.remark += remark
                 return found, made.precision
         remark += f"; not {name}: {made}"
-    if len(groups(setup.asked)) == 1:
+    if len(groups(setup.request)) == 1:
         setup.remark += remark
     return None, nullcontext

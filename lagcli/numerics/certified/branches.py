@@ -51,12 +51,12 @@ def on_one_branch(
     Parameters
     ----------
     simulation, modes
-        What is asked, and the modes in doubles.
+        The request, and the modes in doubles.
     outcome, digits
         What a method gave, and its precision.
     """
     met, left = _left_at(simulation, outcome, digits)
-    if met and simulation.asked.method == "auto" and not is_sharp(outcome):
+    if met and simulation.request.method == "auto" and not is_sharp(outcome):
         simulation.most_steps = TIMES * outcome.run.steps
         found, with_digits = attempt(simulation, SHARPER, modes, SHARP)
         if found is not None:  # steps of a usual tolerance pass over a bend

@@ -12,7 +12,7 @@ from lagcli.numerics.certified.exact_columns import at_written_times, with_digit
 from lagcli.numerics.certified.methods import METHODS
 from lagcli.numerics.certified.scales import relative
 from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.equations.refusal import told
+from lagcli.numerics.equations.refusal import reason_of
 from lagcli.numerics.hybrid.events import Event
 from lagcli.numerics.hybrid.result import Certificate, Result
 from lagcli.numerics.hybrid.run import Run
@@ -31,10 +31,10 @@ _SIDES, _SMOOTH = (1e-4, 1e-6), 1e-3
 
 def result_of(simulation: Setup, motion: Motion, outcome: Outcome) -> Result:
     """The table with its certificate."""
-    asked, run = simulation.asked, outcome.run
+    request, run = simulation.request, outcome.run
     outcome = replace(outcome, rows=with_digits(simulation, outcome))
     outcome = replace(outcome, rows=at_written_times(simulation, outcome))
-    names = tuple(column.name for column in asked.columns)
+    names = tuple(column.name for column in request.columns)
     kept = len(outcome.rows) if outcome.reached else outcome.good_rows
     rows: list[tuple[float | None, ...]] = []
     for place, mark in enumerate(run.marks[:kept]):
@@ -59,13 +59,13 @@ def result_of(simulation: Setup, motion: Motion, outcome: Outcome) -> Result:
         columns=names,
         rows=tuple(rows),
         certificate=Certificate(
-            accuracy=asked.accuracy,
+            accuracy=request.accuracy,
             reached=outcome.reached,
             holds_until=holds_until,
             global_error={
                 name: outcome.held[j]
                 for j, name in enumerate(names)
-                if asked.columns[j].expression is not None
+                if request.columns[j].expression is not None
             },
             scales=tuple(outcome.held_scales),
             estimated_by=_estimated_by(outcome),
@@ -83,11 +83,11 @@ def result_of(simulation: Setup, motion: Motion, outcome: Outcome) -> Result:
     )
 
 
-def rows_asked_for(simulation: Setup, outcome: Outcome) -> list[tuple[float | None, ...]]:
+def requested_rows(simulation: Setup, outcome: Outcome) -> list[tuple[float | None, ...]]:
     """The rows of a run at the times of the output, certified or not, if they are requested."""
-    if not simulation.asked.beyond:
+    if not simulation.request.beyond:
         return []
-    count = len(simulation.asked.columns)
+    count = len(simulation.request.columns)
     return [
         _floats(row[:count])
         for mark, row in zip(outcome.run.marks, outcome.rows, strict=True)
@@ -179,16 +179,18 @@ def _residuals(outcome: Outcome, simulation: Setup) -> dict[str, tuple[float | N
 
 def refusal_of(simulation: Setup, motion: Motion, outcome: Outcome, holds_until: float) -> str:
     """Why the accuracy is not reached to the end, and until when it holds."""
-    asked, stop = simulation.asked, outcome.run.stop
+    request, stop = simulation.request, outcome.run.stop
     if stop is not None and _is_known(outcome, holds_until):
         why = why_stopped(motion, stop)
         return f"the motion stops at t = {stop.t:.13g}: {why}; shown until t = {holds_until:.6g}"
     why = outcome.reason or _what_grows(outcome)
-    told = f"the accuracy {asked.accuracy:g} is not reached until t = {asked.until:g}: {why}"
+    reason_of = (
+        f"the accuracy {request.accuracy:g} is not reached until t = {request.until:g}: {why}"
+    )
     held = f"it holds until t = {holds_until:.6g}"
     in_doubles = simulation.goes_on or simulation.equations.kinks
-    helps = asked.digits is None and not in_doubles and not outcome.reason
-    return f"{told}; {held}" + ("; --precision carries more digits" if helps else "")
+    helps = request.digits is None and not in_doubles and not outcome.reason
+    return f"{reason_of}; {held}" + ("; --precision carries more digits" if helps else "")
 
 
 def _what_grows(outcome: Outcome) -> str:
@@ -219,7 +221,7 @@ def why_stopped(motion: Motion, stop: CannotGoOn) -> str:
             return stop.reason or _irregularity(motion, stop)
         grows = f"{names[j]}'' grows without bound there"
     except (ArithmeticError, ValueError) as error:
-        return f"the accelerations are not defined there: {told(error)}"
+        return f"the accelerations are not defined there: {reason_of(error)}"
     return f"{grows} ({stop.reason})" if stop.reason else grows
 
 
@@ -253,7 +255,7 @@ def _warnings(simulation: Setup, rows: list[Any], events: list[Event]) -> list[s
         for event in events
         if event.what == "touches"
     ]
-    for j, column in enumerate(simulation.asked.columns):
+    for j, column in enumerate(simulation.request.columns):
         empty = [row[0] for row in rows if row[j] is None]
         if empty and len(empty) == len(rows):
             why = "not determined: redundant constraints share a force"

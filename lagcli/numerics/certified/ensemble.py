@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from lagcli.numerics.certified.simulate import Simulation, simulate
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.numerics.hybrid.result import Result
 from lagcli.problem_data import Problem
 
@@ -18,7 +18,7 @@ class Ensemble:
     ----------
     problem
         One of the members.
-    asked
+    request
         The same for all.
 
     Raises
@@ -27,11 +27,11 @@ class Ensemble:
         When this member cannot be run.
     """
 
-    def __init__(self, problem: Problem, asked: Asked) -> None:
-        self._asked = asked
-        self._simulation = simulation = Simulation(problem, asked)
+    def __init__(self, problem: Problem, request: RunRequest) -> None:
+        self._request = request
+        self._simulation = simulation = Simulation(problem, request)
         plain = not (problem.constraints or problem.contacts or simulation.equations.kinks)
-        self._shares = plain and asked.stop_when is None
+        self._shares = plain and request.stop_when is None
         if self._shares:
             self._integrated, self._modes = simulation.ready()
             self._shares = self._integrated is simulation
@@ -45,6 +45,6 @@ class Ensemble:
             When it cannot be run.
         """
         if not self._shares:
-            return simulate(problem, self._asked)
+            return simulate(problem, self._request)
         self._simulation.restart(problem, self._modes)
         return self._simulation.run(self._modes)

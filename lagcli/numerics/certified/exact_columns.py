@@ -41,7 +41,7 @@ def with_digits(simulation: Setup, outcome: Outcome) -> Rows:
     Parameters
     ----------
     simulation
-        What is asked.
+        The request.
     outcome
         As it came; rows of more digits than doubles stay as they are.
     """
@@ -83,7 +83,7 @@ def with_digits(simulation: Setup, outcome: Outcome) -> Rows:
             ),
             default=0.0,  # of columns that are defined nowhere
         )
-        if lost <= _LOST * simulation.asked.accuracy:
+        if lost <= _LOST * simulation.request.accuracy:
             return rows
         return [found.get(k) or columns(*pair) for k, pair in enumerate(pairs)]
 

@@ -2,7 +2,7 @@
 
 The longest step, the tolerances and the digits of a run follow from its span, and where the
 bound crosses the accuracy is a matter of chance by a factor of a few.  So that who asks for more
-never gets less, the answer is that of runs which do not depend on the span asked for: over
+never gets less, the answer is that of runs which do not depend on the requested span: over
 s_k = 2^(k/4), compared at rows of their own as well.  A motion whose errors grow is within the
 accuracy up to some s_k and not beyond: of the first run that does not reach its end, and of the
 one before it, the one that holds longer is the answer, for all longer spans.  Where a bound at the
@@ -11,7 +11,7 @@ rounding of its numbers is within the accuracy by chance, that answer counts as 
 Examples
 --------
 The plane double pendulum (m = l = 1, at rest at 2 and 2.5 rad, accuracy 1e-9) holds in 128 bits
-until t = 34.58, whether 35, 40 or 1000 is asked for.
+until t = 34.58, whether 35, 40 or 1000 is requested.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ from lagcli.numerics.certified.certificate import refusal_of
 from lagcli.numerics.certified.escalation import horizon_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.modes import Modes
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.numerics.hybrid.result import Result
 from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.steps import NotPossible
 from lagcli.record import replace
 
-MakeResult = Callable[[Asked], Result]
+MakeResult = Callable[[RunRequest], Result]
 
 #: Grid points in an octave.
 _IN_OCTAVE = 4
-#: Rows at which runs over the grid's spans are compared, whatever the rows asked for.
+#: Rows at which runs over the grid's spans are compared, whatever the requested rows.
 _ROWS = 1600
-#: The shortest span is this part of the one asked for.
+#: The shortest span is this part of the requested one.
 _SHORTEST = 2.0**-16
 #: A run that holds up to this part of the time of a singularity gains nothing over a shorter span.
 _CLOSE = 0.99
@@ -60,7 +60,7 @@ def longest(
     run
         Makes the result of another request.
     """
-    stop, until = outcome.run.stop, simulation.asked.until
+    stop, until = outcome.run.stop, simulation.request.until
     if stop is not None and _holds(result) >= _CLOSE * stop.t:
         return result
     found: dict[int, Result | None] = {}
@@ -99,9 +99,11 @@ def _over(simulation: Setup, run: MakeResult, span: float) -> Result | None:
     """The result over a span of the grid, up to one of its own rows; None where there is none."""
     own = [span * k / _ROWS for k in range(_ROWS)] + [span]
     times = sorted({*own, *(t for t in simulation.rows_at if t < span)})
-    asked = replace(simulation.asked, until=span, end=None, times=tuple(times), samples=len(times))
+    request = replace(
+        simulation.request, until=span, end=None, times=tuple(times), samples=len(times)
+    )
     try:
-        found = run(replace(asked, furthest=False))
+        found = run(replace(request, furthest=False))
     except (Refusal, NotPossible):
         return None
     if found.certificate.reached:

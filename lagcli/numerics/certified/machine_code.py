@@ -85,7 +85,7 @@ class Runs:
     Parameters
     ----------
     simulation, modes
-        What is asked, and the modes with the numbers of the machine code or better.
+        The request, and the modes with the numbers of the machine code or better.
     machine
         The equations of the first mode.
     make
@@ -108,7 +108,7 @@ class Runs:
         self.foreseen: Progress = None
         #: the subsystems, once it is known whether steps of their own pay
         self._apart: Apart | None = None
-        self._is_weighed = make is None or simulation.asked.whole
+        self._is_weighed = make is None or simulation.request.whole
         self._machines: dict[Motion, Machine | str] = {modes.first.motion: machine}
         self.modes = modes.by(self._method)
 
@@ -129,7 +129,7 @@ class Runs:
         if not self._is_weighed:
             assert self._make is not None
             self._is_weighed = True
-            mode, until = self.modes.first, self.simulation.asked.until
+            mode, until = self.modes.first, self.simulation.request.until
             self._apart = apart(mode, self._machine, self._make, state, bound, until)
         return self._apart
 
@@ -142,9 +142,9 @@ class Runs:
         progress: Progress,
     ) -> Run:
         """One run from a state."""
-        asked, mode = self.simulation.asked, self.modes.first
-        transitions = Transitions(self.modes, asked.accuracy, asked.until)
-        run = Run(transitions, bound, asked.accuracy)
+        request, mode = self.simulation.request, self.modes.first
+        transitions = Transitions(self.modes, request.accuracy, request.until)
+        run = Run(transitions, bound, request.accuracy)
         q, v = list(state[0]), list(state[1])
         if mode.conditions or mode.motion.kinks:
             return run.go(q, v, times, probe_every=every, progress=progress)
@@ -188,7 +188,7 @@ def prepared_doubles(simulation: Setup, doubles: Modes) -> Prepared | str:
             return done
 
         def too_many(steps: float) -> None:
-            if steps > LONG and simulation.asked.method == "auto" and not simulation.is_long:
+            if steps > LONG and simulation.request.method == "auto" and not simulation.is_long:
                 simulation.is_long = not isinstance(prepared_extended(simulation, doubles), str)
                 if simulation.is_long:
                     raise RoundingAddsUp
@@ -212,17 +212,17 @@ def prepared_doubles(simulation: Setup, doubles: Modes) -> Prepared | str:
 
 def prepared_extended(simulation: Setup, doubles: Modes) -> Prepared | str:
     """Machine code in numbers of 80 bits made ready, or why there is none."""
-    if simulation.asked.accuracy < _LEAST_EXTENDED:
+    if simulation.request.accuracy < _LEAST_EXTENDED:
         return "80 bits claim nothing better than 1e-14"
     return _beyond_doubles(simulation, doubles, EXTENDED, _FINEST_EXTENDED)
 
 
 def prepared_quadruple(simulation: Setup, doubles: Modes) -> Prepared | str:
     """Machine code in numbers of 128 bits made ready, or why there is none."""
-    asked = simulation.asked
-    if asked.digits is not None and asked.digits > _DIGITS_QUADRUPLE:
+    request = simulation.request
+    if request.digits is not None and request.digits > _DIGITS_QUADRUPLE:
         return f"128 bits are {_DIGITS_QUADRUPLE} digits"
-    if asked.accuracy < _LEAST_QUADRUPLE:
+    if request.accuracy < _LEAST_QUADRUPLE:
         return f"128 bits claim nothing better than {_LEAST_QUADRUPLE:.0e}"
     return _beyond_doubles(simulation, doubles, QUADRUPLE, _FINEST_QUADRUPLE)
 
@@ -247,7 +247,7 @@ def _prepared(
 
     if not (engine().extended if numbers is EXTENDED else engine().quadruple):
         return f"there are no numbers of {numbers.name.removeprefix('taylor')} bits here"
-    equations, asked = simulation.equations, simulation.asked
+    equations, request = simulation.equations, simulation.request
     arithmetic = Balls()
     constants = constants_of(equations, simulation.all_nodes, arithmetic)
     modes = Modes(simulation, constants, arithmetic, doubles.make_method, 2.0**-_BITS)
@@ -270,7 +270,7 @@ def _prepared(
     else:
         runs = Runs(simulation, modes, Machine(motion, numbers), None)
     q, v = simulation.start
-    exact_q, exact_v = refined_state(motion, modes.first.surface(), q, v, anew=not asked.project)
+    exact_q, exact_v = refined_state(motion, modes.first.surface(), q, v, anew=not request.project)
     inexact = rounded_components(motion, q, v)
     unit = arithmetic.ball(numbers.rounding) * 2
     beside = twin.by_turns(

@@ -1,6 +1,6 @@
 """The model of a run that shows every coordinate: what is integrated, what is done without.
 
-Where the file can be run it is the run that is asked; where values are missing, the
+Where the file can be run it is the requested run; where values are missing, the
 structure, with every parameter some number that is not 0.
 """
 
@@ -25,7 +25,7 @@ from lagcli.numerics.equations.coupling import coupling, groups
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.reduced_model import MOST, Reduction, cut
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import Column
 from lagcli.statements.answers import ModelSection
@@ -87,9 +87,9 @@ class _Model:
         e = self.equations
         columns = [Column("t", None)]
         columns += [Column(q.name, Name(q.name, k)) for k in (0, 1) for q in e.q]
-        asked = Asked(until=1.0, accuracy=1e-9, samples=2, columns=tuple(columns))
+        request = RunRequest(until=1.0, accuracy=1e-9, samples=2, columns=tuple(columns))
         with suppress(Refusal):
-            return Simulation(self.problem, asked).ready()[0].cut is not None
+            return Simulation(self.problem, request).ready()[0].cut is not None
         try:
             return cut(e, self.constants, [*e.q, *e.qdot], given) is not None
         except (ArithmeticError, UndefinedFunction):

@@ -161,7 +161,7 @@ def are_felt(outcome: Outcome, others: Modes, accuracy: float) -> bool:
     if (narrow := run.narrowest) is not None:
         looks.append((narrow, run.phases[0].mode.tabulate(narrow.t, narrow.q, narrow.v)))
     n, columns = len(run.peaks) // 2, len(others.simulation.nodes)
-    least = [peak / others.simulation.asked.until for peak in run.peaks[n:]]
+    least = [peak / others.simulation.request.until for peak in run.peaks[n:]]
     sizes, changes = least, [0.0] * n
     moves = [0.0] * columns
     for mark, row in looks:

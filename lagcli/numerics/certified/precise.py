@@ -23,7 +23,7 @@ from lagcli.numerics.integrators.taylor import Taylor
 _DIGITS = 30
 _GUARD_BITS = 40
 _LONGEST = (10.0,)  # a part of the span: a series knows what lies within its step
-#: Steps of one run, when nobody has asked for more digits and when somebody has.
+#: Steps of one run, when nobody has requested for more digits and when somebody has.
 _UNASKED, _ASKED = 20_000, 500_000
 
 
@@ -42,17 +42,17 @@ def prepared(simulation: Setup, doubles: Modes, digits: int | None = None) -> Pr
     Parameters
     ----------
     simulation, doubles
-        What is asked, and the modes in doubles.
+        The request, and the modes in doubles.
     digits
-        Those asked for, or 30, without it.
+        The requested ones, or 30, without it.
     """
-    equations, asked = simulation.equations, simulation.asked
+    equations, request = simulation.equations, simulation.request
     if equations.kinks:
         return "abs and sign have no power series"
     if simulation.goes_on:
         return "contacts that close or are released are followed in doubles only"
-    limit = _UNASKED if asked.digits is None and digits is None else _ASKED
-    carried = digits or asked.digits or _DIGITS
+    limit = _UNASKED if request.digits is None and digits is None else _ASKED
+    carried = digits or request.digits or _DIGITS
     rounding = 10.0**-carried
     try:
         with precision(carried):
@@ -62,14 +62,14 @@ def prepared(simulation: Setup, doubles: Modes, digits: int | None = None) -> Pr
             modes.first.conserved = doubles.first.conserved
             surface = modes.first.surface()
             state = refined_state(
-                modes.first.motion, surface, *simulation.start, anew=not asked.project
+                modes.first.motion, surface, *simulation.start, anew=not request.project
             )
     except Refusal as refusal:
         return str(refusal)
 
     def run(bound: Tolerance, every: int, progress: Progress, *, moved: bool) -> Run:
         del every, moved  # nothing lies between its stages, and its rounding is its own
-        made = Run(Transitions(modes, asked.accuracy, asked.until), bound, asked.accuracy)
+        made = Run(Transitions(modes, request.accuracy, request.until), bound, request.accuracy)
         made.step_limit = min(limit, simulation.most_steps or limit)
         return made.go(*state, simulation.times, progress=progress)
 

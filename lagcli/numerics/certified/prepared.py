@@ -80,11 +80,11 @@ def in_doubles(make: MakeMethod, simulation: Setup, modes: Modes, rounded: float
     make
         Makes the method of a mode.
     simulation, modes
-        What is asked, and the modes in doubles.
+        The request, and the modes in doubles.
     rounded
         As for `Prepared`.
     """
-    asked = simulation.asked
+    request = simulation.request
     usual = modes.by(make)
 
     def prepared(other: Modes, beside: tuple[State, State]) -> Prepared:
@@ -92,7 +92,9 @@ def in_doubles(make: MakeMethod, simulation: Setup, modes: Modes, rounded: float
 
         def run(bound: Tolerance, every: int, progress: Progress, *, moved: int) -> Run:
             made = Run(
-                Transitions(both[moved != 0], asked.accuracy, asked.until), bound, asked.accuracy
+                Transitions(both[moved != 0], request.accuracy, request.until),
+                bound,
+                request.accuracy,
             )
             q, v = states[moved]
             times = clocked(simulation.times, moved)
@@ -114,11 +116,11 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
     Parameters
     ----------
     simulation, modes, made
-        What is asked, the modes in doubles, and the method.
+        The request, the modes in doubles, and the method.
     first
         The first tolerance is no coarser.
     """
-    asked = simulation.asked
+    request = simulation.request
     scales = Scales(simulation)
     total = 2  # runs that progress counts
     count = 0
@@ -135,7 +137,7 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
                 simulation.progress((done + part) / max(total, done + 1))
 
         def again() -> Run:
-            bound = Tolerance(tolerance, n, asked.until, longest, peaks, made.floor)
+            bound = Tolerance(tolerance, n, request.until, longest, peaks, made.floor)
             bound.moved = moved != 0
             return made.run(bound, every, told, moved=moved)
 
@@ -149,11 +151,11 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
         with made.precision():
             return Controller(
                 runner,
-                accuracy=asked.accuracy,
+                accuracy=request.accuracy,
                 finest=made.finest,
                 rounded=made.rounded,
                 chance=made.chance,
-                span=asked.until,
+                span=request.until,
                 charges=len(simulation.charges),
                 scales=scales,
                 longest=made.longest,
@@ -163,7 +165,7 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
     outcome = found()
     if outcome.good_rows > 1 and made.with_others is not None:
         others = other_parameters(simulation, modes)
-        if others is not None and are_felt(outcome, others, asked.accuracy):
+        if others is not None and are_felt(outcome, others, request.accuracy):
             made = made.with_others(others)
             count = 0
             # runs that meet rounding agree by chance, too: once in 37 rays that graze two discs

@@ -21,21 +21,21 @@ AnySetup = TypeVar("AnySetup", bound=Setup)
 def cut_simulation(
     simulation: AnySetup, modes: Modes, q: Sequence[float], v: Sequence[float]
 ) -> AnySetup | None:
-    """The simulation of what is asked, with its initial state; None where nothing is spared.
+    """The simulation of the request, with its initial state; None where nothing is spared.
 
     Contacts, and multipliers of constraints that would go, keep the model whole.
     """
     e = simulation.equations
     if simulation.margins or simulation.contacts or simulation.gaps or e.kinks:
         return None
-    asked = [*simulation.nodes, *([simulation.stop] if simulation.stop is not None else [])]
+    request = [*simulation.nodes, *([simulation.stop] if simulation.stop is not None else [])]
     multipliers = simulation.reading.multipliers
-    if any(node.mask & symbol.mask for node in asked for symbol in multipliers):
+    if any(node.mask & symbol.mask for node in request for symbol in multipliers):
         return None
     names = {name.name for name in simulation.problem.initial}
     given = frozenset(j for j, symbol in enumerate(e.q) if symbol.name in names)
     try:
-        found = cut(e, modes.constants, asked, given)
+        found = cut(e, modes.constants, request, given)
     except ArithmeticError:
         return None
     if found is None or not _starts_exactly(simulation, found[0], q, v):
@@ -90,7 +90,7 @@ def _reduced(
     names = [symbol.name for symbol in whole.q]
     order = [*(p.name for p in problem.parameters), *names]
     formulas = written_out([each.formula for each in reduction.solved], order)
-    write = simulation.asked.written
+    write = simulation.request.written
     solved = [
         EliminatedCoordinate(
             names[each.coordinate], whole.declared[each.constraint].name, write(formula)

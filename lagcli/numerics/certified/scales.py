@@ -43,7 +43,7 @@ class Scales:
     Parameters
     ----------
     simulation
-        What is asked.
+        The request.
     """
 
     def __init__(self, simulation: Setup) -> None:
@@ -52,7 +52,7 @@ class Scales:
         state: dict[Node, int] = {symbol: j for j, symbol in enumerate((*e.q, *e.qdot))}
         # the place of each column in the state
         self._places = [state.get(node, _FORMULA) for node in simulation.nodes]
-        for j, column in enumerate(simulation.asked.columns):
+        for j, column in enumerate(simulation.request.columns):
             if column.expression is None:
                 self._places[j] = _TIME
         self._sizes: tuple[Run, dict[int, float]] | None = None
@@ -75,7 +75,7 @@ class Scales:
         peaks = list(map(_peak, columns)) or [0.0] * len(self._places)
         if self._sizes is None or self._sizes[0] is not run:
             self._sizes = run, self._of_formulas(run)
-        accuracy, until = self._simulation.asked.accuracy, self._simulation.asked.until
+        accuracy, until = self._simulation.request.accuracy, self._simulation.request.until
         # near a singularity at which a run stops they are without bound; where rows are left out,
         # nothing is known of what lies behind them
         is_whole = run.stop is None and len(rows) == len(run.marks)

@@ -1,4 +1,4 @@
-"""A problem and what is asked of it -> a table with its certificate."""
+"""A problem and a request -> a table with its certificate."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from contextlib import nullcontext, suppress
 from lagcli.numerics.certified.accuracy import Outcome
 from lagcli.numerics.certified.attempts import attempt, groups
 from lagcli.numerics.certified.branches import is_met, is_sharp, on_one_branch
-from lagcli.numerics.certified.certificate import result_of, rows_asked_for
+from lagcli.numerics.certified.certificate import requested_rows, result_of
 from lagcli.numerics.certified.escalation import (
     FEW,
     TIMES,
@@ -27,11 +27,11 @@ from lagcli.numerics.certified.stiffness import decay
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.equations.refusal import Refusal, told
+from lagcli.numerics.equations.refusal import Refusal, reason_of
 from lagcli.numerics.equations.start import initial_state
 from lagcli.numerics.equations.surface import ROUNDING
 from lagcli.numerics.hybrid.modes import Modes
-from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.numerics.hybrid.result import Result
 from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.dop853 import dop853
@@ -46,17 +46,17 @@ _SAME_TIME = 1e-12
 _FINER, _FINEST = 0.1, 1e-12
 
 
-def simulate(problem: Problem, asked: Asked, progress: Progress = None) -> Result:
+def simulate(problem: Problem, request: RunRequest, progress: Progress = None) -> Result:
     """Run a problem.
 
     Parameters
     ----------
     problem
         With values for its parameters and an initial state.
-    asked
+    request
         Span, accuracy, columns.
     progress
-        Told now and then which part of the span is done.
+        Called now and then with the part of the span that is done.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def simulate(problem: Problem, asked: Asked, progress: Progress = None) -> Resul
         When there is nothing to run: values are missing, the initial state is off the
         constraints, the accelerations are not determined.
     """
-    return Simulation(problem, asked, progress).result()
+    return Simulation(problem, request, progress).result()
 
 
 class Simulation(Setup):
@@ -81,7 +81,7 @@ class Simulation(Setup):
         self.problem = self.whole = self.equations.problem = problem
         self.begin()
         motion = modes.first.motion
-        self.start = initial_state(motion, project=self.asked.project)
+        self.start = initial_state(motion, project=self.request.project)
         self._check_start(motion, *self.start)
 
     # -- the run ---------------------------------------------------------------------------------
@@ -97,22 +97,22 @@ class Simulation(Setup):
         if (decided := self._told_from_a_graze(modes, outcome)) is not None:
             return decided
         is_last = outcome.run.method_name in self._last_methods and is_marginal(outcome)
-        if self.asked.furthest and (is_last or not outcome.reached):
+        if self.request.furthest and (is_last or not outcome.reached):
             from lagcli.numerics.certified.horizon import longest
 
-            def run(asked: Asked) -> Result:
-                return self.over(asked).first(modes)[1]
+            def run(request: RunRequest) -> Result:
+                return self.over(request).first(modes)[1]
 
             result = longest(self, modes, outcome, result, run)
-        return self._with_rows_beyond(result) if self.asked.beyond else result
+        return self._with_rows_beyond(result) if self.request.beyond else result
 
     def _told_from_a_graze(self, modes: Modes, outcome: Outcome) -> Result | None:
         """The result of a finer accuracy that tells whether what is grazed is struck."""
-        accuracy = self.asked.accuracy
+        accuracy = self.request.accuracy
         if not isinstance(outcome.run.stop, Grazes) or accuracy <= _FINEST:
             return None
         finer = max(_FINER * accuracy, _FINEST)
-        found = self.over(replace(self.asked, accuracy=finer, furthest=False)).run(modes)
+        found = self.over(replace(self.request, accuracy=finer, furthest=False)).run(modes)
         if not found.certificate.reached:
             return None
         return replace(found, certificate=replace(found.certificate, accuracy=accuracy))
@@ -120,13 +120,13 @@ class Simulation(Setup):
     @property
     def _last_methods(self) -> Sequence[str]:
         """Those after which none has more digits."""
-        has_events = self.asked.method == "auto" and (self.goes_on or self.equations.kinks)
-        return ("taylor80",) if has_events else groups(self.asked)[-1]
+        has_events = self.request.method == "auto" and (self.goes_on or self.equations.kinks)
+        return ("taylor80",) if has_events else groups(self.request)[-1]
 
     def _with_rows_beyond(self, result: Result) -> Result:
         """The result with the rows after those that are certified."""
         last = result.certificate.holds_until
-        last += _SAME_TIME * self.asked.until
+        last += _SAME_TIME * self.request.until
         is_cut = not result.certificate.reached
         beyond = (row for row in self.whole_span if is_cut and (row[0] or 0.0) > last)
         return replace(result, beyond=tuple(beyond))
@@ -140,12 +140,12 @@ class Simulation(Setup):
         """The pair of runs of the first method that reaches the accuracy, or comes furthest."""
         outcome: Outcome | None = None
         digits: Precision = nullcontext
-        if self.asked.method == "auto" and decay(self, modes) > STIFFNESS:
+        if self.request.method == "auto" and decay(self, modes) > STIFFNESS:
             found, digits = attempt(self, STIFF, modes)
             if found and found.reached:
-                self.whole_span = rows_asked_for(self, found)
+                self.whole_span = requested_rows(self, found)
                 return on_one_branch(self, modes, found, digits)[0]
-        for group in groups(self.asked):
+        for group in groups(self.request):
             names, first = (group, 1.0) if outcome is None else self._beyond(outcome, group)
             if names:
                 found, with_digits = attempt(self, names, modes, first)
@@ -157,10 +157,10 @@ class Simulation(Setup):
             outcome, digits = attempt(self, ("dop853",), modes)
         if outcome is None:
             raise Refusal(f"no method for this problem{self.remark}", mistake=False)
-        self.whole_span = rows_asked_for(self, outcome)
+        self.whole_span = requested_rows(self, outcome)
         if not outcome.reached:
             outcome = outcome.controller.furthest(outcome)
-        if not outcome.reached and self.asked.furthest:
+        if not outcome.reached and self.request.furthest:
             with digits(), suppress(NotPossible):
                 outcome = outcome.controller.refined(outcome, self.look_between)
         return on_one_branch(self, modes, outcome, digits)[0]
@@ -170,9 +170,9 @@ class Simulation(Setup):
         arithmetic = Doubles()
         constants = constants_of(self.equations, self.all_nodes, arithmetic)
         modes = Modes(self, constants, arithmetic, dop853, ROUNDING)
-        self.start = initial_state(modes.first.motion, project=self.asked.project)
+        self.start = initial_state(modes.first.motion, project=self.request.project)
         self._keep_conserved(modes)
-        reduced = None if self.asked.whole else cut_simulation(self, modes, *self.start)
+        reduced = None if self.request.whole else cut_simulation(self, modes, *self.start)
         if reduced is not None:
             modes = Modes(reduced, constants, arithmetic, dop853, ROUNDING)
         integrated = reduced or self
@@ -183,7 +183,7 @@ class Simulation(Setup):
         """The methods that may reach with more digits what was not reached, and from where on."""
         if outcome.reached:
             return (), 1.0
-        if self.asked.digits is not None:
+        if self.request.digits is not None:
             return group, 1.0
         self.most_steps = TIMES * max(outcome.run.steps, FEW)
         if is_sharp(outcome):
@@ -197,7 +197,7 @@ class Simulation(Setup):
         if not self.candidates:
             return
         kept = dict(zip(self.charges, modes.first.conserved, strict=True))
-        shown = {column.name for column in self.asked.columns}
+        shown = {column.name for column in self.request.columns}
         self.notes = [
             f"{s.name} is shown without a gauge, since the file gives none: it is not conserved"
             for s in self.problem.symmetries
@@ -217,5 +217,5 @@ class Simulation(Setup):
                 return
             reason = "they are not finite"
         except (ArithmeticError, ValueError) as error:
-            reason = told(error)
+            reason = reason_of(error)
         raise Refusal(f"at t = 0 the accelerations are not determined: {reason}", mistake=False)

@@ -51,7 +51,7 @@ class Balls:
     """FLINT's arb and arb_series at the precision of `flint.ctx`.
 
     A ball knows its rounding error.  What is not defined is nan, so results are to be
-    asked whether they are finite.
+    tested for being finite.
     """
 
     ordered = False

@@ -36,9 +36,9 @@ def coupling(
     return masks, named
 
 
-def needed(masks: Sequence[int], named: Sequence[int], asked: Sequence[Node]) -> list[bool]:
-    """Which of the coordinates have a part in what is asked; the first two from `coupling`."""
-    wanted = mask_of(asked)
+def needed(masks: Sequence[int], named: Sequence[int], request: Sequence[Node]) -> list[bool]:
+    """Which of the coordinates have a part in the request; the first two from `coupling`."""
+    wanted = mask_of(request)
     while True:
         more = wanted
         for mask, needs in zip(masks, named, strict=True):

@@ -15,7 +15,7 @@ from lagcli.graph.nodes import Node, Symbol, mask_of
 from lagcli.numerics.equations.arithmetic import Arithmetic, UndefinedFunction
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.null_space import Held, held_motion
-from lagcli.numerics.equations.refusal import Refusal, told
+from lagcli.numerics.equations.refusal import Refusal, reason_of
 from lagcli.numerics.equations.regular import regular_motion
 from lagcli.numerics.equations.straight_line import Guard, straight_line
 
@@ -101,7 +101,7 @@ class Motion:
         except (ArithmeticError, ValueError) as error:
             if otherwise is not None and isinstance(error, ZeroDivisionError):
                 return otherwise  # a pivot is 0 at every state
-            message = f"with these values the equations are not defined: {told(error)}"
+            message = f"with these values the equations are not defined: {reason_of(error)}"
             raise Refusal(message) from None
 
     def _of_balls(self, made: Function) -> Function:

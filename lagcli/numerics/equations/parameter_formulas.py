@@ -8,7 +8,7 @@ from lagcli.expression import Expression
 from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.equations import Equations
-from lagcli.numerics.equations.refusal import Refusal, told
+from lagcli.numerics.equations.refusal import Refusal, reason_of
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.problem_data import Problem
 
@@ -33,4 +33,4 @@ def numbers_of(
     except UndefinedFunction as error:
         raise Refusal(f"the function '{error}' has no numbers") from None
     except (ArithmeticError, ValueError) as error:
-        raise Refusal(told(error)) from None
+        raise Refusal(reason_of(error)) from None

@@ -1,4 +1,4 @@
-"""The model cut to what is asked: fewer coordinates, fewer constraints, the same motion.
+"""The model reduced to the request: fewer coordinates, fewer constraints, the same motion.
 
 A holonomic constraint that is linear in a coordinate, with a factor that does not vary, is
 solved for it: c = g(u, t).  With the others u and J = dc/du, b = d^2 c/dt^2 at u'' = 0,
@@ -238,11 +238,11 @@ class Reduction:
         mass: Sequence[Sequence[Node]],
         forcing: Sequence[Node],
         rows: Mapping[int, ConstraintRow],
-        asked: Sequence[Node],
+        request: Sequence[Node],
     ) -> list[bool]:
-        """Which of the coordinates left have a part in what is asked."""
+        """Which of the coordinates left have a part in the request."""
         q = [self.equations.q[j] for j in self.kept]
-        return needed(*coupling(self.graph, q, mass, forcing, rows.values()), asked)
+        return needed(*coupling(self.graph, q, mass, forcing, rows.values()), request)
 
 
 class CutEquations(Equations):
@@ -289,10 +289,10 @@ class CutEquations(Equations):
 def cut(
     equations: Equations,
     constants: Mapping[Symbol, Any],
-    asked: Sequence[Node],
+    request: Sequence[Node],
     given: frozenset[int],
 ) -> tuple[CutEquations, Reduction] | None:
-    """The equations that the asked nodes need, or None where nothing can be spared.
+    """The equations that the requested nodes need, or None where nothing can be spared.
 
     Parameters
     ----------
@@ -300,7 +300,7 @@ def cut(
         With every constraint acting all the time.
     constants
         The values of the parameters.
-    asked
+    request
         In t, q, q' and q'', without multipliers of constraints that may go.
     given
         The coordinates whose initial state the file gives.
@@ -310,7 +310,7 @@ def cut(
     reduction = Reduction(equations, constants, given)
     mass, forcing = reduction.matrices()
     rows = reduction.rows()
-    wanted = reduction.needed(mass, forcing, rows, [reduction.put(node) for node in asked])
+    wanted = reduction.needed(mass, forcing, rows, [reduction.put(node) for node in request])
     if not reduction.solved and all(wanted):
         return None
     reduced = CutEquations(reduction, mass, forcing, rows, wanted)

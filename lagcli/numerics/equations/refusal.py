@@ -6,7 +6,7 @@ from lagcli.diagnostics import Diagnostic
 
 
 class Refusal(Exception):
-    """The run cannot be made as asked.
+    """The run cannot be made as requested.
 
     Parameters
     ----------
@@ -25,7 +25,7 @@ class Refusal(Exception):
         self.mistake = mistake
 
 
-def told(error: BaseException) -> str:
+def reason_of(error: BaseException) -> str:
     """What went wrong in a formula, in words."""
     match error:
         case ZeroDivisionError():

@@ -23,7 +23,7 @@ from lagcli.numerics.equations.assembly import assemblies
 from lagcli.numerics.equations.determined import determined
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.polynomial import real_roots
-from lagcli.numerics.equations.refusal import Refusal, told
+from lagcli.numerics.equations.refusal import Refusal, reason_of
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.numerics.equations.surface import Surface
 from lagcli.problem_data import Coordinate
@@ -152,7 +152,7 @@ class _Completion:
             off = [k for k, r in enumerate(surface.residuals) if not r <= _ON_SURFACE]
         except (ArithmeticError, ValueError) as error:
             raise Refusal(
-                f"the constraints are not defined at the initial state: {told(error)}"
+                f"the constraints are not defined at the initial state: {reason_of(error)}"
             ) from None
         if max(surface.residuals) <= surface.rounding:
             return q, v
@@ -247,7 +247,7 @@ class _Completion:
         names = ", ".join(map(str, unknowns))
         if not roots:
             return self._open(unknowns[0], which, "is not found: no state with the given values is")
-        told = [
+        reason_of = [
             "{" + ", ".join(f"{s}: {x!r}" for s, x in zip(unknowns, root, strict=True)) + "}"
             for root in roots[:_LISTED]
         ]
@@ -255,7 +255,7 @@ class _Completion:
         ways = "the constraints can be satisfied in several ways"
         constraint = self.equations.declared[which]
         diagnostic = Diagnostic(
-            f"{ways}: {', '.join(told)}{more}",
+            f"{ways}: {', '.join(reason_of)}{more}",
             constraint.equation.span,
             f"give {names} in `initial`",
         )
@@ -373,8 +373,8 @@ class _Completion:
         else:
             names = [str(s) for s in (*e.q, *e.qdot)]
             state = dict(zip(names, (*nearest[0], *nearest[1]), strict=True))
-            told = ", ".join(f"{name}: {value!r}" for name, value in state.items())
-            hint = f"the nearest state that does, which simulate --project takes: {{{told}}}"
+            reason_of = ", ".join(f"{name}: {value!r}" for name, value in state.items())
+            hint = f"the nearest state that does, which simulate --project takes: {{{reason_of}}}"
         message = f"the initial state does not {what} the constraint '{constraint.name}'"
         return OffConstraints((Diagnostic(message, constraint.equation.span, hint),), state)
 

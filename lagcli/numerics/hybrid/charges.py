@@ -1,6 +1,6 @@
 """The conserved charges of a mode: those that are evident, and the candidates of the file.
 
-A candidate's charge is p Delta q - h Delta t - gauge.  Whether it is conserved is asked of
+A candidate's charge is p Delta q - h Delta t - gauge.  Whether it is conserved is tested on
 numbers: its rate along the motion, at random states on the constraints, beside the terms
 that the rate is the sum of.  A gauge that the file leaves out is not searched for.
 
@@ -34,8 +34,8 @@ def conserved_charges(simulation: Setup, motion: Motion) -> set[str]:
     """The names of those charges of the simulation that are conserved in one mode's motion."""
     equations = motion.equations
     found = set(equations.evident_charges) & set(simulation.charges)
-    asked = [name for name in simulation.candidates if name in simulation.charges]
-    if not asked:
+    request = [name for name in simulation.candidates if name in simulation.charges]
+    if not request:
         return found
     graph = equations.graph
     solved = simulation.reading.accelerations
@@ -46,12 +46,12 @@ def conserved_charges(simulation: Setup, motion: Motion) -> set[str]:
     ]
     terms = [
         graph.product(partial(graph, x)(simulation.charges[name]), rate)
-        for name in asked
+        for name in request
         for x, rate in rates
     ]
     function = motion.function(terms, solved)
     signs = list(motion.signs)
-    good, left = 0, set(asked)
+    good, left = 0, set(request)
     for t, q, v in _states(simulation, motion):
         try:
             if motion.kinks:
@@ -59,7 +59,7 @@ def conserved_charges(simulation: Setup, motion: Motion) -> set[str]:
             values = [float(x) for x in function(t, *q, *v, *motion.accelerations(t, *q, *v))]
         except (ArithmeticError, ValueError):
             continue
-        for place, name in enumerate(asked):
+        for place, name in enumerate(request):
             part = values[place * len(rates) : (place + 1) * len(rates)]
             if not abs(sum(part)) <= _ZERO * sum(map(abs, part)):
                 left.discard(name)
@@ -75,7 +75,7 @@ def _states(simulation: Setup, motion: Motion) -> Iterator[tuple[float, list[flo
     q0, v0 = simulation.start
     number = Random(20011).random
     for _ in range(_ATTEMPTS):
-        t = simulation.asked.until * number()
+        t = simulation.request.until * number()
         q = [x + _SPREAD * (2 * number() - 1) * (abs(x) or 1.0) for x in q0]
         v = [x + _SPREAD * (2 * number() - 1) * max(abs(x), 1.0) for x in v0]
         if motion.equations.rows:

@@ -357,12 +357,12 @@ class CompiledTaylor:
         if surface is not None:
             surface.measure(0.0, q, v)
         state = self._prepare(q, v, times[-1], run.tolerance)
-        asked, out = self._array(times), self._zeros((len(times) + 1) * (both + 1))
+        request, out = self._array(times), self._zeros((len(times) + 1) * (both + 1))
         memmove(out, state, sizeof(state))
         counts[k.PENDING], counts[k.TIMES], counts[k.PROBES] = 1, len(times), probes
         given = [self._rows, self._small, self._other, self._signs, state, self._lost]
         given += [self._ahead, self._peaks, self._scales, self._held, self._watch]
-        given += [facts, counts, asked, out]
+        given += [facts, counts, request, out]
         status, call = k.MORE, _FIRST if self.machine.is_quick else _FIRST_OF_BETTER
         limit = _LIMIT // (max(10, self.machine.ops) * self.machine.numbers.cost)
         limit = run.step_limit = limit if most is None else min(limit, most)

@@ -8,14 +8,14 @@ Vector = list[Any]
 
 
 class Mark(NamedTuple):
-    """A row: at a time that was asked for, or on one side of an event.
+    """A row: at a time that was requested for, or on one side of an event.
 
     Attributes
     ----------
     phase
         Its number.
     sample
-        Which of the times asked for; -1 at an event.
+        Which of the requested times; -1 at an event.
     begins
         At an event: whether it is the beginning of the phase, or its end.
     """

@@ -96,7 +96,7 @@ class Mode:
             for place, k in enumerate(sorted(self.stuck))
         ]
         if simulation.stop is not None:
-            name = simulation.asked.stop_name
+            name = simulation.request.stop_name
             margin = self._watched(simulation.stop)
             found.append(Condition(name, "stopped", margin, two_sided=True))
         return found
@@ -152,7 +152,7 @@ class Modes:
     Parameters
     ----------
     simulation
-        The problem and what is asked.
+        The problem and the request.
     constants, arithmetic
         As for `Motion`.
     make_method

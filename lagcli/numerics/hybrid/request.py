@@ -1,4 +1,4 @@
-"""What is asked of a run."""
+"""The request of a run."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Progress = Callable[[float], None] | None
 
 
 @record(kw_only=True)
-class Asked:
+class RunRequest:
     """A run as the user wants it.
 
     Attributes

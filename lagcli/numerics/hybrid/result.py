@@ -15,7 +15,7 @@ class Certificate:
     Attributes
     ----------
     accuracy, reached, holds_until
-        What was asked for, whether it holds to the end, and until when.
+        The request, whether it holds to the end, and until when.
     global_error : mapping of str to float
         Of each column but the time, relative to its scale.
     scales : tuple of float
@@ -53,7 +53,7 @@ class Cut:
 
     kept: tuple[str, ...]
     eliminated: tuple[EliminatedCoordinate, ...]
-    #: coordinates whose motion nothing asked for depends on
+    #: coordinates whose motion nothing requested depends on
     dropped: tuple[str, ...]
     #: kept coordinates whose momentum is conserved
     ignorable: tuple[str, ...]

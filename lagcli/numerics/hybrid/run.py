@@ -1,4 +1,4 @@
-"""One run of a method: rows at the times asked for, events, and what was seen on the way."""
+"""One run of a method: rows at the requested times, events, and what was seen on the way."""
 
 from __future__ import annotations
 
@@ -302,14 +302,14 @@ class Run:
         return self.transitions.after(mode, found, q, v)
 
     def _mark_until(self, step: Step, end: float) -> None:
-        """The times that were asked for, up to one."""
+        """The requested times, up to one."""
         times = self._times
         while self._pending < len(times) and times[self._pending] <= end:
             at = times[self._pending]
             self._mark(at, *self._state_in(step, at))
 
     def _mark(self, t: float, q: Vector, v: Vector) -> None:
-        """The next of the times that were asked for."""
+        """The next of the requested times."""
         self.marks.append(Mark(float(t), q, v, len(self.phases) - 1, self._pending))
         self._pending += 1
 

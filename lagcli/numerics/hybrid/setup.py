@@ -14,7 +14,7 @@ from lagcli.numerics.equations.contact import one_sided, with_contacts
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import straight_line
-from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.numerics.hybrid.result import Cut
 from lagcli.problem_data import Problem, charge_of
 from lagcli.reader.columns import Column
@@ -29,8 +29,8 @@ _CLOSER = 64
 class Setup:
     """One problem with its columns and conditions as nodes."""
 
-    def __init__(self, problem: Problem, asked: Asked, progress: Progress = None) -> None:
-        self.problem, self.asked, self.progress = problem, asked, progress
+    def __init__(self, problem: Problem, request: RunRequest, progress: Progress = None) -> None:
+        self.problem, self.request, self.progress = problem, request, progress
         #: with the contacts among the constraints
         self.whole = with_contacts(problem)
         self.equations = equations = Equations(self.whole)
@@ -39,8 +39,8 @@ class Setup:
         self.given = frozenset(range(len(problem.constraints)))
         self.contacts = one_sided(self.whole, len(problem.constraints))
         try:
-            self.stop = None if asked.stop_when is None else self.reading(asked.stop_when)
-            self.nodes = [self._column(column) for column in asked.columns]
+            self.stop = None if request.stop_when is None else self.reading(request.stop_when)
+            self.nodes = [self._column(column) for column in request.columns]
             self.margins = {
                 k: self._margin(c.holds_while)
                 for k, c in enumerate(self.whole.constraints)
@@ -51,8 +51,8 @@ class Setup:
             self.candidates = self._candidates()
         except ArithmeticError as error:
             raise Refusal(f"a column is not defined: {error}") from None
-        #: the rows asked for are those at multiples of this
-        self.every = _parts_of_rows(asked)
+        #: the requested rows are those at multiples of this
+        self.every = _parts_of_rows(request)
         self.notes: list[str] = []
         #: what the model was cut by
         self.cut: Cut | None = None
@@ -63,7 +63,7 @@ class Setup:
     def begin(self) -> None:
         """Nothing has been run."""
         self.times = self._times()
-        #: how many of the times are those asked for, and what lies between them
+        #: how many of the times are the requested ones, and what lies between them
         self.regular = len(self.times)
         self.finished = 0
         #: whether a run was so long that doubles were left for numbers of more bits
@@ -82,7 +82,7 @@ class Setup:
 
     def _times(self) -> list[float]:
         """The rows, and between them what two runs are compared at as well."""
-        return [*_grid(self.asked.until, self.asked.samples, self.asked.times, self.every)]
+        return [*_grid(self.request.until, self.request.samples, self.request.times, self.every)]
 
     def _gaps(self) -> dict[int, Node]:
         """Of the contacts that can be open."""
@@ -126,28 +126,28 @@ class Setup:
             *(e.form.read(c.restitution) for c in self.contacts.values() if c.restitution),
         ]
 
-    def over(self, asked: Asked) -> Self:
+    def over(self, request: RunRequest) -> Self:
         """The same motion from the same state with other rows."""
         other = copy(self)
-        other.asked = asked
-        other.every = _parts_of_rows(asked)
+        other.request = request
+        other.every = _parts_of_rows(request)
         other.begin()
         other.finished = self.finished
         return other
 
     @property
     def rows_at(self) -> list[float]:
-        """The times of the rows asked for."""
+        """The times of the requested rows."""
         return self._times()[:: self.every]
 
     def written_times(self, arithmetic: Any) -> list[Any]:
-        """The times of the rows asked for in balls: 0.1 and pi/3 are not doubles."""
-        asked, ball = self.asked, arithmetic.ball
-        if asked.times:
-            return [ball(t) for t in asked.times]
-        end, count = ball(asked.until), asked.samples - 1
-        if asked.end is not None:
-            [end] = straight_line((), [self.equations.form.read(asked.end)], {}, arithmetic)()
+        """The times of the requested rows in balls: 0.1 and pi/3 are not doubles."""
+        request, ball = self.request, arithmetic.ball
+        if request.times:
+            return [ball(t) for t in request.times]
+        end, count = ball(request.until), request.samples - 1
+        if request.end is not None:
+            [end] = straight_line((), [self.equations.form.read(request.end)], {}, arithmetic)()
         return [end * k / count for k in range(count + 1)]
 
     def look_between(self, good: float, bad: float) -> None:
@@ -156,8 +156,8 @@ class Setup:
         self.regular = len(kept)
         step = (bad - good) / _CLOSER
         self.times = [*kept, *(good + step * k for k in range(1, _CLOSER)), bad]
-        if bad < self.asked.until:
-            self.times.append(self.asked.until)
+        if bad < self.request.until:
+            self.times.append(self.request.until)
 
     @property
     def goes_on(self) -> bool:
@@ -165,15 +165,15 @@ class Setup:
         return bool(self.gaps) or any(c.on_loss == "release" for c in self.problem.constraints)
 
 
-def _parts_of_rows(asked: Asked) -> int:
+def _parts_of_rows(request: RunRequest) -> int:
     """Into how many intervals of comparison that between two rows is divided."""
-    return max(1, -(-_COMPARED // (asked.samples - 1)))
+    return max(1, -(-_COMPARED // (request.samples - 1)))
 
 
 @lru_cache(maxsize=4)
 def _grid(until: float, samples: int, given: Sequence[float], every: int) -> tuple[float, ...]:
     """The times of rows, given or evenly spread, each followed by those in between."""
-    # out of step with whatever the rows asked for are in step with
+    # out of step with whatever the requested rows are in step with
     parts = [(k + (_GOLDEN * k % 1.0 - 0.5 if k else 0.0)) / every for k in range(every)]
     if given:
         return *(a + (b - a) * part for a, b in pairwise(given) for part in parts), until

@@ -63,7 +63,7 @@ class Transitions:
     modes
         Of the problem.
     accuracy, until
-        What is asked of the run.
+        The request of the run.
     """
 
     def __init__(self, modes: Modes, accuracy: float, until: float) -> None:

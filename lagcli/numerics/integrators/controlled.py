@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.equations.refusal import told
+from lagcli.numerics.equations.refusal import reason_of
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.steps import (
     CannotGoOn,
@@ -130,7 +130,7 @@ class Controlled(ABC):
             except CannotGoOn:
                 raise
             except (ArithmeticError, ValueError) as failure:
-                trial, reason = Trial(math.inf), told(failure)
+                trial, reason = Trial(math.inf), reason_of(failure)
             if trial.end is None:
                 if size.is_nothing(trial.error, t):
                     raise CannotGoOn(t, *state[:2], reason)

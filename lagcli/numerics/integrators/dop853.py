@@ -1,7 +1,7 @@
 """DOP853: the explicit Runge-Kutta method of order 8 of Dormand and Prince.
 
 Order 8, error estimates of order 5 and 3 combined into one of order 7, dense output of
-order 7; 12 evaluations a step, 3 more where the inside of a step is asked for.  Not for
+order 7; 12 evaluations a step, 3 more where the inside of a step is requested.  Not for
 stiff problems: the step is bound by the fastest rate, about 6 over it.
 
 The step is generated for the number of coordinates and uses q' as the rate of q, so that

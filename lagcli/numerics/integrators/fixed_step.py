@@ -17,7 +17,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator
 
 from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.equations.refusal import told
+from lagcli.numerics.equations.refusal import reason_of
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.dop853 import added
 from lagcli.numerics.integrators.steps import (
@@ -108,7 +108,7 @@ class FixedStep(ABC):
                 if self.surface is not None:
                     end_q, end_v = self.surface.project(end, end_q, end_v)
             except (ArithmeticError, ValueError) as failure:
-                raise CannotGoOn(t, q, v, told(failure)) from None
+                raise CannotGoOn(t, q, v, reason_of(failure)) from None
             if not all(map(math.isfinite, (*end_q, *end_v))):
                 raise CannotGoOn(t, q, v, "")
             inside = self._inside(t, q, v)

@@ -25,7 +25,7 @@ from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import given_values
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 
@@ -172,15 +172,15 @@ def _pivots(matrix: list[list[float]], preferred: Sequence[bool]) -> list[tuple[
     return found
 
 
-def setup_of(problem: Problem, asked: Asked) -> tuple[Simulation, frozenset[int]]:
+def setup_of(problem: Problem, request: RunRequest) -> tuple[Simulation, frozenset[int]]:
     """What is integrated, and the constraints that the others imply at the beginning."""
-    setup, modes = Simulation(problem, asked).ready()
+    setup, modes = Simulation(problem, request).ready()
     symbols = (*setup.equations.q, *setup.equations.qdot)
     given = {(name.name, name.primes) for name in problem.initial}
     values = zip(symbols, (*setup.start[0], *setup.start[1]), strict=True)
     if any(x and (s.name, s.primes) not in given for s, x in values):
         # what a constraint gives is enclosed with that constraint
-        setup, modes = Simulation(problem, replace(asked, whole=True)).ready()
+        setup, modes = Simulation(problem, replace(request, whole=True)).ready()
     implied: frozenset[int] = frozenset()
     if setup.equations.rows:
         first = modes.first

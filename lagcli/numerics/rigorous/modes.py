@@ -172,7 +172,7 @@ class ProofMode:
             found += self._slipping(k)
         if setup.stop is not None:
             sign = self.modes.stop_sign or 1
-            found.append(self._watch("stop", 0, setup.asked.stop_name, sign, setup.stop))
+            found.append(self._watch("stop", 0, setup.request.stop_name, sign, setup.stop))
         found += [
             self._watch("gap", k, names[k], 1, node)
             for k, node in setup.gaps.items()

@@ -1,4 +1,4 @@
-"""A motion proved: bits and order raised until the enclosures are as thin as asked for."""
+"""A motion proved: bits and order raised until the enclosures are as thin as requested."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any
 from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.constants import constants_of
-from lagcli.numerics.hybrid.request import Asked, Progress
+from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.numerics.rigorous.accumulation import rest_after
 from lagcli.numerics.rigorous.crossings import UndecidedCrossing, Watched, behind, when
 from lagcli.numerics.rigorous.enclosure import NotEnclosed, ShortSteps, Singularity
@@ -62,7 +62,7 @@ Following = tuple[Any, LohnerSet, ProofMode, Mapping[Watched, int]]
 
 def prove(
     problem: Problem,
-    asked: Asked,
+    request: RunRequest,
     progress: Progress = None,
     attempts: type[Attempt] | None = None,
     work: float = _WORK,
@@ -73,10 +73,10 @@ def prove(
     ----------
     problem : Problem
         With values for its parameters and an initial state: exact numbers, as they are written.
-    asked : Asked
+    request : RunRequest
         Span, accuracy and columns.
     progress : function, optional
-        Told which part of the span is enclosed.
+        Called with the part of the span that is enclosed.
     attempts : type, optional
         `Attempt`, or `Shadowing`.
     work : float
@@ -94,7 +94,7 @@ def prove(
     """
     from flint import ctx
 
-    setup, implied = setup_of(problem, asked)
+    setup, implied = setup_of(problem, request)
     best: Proof | None = None
     bits = _BITS
     last = 0.0
@@ -148,18 +148,18 @@ class Attempt:
                 self.short = self.bits < _ACCUMULATED
         except (ArithmeticError, ValueError, OverflowError) as reason:
             self.refusal = f"the equations are not defined on the enclosure: {reason}"
-        asked = self.setup.asked
+        request = self.setup.request
         rows = self.rows
         good, self.excess = rows.good()
         reached = good == len(rows.times)
         if good < len(rows.found):
-            self.refusal = _WIDE.format(asked.accuracy)
+            self.refusal = _WIDE.format(request.accuracy)
         last = rows.times[good - 1] if good else 0.0
         holds = float(last)
         return Proof(
-            columns=tuple(column.name for column in asked.columns),
+            columns=tuple(column.name for column in request.columns),
             rows=tuple(rows.found[:good]),
-            accuracy=asked.accuracy,
+            accuracy=request.accuracy,
             reached=reached,
             holds_until=holds,
             bits=self.bits + _GUARD,
@@ -174,7 +174,7 @@ class Attempt:
 
     def bits_needed(self) -> int:
         """For the whole span, by what was lost so far; 0 where more do not help."""
-        accuracy, until = self.setup.asked.accuracy, self.setup.asked.until
+        accuracy, until = self.setup.request.accuracy, self.setup.request.until
         if self.singular:
             return 0
         if self.short:
@@ -300,7 +300,7 @@ class Attempt:
             if not each.term(after.field, times, box, leaves.get(each, 0)) > 0:
                 raise NotEnclosed(f"what {each.name} does at t = {float(tau):.6g} is not decided")
         if what == "impact" and after.held == mode.held:
-            part = max(_REST, _REST_PART * self.setup.asked.accuracy)
+            part = max(_REST, _REST_PART * self.setup.request.accuracy)
             most = part * float(self.rows.times[-1])
             rest = rest_after(watched, after, restart, times, box, most)
             if rest is not None:
@@ -318,11 +318,11 @@ class Attempt:
             float(x) / scale for x, scale in zip(piece.start.spread, scales, strict=True)
         )
         if self.progress is not None:
-            self.progress(self.last / self.setup.asked.until)
+            self.progress(self.last / self.setup.request.until)
         if self.implied:
             self._look_at_implied(piece, mode)
-        if self.width > self.setup.asked.accuracy * _LOST:
-            raise NotEnclosed(_WIDE.format(self.setup.asked.accuracy))
+        if self.width > self.setup.request.accuracy * _LOST:
+            raise NotEnclosed(_WIDE.format(self.setup.request.accuracy))
         if self.work > self.most:
             raise NotEnclosed(f"the limit of work is reached, after {self.steps} steps")
 

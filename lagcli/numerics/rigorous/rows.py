@@ -35,7 +35,7 @@ class Rows:
     """
 
     def __init__(self, setup: Setup, arithmetic: Any) -> None:
-        self.setup, self.asked = setup, setup.asked
+        self.setup, self.request = setup, setup.request
         self.arithmetic, self.ball = arithmetic, arithmetic.ball
         self.found: list[Enclosure] = []
         self.events: list[ProvedEvent] = []
@@ -52,8 +52,8 @@ class Rows:
         self.times[len(self.found) :] = [t]
 
     def good(self) -> tuple[int, float]:
-        """How many are as thin as asked for, and by how much the next one is wider; see `_good`."""
-        return _good(self.found, self.asked.accuracy)
+        """How many are as thin as requested, and by how much the next one is wider; see `_good`."""
+        return _good(self.found, self.request.accuracy)
 
     def impacts_accumulate(self) -> bool:
         """Whether the last ones come sooner and sooner."""
@@ -63,7 +63,7 @@ class Rows:
 
     def happened(self, t: Any, name: str, what: str, mode: ProofMode, x: Sequence[Any]) -> None:
         """An event, with the columns just before it."""
-        columns = [column.name for column in self.asked.columns]
+        columns = [column.name for column in self.request.columns]
         before = dict(zip(columns, self._values(mode, t, x), strict=True))
         self.events.append(ProvedEvent(t, name, what, before))
 
@@ -103,7 +103,7 @@ def _joined(before: Any, after: Any) -> Any:
 
 
 def _good(rows: Sequence[Enclosure], accuracy: float) -> tuple[int, float]:
-    """How many rows are as thin as asked for, beside the largest magnitude of their column.
+    """How many rows are as thin as requested, beside the largest magnitude of their column.
 
     A column whose enclosures all contain 0 is compared with the largest of the others.  The second
     number is by how much the first row that is wider exceeds that; 0 where there is none.

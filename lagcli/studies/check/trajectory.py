@@ -8,7 +8,7 @@ from lagcli.expression import Expression, Name
 from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.parameter_formulas import numbers_of
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.numerics.hybrid.result import Result
 from lagcli.numerics.rigorous import prove
 from lagcli.problem_data import Known, KnownRow, Problem, Trajectory
@@ -96,7 +96,7 @@ class TrajectoryCheck:
         for each in (*known.formulas, *rows):
             if each.column != Name("t"):
                 columns[each.name] = Column(each.name, each.column)
-        asked = Asked(
+        request = RunRequest(
             until=until,
             accuracy=tolerance * _FINER,
             samples=len(times),
@@ -105,8 +105,8 @@ class TrajectoryCheck:
             furthest=False,
         )
         if known.rigorous:
-            return prove(self.problem, asked).as_result()
-        return simulate(self.problem, asked)
+            return prove(self.problem, request).as_result()
+        return simulate(self.problem, request)
 
     # -- comparisons -----------------------------------------------------------------------------
 

@@ -18,7 +18,7 @@ from lagcli.studies.worker import Pool
 #: Seconds for the formulas that `solve` prints.
 _SOLVING = 60.0
 
-#: Told before each case: how many are done, of how many.
+#: Called before each case: how many are done, of how many.
 Progress = Callable[[int, int], None]
 
 
@@ -35,7 +35,7 @@ class ExtremesStudy:
     trials : tuple of (Case, CaseTrial)
         In the order of the cases.
     wanted
-        What was asked of each.
+        The request for each.
     notes
         What is to be known of all of them.
     """
@@ -70,11 +70,11 @@ def study(
     problem
         As it is read; parameters without a value get one that is not special.
     wanted
-        What is asked of each case.
+        The request for each case.
     words
         Kinds, or patterns of names; all cases without it.
     progress
-        Told of each case.
+        Called for each case.
 
     Raises
     ------

@@ -13,7 +13,7 @@ from lagcli.numerics.certified.scales import relative
 from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.jacobian import jacobian
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.numerics.hybrid.result import Result
 from lagcli.numerics.rigorous import prove
 from lagcli.reader.columns import usual_columns
@@ -40,7 +40,7 @@ _SHORTER, _ATTEMPTS = 100.0, 3
 
 @record(kw_only=True)
 class Wanted:
-    """What is asked of every case.
+    """The request for every case.
 
     Attributes
     ----------
@@ -111,7 +111,7 @@ def _run_loss(scene: ExtremeScene) -> float | None:
 
 
 def _span(scene: ExtremeScene, longest: float | None) -> float:
-    """Some 10 times in which the motion changes at the start, and no more than asked."""
+    """Some 10 times in which the motion changes at the start, and no more than requested."""
     rate = 0.0
     state = (0.0, *scene.q, *scene.v)
     with suppress(ArithmeticError, ValueError, Refusal):
@@ -152,7 +152,7 @@ def _rates(scene: ExtremeScene, state: Sequence[float]) -> Iterator[float]:
 def _moved(case: Case, measured: CaseTrial, end: float, wanted: Wanted) -> CaseTrial:
     """The same with what came of a certified run, over a shorter span where it takes too long."""
     assert measured.until is not None
-    asked = Asked(
+    request = RunRequest(
         until=measured.until,
         accuracy=wanted.accuracy,
         samples=_SAMPLES,
@@ -164,18 +164,20 @@ def _moved(case: Case, measured: CaseTrial, end: float, wanted: Wanted) -> CaseT
         now = process_time()
         last = now + (end - now) * _SHARE if attempt < _ATTEMPTS - 1 else end
         try:
-            return _run(case, asked, measured, last, wanted)
+            return _run(case, request, measured, last, wanted)
         except LimitReached:
-            asked = replace(asked, until=asked.until / _SHORTER)
-            told = f"only until t = {asked.until:.3g}: {measured.until:.3g} takes too long"
+            request = replace(request, until=request.until / _SHORTER)
+            told = f"only until t = {request.until:.3g}: {measured.until:.3g} takes too long"
             measured = replace(measured, reason=told)
-    told = f"it takes more than {wanted.limit:g} s, until t = {asked.until * _SHORTER:.3g} too"
+    told = f"it takes more than {wanted.limit:g} s, until t = {request.until * _SHORTER:.3g} too"
     return replace(measured, reason=told)
 
 
-def _run(case: Case, asked: Asked, measured: CaseTrial, end: float, wanted: Wanted) -> CaseTrial:
+def _run(
+    case: Case, request: RunRequest, measured: CaseTrial, end: float, wanted: Wanted
+) -> CaseTrial:
     try:
-        result = simulate(case.problem, asked, until(end))
+        result = simulate(case.problem, request, until(end))
     except Refusal as refusal:
         return replace(measured, verdict="refused", reason=str(refusal), accuracy=None)
     held = result.certificate
@@ -185,7 +187,7 @@ def _run(case: Case, asked: Asked, measured: CaseTrial, end: float, wanted: Want
         drift=max(held.charges.values(), default=None),
         holds_until=held.holds_until,
     )
-    error, bound, proved = _error(case, asked, result, _SHARE * wanted.limit)
+    error, bound, proved = _error(case, request, result, _SHARE * wanted.limit)
     if error is not None and error > wanted.accuracy + bound:
         told = f"it claims {wanted.accuracy:g} and errs by {error:.1e}"
         return replace(known, verdict="wrong", reason=told, error=error)
@@ -196,16 +198,16 @@ def _run(case: Case, asked: Asked, measured: CaseTrial, end: float, wanted: Want
 
 
 def _error(
-    case: Case, asked: Asked, result: Result, limit: float
+    case: Case, request: RunRequest, result: Result, limit: float
 ) -> tuple[float | None, float, bool]:
     """The true error of the rows that are claimed, how well it is known, and whether by a proof."""
-    regular = {asked.until * k / (asked.samples - 1) for k in range(asked.samples)}
+    regular = {request.until * k / (request.samples - 1) for k in range(request.samples)}
     rows = [row for row in result.rows if row[0] in regular or row is result.rows[-1]]
     rows = [row for row in rows if row[0] is not None and _is_before_events(row[0], result)]
     times = tuple(row[0] for row in rows if row[0] is not None)
     if len(times) < 2 or any(x is None for row in rows for x in row):
         return None, math.inf, False
-    same = replace(asked, until=times[-1], times=times, samples=len(times))
+    same = replace(request, until=times[-1], times=times, samples=len(times))
     found: Rows = tuple(tuple(Decimal(x) for x in row if x is not None) for row in rows)
     scales = result.certificate.scales
     try:
@@ -213,7 +215,7 @@ def _error(
         if bound is not None:
             return bound, 0.0, True
         near = precise_rows(case.problem, same, _DIGITS, limit)
-        if near is not None and (error := difference(near, found, scales)) <= asked.accuracy:
+        if near is not None and (error := difference(near, found, scales)) <= request.accuracy:
             return error, 0.0, False
         known = reference(case.problem, same, limit)
     except (Refusal, LimitReached):
@@ -222,11 +224,11 @@ def _error(
 
 
 def _proved_error(
-    case: Case, asked: Asked, rows: Rows, scales: Sequence[float], limit: float
+    case: Case, request: RunRequest, rows: Rows, scales: Sequence[float], limit: float
 ) -> float | None:
     """A bound of the error by enclosures of the exact motion; None where they are not so thin."""
     try:
-        proof = prove(case.problem, asked, until(process_time() + limit * _PROOF / _SHARE))
+        proof = prove(case.problem, request, until(process_time() + limit * _PROOF / _SHARE))
     except (Refusal, LimitReached):
         return None
     if not proof.reached or any(ball is None for row in proof.rows for ball in row):
@@ -236,7 +238,7 @@ def _proved_error(
         for balls, row in zip(proof.rows, rows, strict=True)
         for ball, x, scale in zip(balls, row, scales, strict=True)
     )
-    return worst if worst <= asked.accuracy else None
+    return worst if worst <= request.accuracy else None
 
 
 def _is_before_events(t: float, result: Result) -> bool:

@@ -12,7 +12,7 @@ from lagcli.diagnostics import ProblemError
 from lagcli.expression import Name, signed
 from lagcli.numerics.certified.ensemble import Ensemble
 from lagcli.numerics.equations.refusal import Refusal
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.numerics.hybrid.result import Result
 
 if TYPE_CHECKING:
@@ -23,14 +23,19 @@ Row = list[float | None]
 
 
 def rows_of(
-    problem: Problem, asked: Asked, names: Sequence[str], members: Sequence[Member], *, along: bool
+    problem: Problem,
+    request: RunRequest,
+    names: Sequence[str],
+    members: Sequence[Member],
+    *,
+    along: bool,
 ) -> list[Row]:
     """The rows of some members.
 
     Parameters
     ----------
     problem : Problem
-    asked : Asked
+    request : RunRequest
         Columns and span.
     names : sequence of str
         What a member's values are given to, parameters first.
@@ -50,13 +55,13 @@ def rows_of(
     rows: list[Row] = []
     for values, group in groupby(members, key=lambda member: tuple(member[:split])):
         fixed = problem.with_values(dict(zip(names[:split], map(signed, values), strict=True)))
-        rows += _of_one_system(fixed, asked, names[split:], list(group), values, along=along)
+        rows += _of_one_system(fixed, request, names[split:], list(group), values, along=along)
     return rows
 
 
 def _of_one_system(
     problem: Problem,
-    asked: Asked,
+    request: RunRequest,
     names: Sequence[str],
     members: Sequence[Member],
     values: Sequence[float],
@@ -67,12 +72,12 @@ def _of_one_system(
     for member in members:
         started = _with_state(problem, names, member[len(values) :])
         try:
-            ensemble = ensemble or Ensemble(started, asked)
+            ensemble = ensemble or Ensemble(started, request)
             found = ensemble.result(started)
         except (Refusal, ProblemError, ArithmeticError):
-            yield _row(member, [None] * len(asked.columns), reached=0.0, until=0.0, error=None)
+            yield _row(member, [None] * len(request.columns), reached=0.0, until=0.0, error=None)
             continue
-        yield from _rows(member, found, along=along, given=bool(asked.times))
+        yield from _rows(member, found, along=along, given=bool(request.times))
 
 
 def _rows(member: Member, found: Result, *, along: bool, given: bool) -> Iterator[Row]:

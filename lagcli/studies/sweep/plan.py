@@ -16,9 +16,9 @@ from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record, replace
 
 if TYPE_CHECKING:
-    from lagcli.numerics.hybrid.request import Asked
+    from lagcli.numerics.hybrid.request import RunRequest
 
-#: More members are a mistake rather than a wish: a row takes 100 bytes at least.
+#: More members are a mistake rather than a request: a row takes 100 bytes at least.
 MOST = 10_000_000
 
 
@@ -159,12 +159,12 @@ def times_of(text: str) -> tuple[float, ...]:
     return times
 
 
-def at_times(asked: Asked, times: Sequence[float]) -> Asked:
+def at_times(request: RunRequest, times: Sequence[float]) -> RunRequest:
     """The same run with rows at these times, the last of which is its end."""
     if not times:
-        return asked
+        return request
     given = (0.0, *times)
-    return replace(asked, times=given, until=given[-1], samples=len(given))
+    return replace(request, times=given, until=given[-1], samples=len(given))
 
 
 def _range(text: str, names: Sequence[str], *, random: bool) -> SweptRange:

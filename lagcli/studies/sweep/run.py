@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from itertools import islice
 
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.problem_data import Problem
 from lagcli.studies.sweep.journal import Journal
 from lagcli.studies.sweep.members import Member, Row, rows_of
@@ -23,7 +23,7 @@ Progress = Callable[[float, float], None]
 
 def sweep(
     problem: Problem,
-    asked: Asked,
+    request: RunRequest,
     plan: Plan,
     journal: Journal,
     *,
@@ -37,7 +37,7 @@ def sweep(
     Parameters
     ----------
     problem : Problem
-    asked : Asked
+    request : RunRequest
         Columns, span and accuracy of each motion.
     plan : Plan
         The members.
@@ -50,7 +50,7 @@ def sweep(
     scheduler : str, optional
         The address of a Dask scheduler, whose workers run the members instead.
     progress : function, optional
-        Told how many of how many chunks are done.
+        Called with the number of chunks that are done, and of all.
 
     Returns
     -------
@@ -62,10 +62,10 @@ def sweep(
     NoCluster
         When the scheduler cannot be reached, or was lost; what was finished is in the journal.
     """
-    columns = (*plan.columns, *(column.name for column in asked.columns), *KNOWN)
+    columns = (*plan.columns, *(column.name for column in request.columns), *KNOWN)
     chunks = list(_chunks(plan))
     todo = [k for k in range(len(chunks)) if k not in journal.done]
-    make = partial(rows_of, problem, asked, plan.names, along=along)
+    make = partial(rows_of, problem, request, plan.names, along=along)
     for place, rows in _made(make, [chunks[k] for k in todo], jobs, scheduler):
         journal.keep(todo[place], rows)
         if progress is not None:

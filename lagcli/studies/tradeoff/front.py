@@ -128,9 +128,9 @@ class AccuracyVerdict:
 
 def verdict(points: Sequence[RunPoint], accuracy: float) -> AccuracyVerdict:
     """Of the runs with a certificate for this accuracy."""
-    asked = [point for point in points if point.accuracy == accuracy]
-    named = [point for point in asked if point.method != "auto" and point.reached]
-    chosen = [point for point in asked if point.method == "auto" and point.reached]
+    request = [point for point in points if point.accuracy == accuracy]
+    named = [point for point in request if point.method != "auto" and point.reached]
+    chosen = [point for point in request if point.method == "auto" and point.reached]
     return AccuracyVerdict(
         accuracy=accuracy,
         best=cheapest(named, accuracy, COSTS["total"]),

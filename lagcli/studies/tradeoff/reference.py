@@ -19,7 +19,7 @@ from lagcli.numerics.certified.simulate import Simulation, simulate
 from lagcli.numerics.equations.coupling import coupling, groups
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.modes import Modes
-from lagcli.numerics.hybrid.request import Asked
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.numerics.integrators.steps import Tolerance, component_scales
 from lagcli.record import record, replace
 from lagcli.studies.tradeoff.trial import DIGITS, LimitReached, decimal_of, rows_shown, until
@@ -105,14 +105,14 @@ def numbers(rows: Sequence[Sequence[str | None]]) -> Rows:
     return tuple(tuple(None if x is None else Decimal(x) for x in row) for row in rows)
 
 
-def reference(problem: Problem, asked: Asked, limit: float) -> ReferenceMotion:
+def reference(problem: Problem, request: RunRequest, limit: float) -> ReferenceMotion:
     """The motion, as well as it can be known within a time.
 
     Parameters
     ----------
     problem
         With its values and an initial state.
-    asked
+    request
         Span and samples.
     limit
         Seconds of processor time for each run.
@@ -124,15 +124,15 @@ def reference(problem: Problem, asked: Asked, limit: float) -> ReferenceMotion:
     """
     begun = process_time()
     # of the model as it stands in the file: what was cut from it is checked too
-    simulation, modes = Simulation(problem, replace(asked, whole=True)).ready()
-    less, _ = Simulation(problem, asked).ready()
+    simulation, modes = Simulation(problem, replace(request, whole=True)).ready()
+    less, _ = Simulation(problem, request).ready()
     e = less.equations
     parts = groups(*coupling(e.graph, e.q, e.mass, e.forcing, e.constraints))
     cut = len(e.q) < len(simulation.equations.q) or len(parts) > 1
     warnings: list[str] = []
     found = _exact(simulation, modes, warnings) or _precise(simulation, modes, limit, warnings)
     if found is None:
-        found = _doubles(problem, asked, limit)
+        found = _doubles(problem, request, limit)
     seconds = process_time() - begun
     return replace(found, seconds=seconds, cut=cut, warnings=tuple(warnings))
 
@@ -169,7 +169,7 @@ def _precise(
     return best if best is not None and best.bound < _FOLLOWS else None
 
 
-def precise_rows(problem: Problem, asked: Asked, digits: int, limit: float) -> Rows | None:
+def precise_rows(problem: Problem, request: RunRequest, digits: int, limit: float) -> Rows | None:
     """The rows by power series with this number of digits; None where that is not possible in time.
 
     One run, without a bound on its error: it confirms what another method has found.
@@ -181,7 +181,7 @@ def precise_rows(problem: Problem, asked: Asked, digits: int, limit: float) -> R
     """
     from lagcli.numerics.certified.precise import prepared
 
-    simulation, modes = Simulation(problem, replace(asked, whole=True)).ready()
+    simulation, modes = Simulation(problem, replace(request, whole=True)).ready()
     made = prepared(simulation, modes, digits)
     if isinstance(made, str):
         return None
@@ -194,10 +194,10 @@ def _run(
 ) -> tuple[Rows, list[float]] | None:
     """The rows of one run, and the scales; None where it stops or takes too long."""
     ticked = until(process_time() + limit)
-    asked, n = simulation.asked, len(simulation.equations.q)
+    request, n = simulation.request, len(simulation.equations.q)
     with made.precision():
-        longest = asked.until / made.longest[0]
-        bound = Tolerance(tolerance, n, asked.until, longest, None, made.floor)
+        longest = request.until / made.longest[0]
+        bound = Tolerance(tolerance, n, request.until, longest, None, made.floor)
         try:
             run = made.run(bound, 0, ticked, moved=0)
         except LimitReached:
@@ -205,7 +205,7 @@ def _run(
         if run.stop is not None:
             return None
         rows = _decimals(rows_shown(simulation, run, run.rows()))
-    return rows, [asked.until, *component_scales(run.peaks, asked.until)]
+    return rows, [request.until, *component_scales(run.peaks, request.until)]
 
 
 def _decimals(rows: Sequence[Sequence[Any]]) -> Rows:
@@ -262,13 +262,13 @@ def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> Referen
 # -- doubles -------------------------------------------------------------------------------------
 
 
-def _doubles(problem: Problem, asked: Asked, limit: float) -> ReferenceMotion:
+def _doubles(problem: Problem, request: RunRequest, limit: float) -> ReferenceMotion:
     """The best that can be certified in doubles; its bound is no better than that."""
     last = ""
     for accuracy in _DOUBLES:
         ticked = until(process_time() + limit)
         try:
-            result = simulate(problem, replace(asked, accuracy=accuracy), ticked)
+            result = simulate(problem, replace(request, accuracy=accuracy), ticked)
         except LimitReached:
             last = f"it takes more than {limit:g} s"
             continue

@@ -20,7 +20,7 @@ from lagcli.studies.tradeoff.front import (
     verdict,
 )
 from lagcli.studies.tradeoff.reference import ReferenceMotion, numbers, reference
-from lagcli.studies.tradeoff.trial import PROOF, Given, asked_of
+from lagcli.studies.tradeoff.trial import PROOF, Given, request_of
 
 #: Local tolerances; those below the rounding of doubles are for methods with more digits.
 _TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 1e-14, 1e-16)
@@ -37,10 +37,10 @@ _PATIENCE = 20.0
 #: Runs that take the limit of one are this many at most: what is left of the table stays empty.
 _RUNS = 20
 
-#: Told of each run before it is made: how many are made, of how many.
+#: Called before each run: how many are made, of how many.
 Progress = Callable[[int, int], None]
-#: Told of each run when it is made.
-Teller = Callable[[RunPoint], None]
+#: Called with each run when it is made.
+RunPrinter = Callable[[RunPoint], None]
 
 
 @record(kw_only=True)
@@ -113,7 +113,7 @@ def study(
     cost: str = "total",
     repeat: int = 1,
     progress: Progress | None = None,
-    teller: Teller | None = None,
+    run_printer: RunPrinter | None = None,
 ) -> Study:
     """Make all runs, each in a process of its own.
 
@@ -127,8 +127,8 @@ def study(
         A name out of `COSTS`.
     repeat
         How often each run is made; the shortest times count.
-    progress, teller
-        Told of each run, before and after.
+    progress, run_printer
+        Called for each run, before and after.
 
     Raises
     ------
@@ -136,11 +136,11 @@ def study(
         When there is nothing to run, or no reference.
     """
     methods = [name for name in METHODS if name in methods]
-    problem, asked = asked_of(given)
+    problem, request = request_of(given)
     if progress is not None:
         progress(0, 1)
-    known = reference(problem, asked, 3 * given.limit)  # more than what is measured against it
-    maker = _RunMaker(given, known, repeat, (progress, teller), methods)
+    known = reference(problem, request, 3 * given.limit)  # more than what is measured against it
+    maker = _RunMaker(given, known, repeat, (progress, run_printer), methods)
     points: list[RunPoint] = []
     unsuited: dict[str, str] = {}
     for name in methods:
@@ -178,11 +178,11 @@ class _RunMaker:
         given: Given,
         known: ReferenceMotion,
         repeat: int,
-        told: tuple[Progress | None, Teller | None],
+        told: tuple[Progress | None, RunPrinter | None],
         methods: Sequence[str],
     ) -> None:
         self.given, self.known, self.repeat = given, known, repeat
-        self.progress, self.teller = told
+        self.progress, self.run_printer = told
         self.made = 0
         self.total = len(methods) * len(_TOLERANCES) + len(ACCURACIES) * (1 + len(methods)) + 1
         self.unsuited = False
@@ -209,13 +209,13 @@ class _RunMaker:
 
     def certified(self, name: str, accuracy: float) -> RunPoint:
         """One run with its certificate; none where a looser one took too long."""
-        asked = replace(self.given, method=name, tolerance=None, accuracy=accuracy)
+        request = replace(self.given, method=name, tolerance=None, accuracy=accuracy)
         if accuracy < self._too_long.get(name, 0.0):
             self.made += 1
             return RunPoint(
                 method=name, accuracy=accuracy, why=f"takes more than {self.given.limit:g} s"
             )
-        point = self._point(asked)
+        point = self._point(request)
         if point.error is None and point.why.startswith("takes more"):
             self._too_long[name] = accuracy
         return point
@@ -225,22 +225,22 @@ class _RunMaker:
             self.progress(self.made, self.total)
         self.made += 1
         point = self._run(given)
-        if self.teller is not None:
-            self.teller(point)
+        if self.run_printer is not None:
+            self.run_printer(point)
         return point
 
     def _run(self, given: Given) -> RunPoint:
-        asked = RunPoint(method=given.method, tolerance=given.tolerance, accuracy=given.accuracy)
+        request = RunPoint(method=given.method, tolerance=given.tolerance, accuracy=given.accuracy)
         self.unsuited, most = False, _RUNS * given.limit
         if self._ended:
-            return replace(asked, why=f"not made: {self._ended}")
+            return replace(request, why=f"not made: {self._ended}")
         try:
             found = [answer(given)]
             while len(found) < self.repeat and "why" not in found[0]:
                 found.append(answer(given))
         except KeyboardInterrupt:  # the table shows what there is
             self._ended = "interrupted"
-            return replace(asked, why=self._ended)
+            return replace(request, why=self._ended)
         first = found[0]
         self._spent += sum(given.limit if x.get("long") else x.get("total", 0.0) for x in found)
         if self._spent > most:
@@ -248,11 +248,11 @@ class _RunMaker:
         self.unsuited = bool(first.get("unsuited"))
         good = [each for each in found if "why" not in each]
         if not good:
-            return replace(asked, why=first["why"])
+            return replace(request, why=first["why"])
         integrations = [x["integration"] for x in good if x["integration"] is not None]
         complete = len(first["rows"]) == len(self.known.rows)
         return replace(
-            asked,
+            request,
             taken=first["method"],
             error=self.known.error(numbers(first["rows"])) if complete else None,
             total=min(each["total"] for each in good),
@@ -276,11 +276,11 @@ def _has_met_rounding(last: RunPoint, point: RunPoint) -> bool:
 
 def answer(given: Given) -> dict[str, Any]:
     """What a process says of its run."""
-    asked = {name: getattr(given, name) for name in Given.__annotations__}
+    request = {name: getattr(given, name) for name in Given.__annotations__}
     try:
         done = subprocess.run(
             [sys.executable, "-m", "lagcli.studies.tradeoff.trial"],
-            input=json.dumps(asked),
+            input=json.dumps(request),
             capture_output=True,
             text=True,
             check=False,

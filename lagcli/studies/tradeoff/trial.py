@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 from lagcli.record import record
 
 if TYPE_CHECKING:
-    from lagcli.numerics.hybrid.request import Asked
+    from lagcli.numerics.hybrid.request import RunRequest
     from lagcli.numerics.hybrid.run import Run
     from lagcli.numerics.hybrid.setup import Setup
     from lagcli.problem_data import Problem
@@ -95,27 +95,27 @@ def trial(given: Given) -> dict[str, Any]:
 
     ticked = until(given.limit)
     try:
-        problem, asked = asked_of(given)
+        problem, request = request_of(given)
         if given.tolerance is None:
-            return _claimed(problem, asked, ticked, proved=given.method == PROOF)
-        return _single(problem, asked, given, ticked)
+            return _claimed(problem, request, ticked, proved=given.method == PROOF)
+        return _single(problem, request, given, ticked)
     except LimitReached:
         return {"why": f"takes more than {given.limit:g} s", "long": True}
     except Refusal as refusal:
         return {"why": str(refusal)}
 
 
-def asked_of(given: Given) -> tuple[Problem, Asked]:
+def request_of(given: Given) -> tuple[Problem, RunRequest]:
     """The problem, and the request for its coordinates and velocities."""
-    from lagcli.numerics.hybrid.request import Asked
+    from lagcli.numerics.hybrid.request import RunRequest
     from lagcli.pipeline import Request, read, with_lagrangian
     from lagcli.reader.columns import usual_columns
 
-    request = Request(settings=given.settings, state=given.state)
-    problem = read(given.name, given.text.encode(), request).problem
+    values = Request(settings=given.settings, state=given.state)
+    problem = read(given.name, given.text.encode(), values).problem
     assert problem is not None  # it has been read before
     problem = with_lagrangian(problem)
-    asked = Asked(
+    request = RunRequest(
         until=given.until,
         accuracy=given.accuracy or min(0.1, max(_LEAST, 100 * (given.tolerance or 0.0))),
         samples=given.samples,
@@ -125,26 +125,26 @@ def asked_of(given: Given) -> tuple[Problem, Asked]:
         whole=given.whole,
         furthest=False,
     )
-    return problem, asked
+    return problem, request
 
 
 def _single(
-    problem: Problem, asked: Asked, given: Given, ticked: Callable[[float], None]
+    problem: Problem, request: RunRequest, given: Given, ticked: Callable[[float], None]
 ) -> dict[str, Any]:
     from lagcli.numerics.certified.methods import METHODS
     from lagcli.numerics.certified.simulate import Simulation
     from lagcli.numerics.integrators.steps import Tolerance
 
-    simulation, modes = Simulation(problem, asked).ready()
+    simulation, modes = Simulation(problem, request).ready()
     made = METHODS[given.method].prepare(simulation, modes)
     if isinstance(made, str):
         return {"why": made, "unsuited": True}
     assert given.tolerance is not None
     tolerance = max(given.tolerance, made.finest)
-    n, longest = len(simulation.equations.q), asked.until / _PARTS
+    n, longest = len(simulation.equations.q), request.until / _PARTS
 
     def once() -> tuple[Run, float]:
-        bound = Tolerance(tolerance, n, asked.until, longest, None, made.floor)
+        bound = Tolerance(tolerance, n, request.until, longest, None, made.floor)
         before = process_time()
         return made.run(bound, 0, ticked, moved=0), process_time() - before
 
@@ -166,7 +166,7 @@ def _single(
             "integration": integration,
             "evaluations": run.evaluations,
             "steps": run.steps,
-            "drift": _drift(run, rows, len(asked.columns)),
+            "drift": _drift(run, rows, len(request.columns)),
             "residual": _residual(run),
             "method": run.method_name,
             "rows": _texts(rows_shown(simulation, run, rows)),
@@ -195,18 +195,18 @@ def _residual(run: Run) -> float | None:
 
 
 def _claimed(
-    problem: Problem, asked: Asked, ticked: Callable[[float], None], *, proved: bool
+    problem: Problem, request: RunRequest, ticked: Callable[[float], None], *, proved: bool
 ) -> dict[str, Any]:
     """A run that states its accuracy: proved, or with a certificate."""
     if proved:
         from lagcli.numerics.rigorous import prove
 
-        proof = prove(problem, asked, ticked)
+        proof = prove(problem, request, ticked)
         result, rows = proof.as_result(), proof.rows
     else:
         from lagcli.numerics.certified.simulate import simulate
 
-        result = simulate(problem, asked, ticked)
+        result = simulate(problem, request, ticked)
         rows = result.rows
     total = process_time()
     held = result.certificate
@@ -225,8 +225,8 @@ def _claimed(
 
 
 def rows_shown(simulation: Setup, run: Run, rows: Sequence[Sequence[Any]]) -> list[Sequence[Any]]:
-    """The columns that are asked for, at the times that are."""
-    count = len(simulation.asked.columns)
+    """The requested columns, at the requested times."""
+    count = len(simulation.request.columns)
     return [
         row[:count]
         for mark, row in zip(run.marks, rows, strict=True)

@@ -60,10 +60,10 @@ def to_text(study: Study) -> str:
 
 def line_of(point: RunPoint) -> str:
     """What is known of one run before the others are made."""
-    asked = point.tolerance if point.accuracy is None else point.accuracy
+    request = point.tolerance if point.accuracy is None else point.accuracy
     what = "tolerance" if point.accuracy is None else "certified,"
     error = "" if point.error is None else f"true error {_size(point.error)} in "
-    return f"{point.method}, {what} {asked:.0e}: {error}{point.why or _seconds(point.total)}"
+    return f"{point.method}, {what} {request:.0e}: {error}{point.why or _seconds(point.total)}"
 
 
 def _size(error: float) -> str:

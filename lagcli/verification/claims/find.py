@@ -94,7 +94,7 @@ _NOTE = "what was derived does not hold at random states"
 def _is_value(
     x: Examination, what: str, asked: Expression, values: Sequence[Expression], reached: Reached
 ) -> bool:
-    """Whether the formula (or one of two) is what was asked for."""
+    """Whether the formula (or one of two) answers the question."""
     places = x.places(what, values)
     if places is None:
         return False

@@ -9,7 +9,7 @@ from lagcli.mechanics.explaining.words import Letters
 from lagcli.mechanics.readable import Readable
 
 
-class Teller:
+class Explainer:
     """One derivation, ready to be explained."""
 
     def __init__(self, derivation: Derivation) -> None:
