@@ -42,14 +42,13 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
     if expression.is_number:
         return _of_number(expression)
     found = _sign(*_with_signed(expression, positive, sympy.Symbol))
-    if found is None and positive:
-        known = [*positive, *_factors_of_known_sign(positive)]
+    known = [*positive, *_factors_of_known_sign(positive)] if found is None and positive else []
+    if known:
         put_in = _with_signed(expression, known, (sympy.Symbol, sympy.Function))
         found = _sign(*put_in) if put_in[0] != expression else None
-        roots = {} if found is not None else _positive_roots(expression, positive)
-        found = sign(expression.xreplace(roots), positive) if roots else found
-        found = _beyond_bounds(expression, known) if found is None else found
-    return found
+    if found is None and (roots := _positive_roots(expression, positive)):
+        found = sign(expression.xreplace(roots), positive)
+    return _beyond_bounds(expression, known) if found is None else found
 
 
 def _beyond_bounds(expression: Expr, positive: Sequence[Expr]) -> int | None:

@@ -161,11 +161,25 @@ def test_no_period_as_a_series_where_a_derivative_jumps(power):
     assert "jumps" in section.one_freedom.reason
 
 
-def test_under_velocity_constraints_conditions_of_rest_are_called_so():
-    """A sled that is driven against drag goes at F/c: rest is what its forces must vanish for."""
+def test_a_driven_sled_goes_straight_on():
+    """Thrust F along the blade against the drag x' = F cos th: a steady motion in any direction."""
     text = (
         f"{{coordinates: [x, y, th], parameters: {{F: {_UP}}}, T: (x'^2 + y'^2 + th'^2)/2, "
         "constraints: {s: x'*sin(th) = y'*cos(th)}, "
+        "forces: {x: F*cos(th) - x', y: F*sin(th) - y', th: -th'}}"
+    )
+    section, _ = steady_motions(derive(text))
+    (motion,) = section.motions
+    assert motion.free == ("th",)
+    assert {name: to_grammar(rate) for name, rate in motion.rates.items()} == {"x": "F*cos(th)"}
+
+
+@pytest.mark.parametrize("V", ["exp(th) - th^3", "exp(x) - x^3 + th*sin(th)"])
+def test_under_velocity_constraints_conditions_of_rest_are_called_so(V):
+    """Conditions without a closed solution are those of rest, where the forces must vanish."""
+    text = (
+        f"{{coordinates: [x, y, th], parameters: {{F: {_UP}}}, T: (x'^2 + y'^2 + th'^2)/2, "
+        f"V: {V}, constraints: {{s: x'*sin(th) = y'*cos(th)}}, "
         "forces: {x: F*cos(th) - x', y: F*sin(th) - y', th: -th'}}"
     )
     section, _ = steady_motions(derive(text))
