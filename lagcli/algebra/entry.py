@@ -25,7 +25,7 @@ class Field(FractionField):
     Parameters
     ----------
     expressions
-        What is to be put in, as far as it is known.
+        The known expressions that are put in.
     alone
         Whether it is all: θ₁ − θ₂ is one angle where neither occurs otherwise.
 

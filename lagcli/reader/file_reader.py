@@ -266,7 +266,7 @@ class FileReader:
     def _say_in_all(
         self, node: DocumentNode, what: str, role: Role, read: Callable[[Excerpt], Any], before: int
     ) -> None:
-        """The whole formula in the first hint behind so many, where it was understood."""
+        """The whole formula in the first hint of a list of mistakes, where it was understood."""
         found = self.diagnostics[before:]
         if found and not self.is_full and isinstance(node, Scalar):
             from lagcli.reader.repair import with_whole

@@ -101,7 +101,7 @@ def _state_name(
 
 
 def _translated(name: str, coordinates: list[str]) -> str:
-    """`x'` for dx/dt, v, xdot and x'(0); nothing for what is no coordinate and no velocity."""
+    """`x'` for dx/dt, v, xdot and x'(0); nothing for other names."""
     from lagcli.reader.foreign.translation import translated
     from lagcli.reader.foreign.words import Unclear, Vocabulary
 
