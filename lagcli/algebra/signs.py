@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from functools import wraps
+from functools import lru_cache, wraps
 
 import sympy
 from sympy import Expr
@@ -16,6 +16,8 @@ from lagcli.algebra.roots import substitute_square
 from lagcli.algebra.squares import sign_by_squares
 
 _PRODUCTS = 16  # of given ones, with which one more is multiplied
+# One verdict asks for 33,000 signs of 500 expressions: 34 s, and 1.6 s with those kept
+_KEPT = 10_000
 
 
 def between_angles(of: Callable[..., int | None]) -> Callable[..., int | None]:
@@ -41,6 +43,11 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
     """
     if expression.is_number:
         return _of_number(expression)
+    return _sign_given(expression, tuple(positive))
+
+
+@lru_cache(_KEPT)
+def _sign_given(expression: Expr, positive: tuple[Expr, ...]) -> int | None:
     found = _sign(*_with_signed(expression, positive, sympy.Symbol))
     known = [*positive, *_factors_of_known_sign(positive)] if found is None and positive else []
     if known:
@@ -54,7 +61,7 @@ def sign(expression: Expr, positive: Sequence[Expr] = ()) -> int | None:
 def _beyond_bounds(expression: Expr, positive: Sequence[Expr]) -> int | None:
     """The sign with a + d for r where r - a = d > 0 is given: of 4 r³ - 3 a r² + b, of R² - l²."""
     for given in positive:
-        for put_in in beyond(given, expression, sympy.Dummy(positive=True)):
+        for put_in in beyond(given, expression, _positive_symbol(given)):
             others = [e.xreplace(put_in) for e in positive if e is not given]
             found = _sign(expression.xreplace(put_in), others)
             if found is not None:
@@ -91,10 +98,16 @@ def _by_angles_between(expressions: Sequence[Expr]) -> list[Expr] | None:
 def _positive_roots(expression: Expr, positive: Sequence[Expr]) -> dict[Expr, Expr]:
     """Positive symbols for the roots of what is known to be positive."""
     return {
-        root: sympy.Dummy(positive=True)
+        root: _positive_symbol(root)
         for root in expression.atoms(sympy.Pow)
         if root.exp.is_Rational and not root.exp.is_Integer and sign(root.base, positive) == 1
     }
+
+
+@lru_cache(_KEPT)
+def _positive_symbol(value: Expr) -> sympy.Symbol:
+    """The same one each time, by which what was asked before is known again."""
+    return sympy.Dummy(positive=True)
 
 
 def _factors_of_known_sign(positive: Sequence[Expr]) -> list[Expr]:

@@ -186,7 +186,9 @@ def _on_the_line(character: str) -> str:
 
 def unit_behind(text: str) -> str:
     """The unit in `10 kg` or `9.81 m/s^2`; nothing where a number stands alone."""
-    found = _WITH_UNIT.fullmatch(re.sub(r"\s*(?:\[(.*)\]|\((.*)\))$", r" \1\2", text.strip()))
+    found = _WITH_UNIT.fullmatch(
+        re.sub(r"\s*(?:\[([^][]*)\]|\(([^()]*)\))$", r" \1\2", text.strip())
+    )
     return found["unit"] if found and _is_unit(found["unit"]) else ""
 
 

@@ -167,12 +167,16 @@ parameters:
   v: POSITIVE
 T: m*(x'^2 + y'^2)/2
 V: m*g*y
-constraints: {road: {equation: y = h*cos(k*x), multiplier: N, holds_while: N >= 0}}
+constraints: {road: {equation: ROAD, multiplier: N, holds_while: N >= 0}}
 initial: {x: 0, y: h, x': v}
 find: {asked: {always: N >= 0, for: v}}
 """
-    assert found(text) == bounds(["<= 10"])
-    assert why(text) == "for the values of the file"
+    bell = text.replace("ROAD", "y = h/(1 + k^2*x^2)")
+    assert found(bell) == bounds(["<= 5*sqrt(2)"])  # y'' = -2 h k^2 at the top
+    assert why(bell) == "for the values of the file"
+    # g + y'' x'^2 is g (1 - c)(1 + h^2 k^2 (1 - c)) at v^2 = g/(h k^2), c = cos(k x): never below 0
+    wave = text.replace("ROAD", "y = h*cos(k*x)")
+    assert found(wave) == bounds(["<= sqrt(g)/(k*sqrt(h))"])
 
 
 @pytest.mark.parametrize(

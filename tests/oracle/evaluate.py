@@ -21,7 +21,7 @@ from lagcli.expression import (
     Sum,
 )
 
-from .functions import ELEMENTARY, StandIn
+from .functions import ELEMENTARY, StandIn, integral
 from .jets import Jet, Number, OutsideDomain, coefficient, family, infinitesimal, power
 
 
@@ -88,6 +88,13 @@ def evaluate(node: Expression, setting: Setting, moment: Moment) -> Number:
             return value(numerator) * power(value(denominator), mpf(-1))
         case Power(base=base, exponent=exponent):
             return _power(value(base), value(exponent))
+        case Call(function="integral", arguments=[integrand, Name(name=name), start, end]):
+
+            def at(x: Number) -> Number:
+                there = replace(moment, extra={**moment.extra, name: x})
+                return evaluate(integrand, setting, there)
+
+            return integral(at, value(start), value(end))
         case Call(function=function, arguments=arguments, primes=primes):
             values = [value(argument) for argument in arguments]
             if function in setting.functions:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import lru_cache
 from math import factorial
 from random import Random
 
 from mpmath import mp, mpf
+from mpmath.calculus.quadrature import GaussLegendre
 
 from .jets import Jet, Number, OutsideDomain, power, real_part, series, sines
 
@@ -68,6 +70,20 @@ def _sign(x: Number) -> Number:
             raise OutsideDomain("sign(0)")
         return mpf(0)
     return mpf(1 if at > 0 else -1)
+
+
+def integral(integrand: Callable[[Number], Number], start: Number, end: Number) -> Number:
+    """By Gauss and Legendre with 96 points: to all digits for what is as smooth as sin."""
+    half, middle = (end - start) / 2, (end + start) / 2
+    total: Number = mpf(0)
+    for node, weight in _gauss_legendre(mp.prec):
+        total = total + integrand(middle + half * node) * weight
+    return total * half
+
+
+@lru_cache
+def _gauss_legendre(bits: int) -> Sequence[tuple[mpf, mpf]]:
+    return GaussLegendre(mp).calc_nodes(6, bits)  # type: ignore[no-any-return]
 
 
 def _atan2(y: Number, x: Number) -> Number:
