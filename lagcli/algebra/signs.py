@@ -107,7 +107,7 @@ def _positive_roots(expression: Expr, positive: Sequence[Expr]) -> dict[Expr, Ex
 @lru_cache(_KEPT)
 def _positive_symbol(value: Expr) -> sympy.Symbol:
     """The same one each time, by which what was asked before is known again."""
-    return sympy.Dummy(positive=True)
+    return sympy.Dummy(f"#{value}", positive=True)
 
 
 def _factors_of_known_sign(positive: Sequence[Expr]) -> list[Expr]:
