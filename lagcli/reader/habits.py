@@ -27,6 +27,7 @@ DERIVED = "the equations of motion are derived: give T and V, or L"
 SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegative",
          "!=": "nonzero", "≠": "nonzero"}  # fmt: skip
 #: Keys of a part of a problem -> that part.
+_WISHES = {"yes", "true", "True", "on", "all", "find", "?"}
 _PARTS = {
     **dict.fromkeys(("until", "accuracy", "method"), "simulation"),
     **dict.fromkeys(("places", "rods", "springs", "trails"), "picture"),
@@ -109,6 +110,8 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
         return f"write description: {word}: …, with quotes around it"
     key = meanings("keys").get(word.replace("-", "_"), word)
     part = _PARTS.get(key)
+    if part == "expect" and part in known and value in _WISHES:
+        return f"an option, not a key: lagcli solve FILE --show {key}"
     if part in known:
         return f"write {part}: {{{key}: {value or '…'}}}"
     if "parameters" in known and is_constant(word, value):

@@ -11,6 +11,7 @@ import pytest
 
 from lagcli.library import entries
 from lagcli.reader import read_problem
+from lagcli.statements.registry import section_names
 
 GOOD = {
     "coordinates": "[x]",
@@ -414,6 +415,18 @@ def test_no_problem_of_the_library_is_warned_of(entry):
     assert read_problem(entry.name, entry.path.read_bytes()).diagnostics == ()
 
 
+#: Keys of the problem, other words for them, and what is derived in any case.
+SAID_OTHERWISE = {
+    "brackets",
+    "dimensions",
+    "energy",
+    "equations",
+    "find",
+    "forces",
+    "hamiltonian",
+    "lagrangian",
+    "momenta",
+}
 SUPERSCRIPTS = "²³⁴⁵⁶⁷⁸⁹"
 UNITS = ["kg", "m", "s", "N", "J", "N/m", "m/s^2", "kg*m^2", "rad"]
 
@@ -433,3 +446,14 @@ def test_random_members_of_a_habit_are_hinted_alike(seed):
     ]
     typed = text(coordinates=f"[{name}]", T=f"m*Derivative({name}, t)^2", V=None)
     assert f"write {name}'" in messages(typed)[0]
+
+
+@pytest.mark.parametrize("name", sorted({*section_names()} - SAID_OTHERWISE))
+def test_a_section_as_a_key_is_an_option(name):
+    [said] = messages(text(**{name: "yes"}))
+    assert said.endswith(f"lagcli solve FILE --show {name}")
+
+
+def test_sections_as_a_key_are_no_functions():
+    [said] = messages(text(sections="[equilibria]"))
+    assert said.endswith("lagcli solve FILE --show equilibria,modes")
