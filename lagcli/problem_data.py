@@ -452,6 +452,10 @@ class Problem:
     picture: Scenery = field(default_factory=Scenery)
     expect: Expect = field(default_factory=Expect)
 
+    def __repr__(self) -> str:
+        names = ", ".join(each.name for each in self.coordinates)
+        return f"<Problem {self.title!r} with the coordinates {names}>"
+
     def with_values(self, values: Mapping[str, Expression]) -> Problem:
         """The problem with other values of some parameters."""
         changed = (replace(p, value=values.get(p.name, p.value)) for p in self.parameters)

@@ -77,6 +77,8 @@ def _export(problem: Problem, name: str, language: str, output: Path | None) -> 
         return Status.NOT_FOUND
     if not place(text.encode(), output):
         return Status.USAGE
+    if code.left_out:
+        report_line(f"{name}: {code.left_out}")
     if code.missing:
         report_line(f"{name}: only the matrices were written: {code.missing}")
         return Status.NOT_FOUND

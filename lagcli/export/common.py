@@ -24,14 +24,16 @@ def used(routine: Routine) -> set[str]:
     return {str(each) for formula in routine.formulas for each in formula.free_symbols}
 
 
-def described(code: Code, mark: str) -> Iterator[str]:
-    """The head of a file: what is in y and p."""
+def described(code: Code, mark: str, first: int = 0) -> Iterator[str]:
+    """The head of a file: what is in y and p, whose first entry has the index `first`."""
     yield f"{mark} {code.title}"
     yield f"{mark} Written by lagcli: the functions of time t, state y and parameters p."
     for letter, names in (("y", code.state), ("p", code.parameters)):
         for place, word in enumerate(names):
             value = f" = {code.values[word]!r}" if word in code.values else ""
-            yield f"{mark}   {letter}[{place}]: {code.names[word]}{value}"
+            yield f"{mark}   {letter}[{place + first}]: {code.names[word]}{value}"
+    if code.left_out:
+        yield f"{mark} {code.left_out}"
 
 
 def sentence(routine: Routine) -> str:

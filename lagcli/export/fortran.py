@@ -26,7 +26,7 @@ def write(code: Code) -> Iterator[str]:
     printer = _Fortran(
         {"source_format": "free", "standard": 2008, "precision": 17, "name_mangling": False}
     )
-    yield from described(code, "!")
+    yield from described(code, "!", first=1)
     yield f"module {code.module}"
     yield from ("  implicit none", "  integer, parameter :: dp = kind(1d0)")
     yield from ("  real(dp), parameter :: pi = acos(-1.0_dp)", "contains")

@@ -13,7 +13,7 @@ from lagcli.export.routines import Code
 def write(code: Code) -> Iterator[str]:
     """The lines of a module."""
     printer = JuliaCodePrinter()
-    yield from described(code, "#")
+    yield from described(code, "#", first=1)
     yield f"module {code.module.capitalize()}"
     for routine in code.routines:
         yield ""

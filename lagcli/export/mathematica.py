@@ -21,7 +21,7 @@ def write(code: Code) -> Iterator[str]:
         sympy.Symbol(word, real=True): sympy.Symbol(name, real=True) for word, name in plain.items()
     }
     printer = MCodePrinter({"user_functions": {"sign": [(lambda _: True, "Sign")]}})
-    yield from ("(*", *(f"  {_plain_star(line)}" for line in described(code, "")), "*)")
+    yield from ("(*", *(f"  {_plain_star(line)}" for line in described(code, "", first=1)), "*)")
     for routine in code.routines:
         steps, formulas = shared(routine)
         given = list(unpacked(code, routine, "{} {} {}", first=1))

@@ -14,7 +14,7 @@ def write(code: Code) -> Iterator[str]:
     """The lines of a function that gives the handles of the others."""
     printer = OctaveCodePrinter()
     yield f"function functions = {code.module}()"
-    yield from described(code, "%")
+    yield from described(code, "%", first=1)
     for routine in code.routines:
         yield f"  functions.{routine.name} = @{routine.name};"
     yield "end"

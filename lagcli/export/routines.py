@@ -61,6 +61,8 @@ class Code:
     routines : tuple of Routine
     missing : str
         Why there are no accelerations; empty where there are.
+    left_out : str
+        What the file has and the code has not; empty where that is nothing.
     """
 
     title: str
@@ -71,6 +73,7 @@ class Code:
     values: Mapping[str, float]
     routines: tuple[Routine, ...]
     missing: str = ""
+    left_out: str = ""
 
 
 #: What the answers must hold.
@@ -110,7 +113,19 @@ def code_of(problem: Problem, answers: Answers, module: str) -> Code:
         values=_values(problem, words),
         routines=tuple(routines),
         missing=missing,
+        left_out=_left_out(problem),
     )
+
+
+def _left_out(problem: Problem) -> str:
+    contacts = ", ".join(each.name for each in problem.contacts)
+    held = ", ".join(c.name for c in problem.constraints if c.holds_while is not None)
+    sentences = [
+        f"The contacts ({contacts}) are left out: this is the motion between impacts."
+        if contacts else "",
+        f"The constraints ({held}) are not released where holds_while ends." if held else "",
+    ]  # fmt: skip
+    return " ".join(filter(None, sentences))
 
 
 class _Formulas:
@@ -240,12 +255,14 @@ def _matrix(name: str, meaning: str, rows: Any, formulas: _Formulas) -> Routine:
 
 def _values(problem: Problem, words: Mapping[str, str]) -> dict[str, float]:
     from lagcli.evaluation import value_of
+    from lagcli.numerics.equations.refusal import Refusal
+    from lagcli.numerics.equations.start import completed_state
     from lagcli.values import numbers_of_parameters
 
-    numbers = numbers_of_parameters(problem)
-    found = {words[name]: value for name, value in numbers.items() if name in words}
-    for name, tree in problem.initial.items():
-        value = value_of(tree)
-        if value is not None and str(name) in words:
-            found[words[str(name)]] = float(value)
-    return found
+    numbers: dict[str, float] = dict(numbers_of_parameters(problem))
+    try:
+        numbers |= completed_state(problem) if problem.initial else {}
+    except Refusal:  # some of it depends on what has no value
+        given = {str(name): value_of(tree) for name, tree in problem.initial.items()}
+        numbers |= {name: float(value) for name, value in given.items() if value is not None}
+    return {words[name]: value for name, value in numbers.items() if name in words}

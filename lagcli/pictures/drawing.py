@@ -102,14 +102,14 @@ class Band:
 
 @record(kw_only=True)
 class Cells:
-    """A value at each point of a grid, as a colour.
+    """A value in each cell of a grid, as a colour.
 
     Attributes
     ----------
     x, y : tuple of float
-        The middles of the columns and of the rows, rising.
+        The edges of the columns and of the rows, rising: one more than there are.
     values : tuple of tuples
-        A row for each y; None is left blank.
+        From the lowest row up; None is left blank.
     label : Label
     """
 

@@ -8,6 +8,7 @@ attraction.  Drawn at random: dots over the first.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
@@ -29,7 +30,7 @@ from lagcli.pictures.drawing import (
 from lagcli.pictures.labels import Labels, with_unit
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import Column
-from lagcli.record import record
+from lagcli.record import record, replace
 
 #: More panels do not fit on a page.
 _MOST = 6
@@ -134,23 +135,34 @@ def _map(labels: Labels, motions: Motions, place: int) -> Panel:
     known = {(row[0], row[1]): value for row, value in motions.of(place)}
     x, y = (sorted({float(row[k] or 0.0) for row in motions.rows}) for k in (0, 1))
     column = motions.columns[place]
+    edges = tuple(map(_edges, (x, y)))
     cells = Cells(
-        x=tuple(x),
-        y=tuple(y),
+        x=edges[0],
+        y=edges[1],
         values=tuple(tuple(known.get((a, b)) for a in x) for b in y),
         label=labels.axis(column.expression, column.name),
     )
     first, second = (
-        _axis(labels, name, values, room=0.5 / max(1, len(values) - 1))
-        for name, values in zip(motions.varied, (x, y), strict=True)
+        replace(_axis(labels, name, values), low=ends[0], high=ends[-1])
+        for name, values, ends in zip(motions.varied, (x, y), edges, strict=True)
     )
     return Panel(x=first, y=second, items=(cells,))
 
 
-def _axis(labels: Labels, name: str, values: Sequence[float | None], room: float = 0.02) -> Axis:
+def _edges(middles: Sequence[float]) -> tuple[float, ...]:
+    """What lies half-way between the middles, and as far beyond the first and the last."""
+    if _in_equal_ratios(middles):
+        return tuple(math.exp(x) for x in _edges([math.log(x) for x in middles]))
+    between = [(a + b) / 2 for a, b in pairwise(middles)]
+    if not between:
+        return middles[0] - 0.5, middles[0] + 0.5
+    return 2 * middles[0] - between[0], *between, 2 * middles[-1] - between[-1]
+
+
+def _axis(labels: Labels, name: str, values: Sequence[float | None]) -> Axis:
     quantity = Name(name.rstrip("'"), len(name) - len(name.rstrip("'")))
     given = sorted({float(x or 0.0) for x in values})
-    low, high = extent(given, room)
+    low, high = extent(given)
     state = any(c.name == quantity.name for c in labels.problem.coordinates)
     label = labels.of(quantity, name)
     label = with_unit(_at_start(label) if state else label, labels.unit(quantity))

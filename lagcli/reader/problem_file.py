@@ -225,4 +225,4 @@ def _dimension_mistakes(problem: Problem) -> list[Diagnostic]:
 
 
 def _stem(name: str) -> str:
-    return "problem" if name == "-" else PurePath(name).stem
+    return "problem" if name == "-" or name.startswith("<") else PurePath(name).stem

@@ -6,6 +6,7 @@ import ctypes
 import math
 import operator
 import random
+import re
 import shutil
 import subprocess
 import sys
@@ -14,8 +15,10 @@ import pytest
 
 import lagcli
 from lagcli.cli.run import run
-from lagcli.export import LANGUAGES
+from lagcli.export import LANGUAGES, code_of
 from lagcli.export.identifiers import identifiers
+from lagcli.export.routines import SECTIONS
+from lagcli.pipeline import Request, derive, state
 
 #: With constraints, decimals, trigonometric functions, drives, damping, signs, charges, pi.
 NAMES = ["kepler", "hoop", "double-pendulum", "spherical-pendulum-cartesian", "heavy-symmetric-top"]
@@ -249,6 +252,48 @@ def test_sympy_gives_what_python_gives(problem, tmp_path, capsysbinary):
     put_in = {sympy.Symbol(name, real=True): value for name, value in values.items()}
     found = [float(entry.subs(put_in)) for entry in matrices["rhs"]]
     assert found == pytest.approx(list(code["rhs"](t, y, p)), rel=1e-11)
+
+
+def test_sympy_gets_the_formulas_exactly(tmp_path, capsysbinary):
+    """1/3 and pi stay what they are, and 1/2 does not become 0.5."""
+    path = tmp_path / "exact.yaml"
+    path.write_text("coordinates: [x]\nT: x'^2/2\nV: (x^2/3)^(1/3) + cos(pi*x)/7 + sqrt(2)*x")
+    matrices = module_of(exported(path, "sympy", tmp_path, capsysbinary))
+    problem = lagcli.load(path)
+    answers = state(derive(problem), Request(sections=SECTIONS))
+    for routine in code_of(problem, answers, "mech").routines:
+        assert tuple(matrices[routine.name]) == routine.formulas
+
+
+ROLLING = """
+coordinates: [x, y, phi, psi]
+parameters: {R: {value: 1/2}}
+T: (x'^2 + y'^2)/2 + phi'^2/8 + psi'^2/4
+constraints:
+  along: {equation: x' = R*psi'*cos(phi)}
+  across: {equation: y' = R*psi'*sin(phi)}
+initial: {phi: 0, phi': 1, psi': 2}
+"""
+
+
+def test_the_start_is_on_the_constraints(tmp_path, capsysbinary):
+    """A velocity that the file leaves out is the one that a run begins with, not 0."""
+    path = tmp_path / "rolling.yaml"
+    path.write_text(ROLLING)
+    code = module_of(exported(path, "python", tmp_path, capsysbinary))
+    assert code["STATE"]["x_dot"] == 1.0
+    text = exported(path, "modelica", tmp_path, capsysbinary).read_text("utf-8")
+    assert "x_dot(start = 1.0, fixed = true)" in text
+
+
+@pytest.mark.parametrize(("language", "first"), [("matlab", 1), ("fortran", 1), ("c", 0)])
+def test_the_head_counts_as_the_language_does_and_names_what_is_left_out(
+    language, first, tmp_path, capsysbinary
+):
+    text = exported("bouncing-ball", language, tmp_path, capsysbinary).read_text("utf-8")
+    assert min(re.findall(r"y\[(\d)\]: ", text)) == str(first)
+    assert "motion between impacts" in text
+    assert "contacts" in capsysbinary.readouterr().err.decode()
 
 
 @pytest.mark.long

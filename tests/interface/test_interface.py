@@ -55,6 +55,11 @@ def test_a_dictionary_is_a_problem_like_its_text(pendulum):
     assert there.accelerations["theta"] == here.accelerations["theta"]
 
 
+def test_a_problem_shows_itself_in_one_line(pendulum):
+    assert repr(pendulum) == "<Problem 'Pendulum' with the coordinates theta>"
+    assert lagcli.loads("coordinates: [x]\nT: x'^2").title == "problem"
+
+
 def test_a_mistake_is_an_exception_that_shows_the_place():
     with pytest.raises(lagcli.ProblemError) as caught:
         lagcli.loads("coordinates: [x]\nT: y'^2/2\nV: k*x")
@@ -167,7 +172,9 @@ def test_an_explanation_and_a_check():
     assert account.complete
     assert "1. " in str(account)
     assert account.to_latex().strip()
-    assert lagcli.check("hoop").passed
+    report = lagcli.check("hoop")
+    assert report.passed
+    assert repr(report).startswith("passed  ")
 
 
 def test_functions_are_not_hidden_by_modules_of_their_names():

@@ -49,7 +49,9 @@ def test_two_quantities_are_a_map_whose_axes_are_the_initial_values(pendulum):
     [panel] = ensemble(pendulum, motions(["theta", "theta'"], rows)).panels
     [cells] = panel.items
     assert isinstance(cells, Cells)
-    assert (cells.x, cells.y) == (xs, ys)
+    assert cells.x == (0.25, 0.75, 1.5, 2.5)
+    assert (panel.x.low, panel.x.high) == (0.25, 2.5)
+    assert cells.y == (-1.5, -0.5, 1.5, 4.5)
     assert cells.values == tuple(tuple(10 * x + y for x in xs) for y in ys)
     assert panel.x.label.plain == "θ(0) (rad)"
     assert panel.y.label.plain == "θ̇(0) (rad/s)"
@@ -69,6 +71,9 @@ def test_equal_ratios_have_a_logarithmic_axis(pendulum):
     rows = [[10.0**k, 1.0, k] for k in range(-2, 3)]
     [panel] = ensemble(pendulum, motions(["l"], rows)).panels
     assert panel.x.logarithmic
+    rows = [[10.0**k, y, 1.0, k] for k in range(-2, 3) for y in (1.0, 2.0)]
+    [panel] = ensemble(pendulum, motions(["l", "theta"], rows)).panels
+    assert panel.items[0].x == pytest.approx([10.0 ** (k - 0.5) for k in range(-2, 4)])
 
 
 @pytest.mark.parametrize(

@@ -18,15 +18,18 @@ from lagcli.diagnostics import NOWHERE, Diagnostic, Span
 from lagcli.expression import Name
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Constant, Node, Symbol, mask_of
-from lagcli.numerics.equations.arithmetic import UndefinedFunction
+from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
 from lagcli.numerics.equations.assembly import assemblies
+from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.contact import with_contacts
 from lagcli.numerics.equations.determined import determined
+from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.polynomial import real_roots
 from lagcli.numerics.equations.refusal import Refusal, reason_of
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.numerics.equations.surface import Surface
-from lagcli.problem_data import Coordinate
+from lagcli.problem_data import Coordinate, Problem
 
 #: A given state may miss the constraints by so much, relative to their terms.
 _ON_SURFACE = 1e-12
@@ -71,6 +74,25 @@ def initial_state(motion: Motion, *, project: bool = False) -> tuple[list[float]
         When the state is off the constraints, or they leave several.
     """
     return _Completion(motion).state(project=project)
+
+
+def completed_state(problem: Problem) -> dict[str, float]:
+    """The state at t = 0 in doubles by name, with the parts that the file leaves out.
+
+    Raises
+    ------
+    Refusal
+        As `initial_state`, or when a parameter that is needed has no value.
+    """
+    e = Equations(with_contacts(problem))
+    if problem.contacts:
+        e = e.holding(frozenset(range(len(problem.constraints))))
+    entries = [entry for row in (*e.mass, *e.rows) for entry in row]
+    given = map(e.form.read, problem.initial.values())
+    needed = [*entries, *e.bias, *e.positions, *e.rates, *given]
+    q, v = initial_state(Motion(e, constants_of(e, needed, Doubles()), Doubles()))
+    names = [each.name for each in problem.coordinates]
+    return dict(zip([*names, *(f"{name}'" for name in names)], [*q, *v], strict=True))
 
 
 def refined_state(

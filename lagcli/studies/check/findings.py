@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from enum import Enum
 
-from lagcli.diagnostics import NOWHERE, Diagnostic, Source, Span
+from lagcli.diagnostics import NOWHERE, Diagnostic, Source, Span, printable, render
 from lagcli.record import record
 
 #: The path of an expectation, the verdict, what was expected and what was found.
@@ -76,3 +76,28 @@ class Report:
     def passed(self) -> bool:
         """Whether everything holds."""
         return self.outcome is CheckOutcome.PASSED
+
+    def __str__(self) -> str:
+        return "\n".join(self._lines())
+
+    __repr__ = __str__
+
+    def _lines(self) -> Iterator[str]:
+        name = printable(self.source.name)
+        if self.passed:
+            yield f"passed  {name}  ({self.checks} checks)"
+            return
+        yield f"FAILED  {name}  ({self.outcome.value})"
+        for line in render(self.source, self.diagnostics).splitlines():
+            yield f"    {line}"
+        for finding in self.findings:
+            yield f"    {place(self, finding)}: {finding.outcome.value}: {finding.subject}"
+            yield f"        {printable(finding.message)}"
+
+
+def place(report: Report, finding: Finding) -> str:
+    """`file:line:column` of the expectation, or the file alone."""
+    name = printable(report.source.name)
+    if finding.span == NOWHERE:
+        return name
+    return f"{name}:{finding.span.line}:{finding.span.column}"

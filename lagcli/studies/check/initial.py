@@ -17,22 +17,11 @@ def initial_mistakes(problem: Problem) -> tuple[Diagnostic, ...]:
     """What a run would refuse of `initial`; nothing where values of parameters are missing."""
     if not (problem.initial and problem.constraints):
         return ()
-    from lagcli.numerics.equations.arithmetic import Doubles
-    from lagcli.numerics.equations.constants import constants_of
-    from lagcli.numerics.equations.contact import with_contacts
-    from lagcli.numerics.equations.equations import Equations
-    from lagcli.numerics.equations.motion import Motion
     from lagcli.numerics.equations.refusal import Refusal
-    from lagcli.numerics.equations.start import OffConstraints, initial_state
+    from lagcli.numerics.equations.start import OffConstraints, completed_state
 
     try:
-        e = Equations(with_contacts(problem))
-        if problem.contacts:
-            e = e.holding(frozenset(range(len(problem.constraints))))
-        entries = [entry for row in (*e.mass, *e.rows) for entry in row]
-        given = map(e.form.read, problem.initial.values())
-        needed = [*entries, *e.bias, *e.positions, *e.rates, *given]
-        initial_state(Motion(e, constants_of(e, needed, Doubles()), Doubles()))
+        completed_state(problem)
     except OffConstraints as refusal:
         return () if _as_written(problem, refusal.nearest) else refusal.diagnostics
     except Refusal:

@@ -10,8 +10,7 @@ from collections.abc import Iterable, Iterator
 from xml.sax.saxutils import escape, quoteattr
 
 from lagcli.diagnostics import render as render_diagnostics
-from lagcli.studies.check.findings import CheckOutcome, Report
-from lagcli.studies.check.reports.text import place
+from lagcli.studies.check.findings import CheckOutcome, Report, place
 
 #: What XML 1.0 cannot hold, even escaped.
 _FORBIDDEN = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
