@@ -6,20 +6,19 @@ from collections.abc import Iterable
 from fractions import Fraction
 
 import sympy
-from sympy import Add, Expr, Mul, Pow, Rational, Symbol
+from sympy import Expr, Pow
 
 from lagcli.algebra.build import CIRCULAR, UNREAL, without_jumps
-from lagcli.algebra.field import Element, FractionField, Generator
-from lagcli.algebra.integral import DefiniteIntegral
+from lagcli.algebra.field import Element
+from lagcli.algebra.generators import ExpressionField
 from lagcli.algebra.multiples import Multiples
-from lagcli.algebra.ring import Poly
-from lagcli.algebra.roots import absolute, make_radical, rational_power, sign
+from lagcli.algebra.roots import absolute, rational_power, sign
 
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 _MAX_EXPONENT = 200
 
 
-class Field(FractionField):
+class Field(ExpressionField):
     """The field over Q that holds the expressions put into it.
 
     Parameters
@@ -43,17 +42,15 @@ class Field(FractionField):
 
     def __init__(self, expressions: Iterable[Expr] = (), *, alone: bool = False) -> None:
         expressions = list(expressions)
-        self.alone = alone
         symbols = {s for e in expressions for s in e.free_symbols}
-        super().__init__(capacity=len(symbols) + 4)
-        self._numbers: dict[Expr, int] = {}  # expression of a generator -> its number
+        super().__init__(capacity=len(symbols) + 4, alone=alone)
         self._memo: dict[Expr, Element] = {}
         self._powers: dict[Expr, Multiples] = {}
         self.circular = Multiples(self, "circular")
         self.hyperbolic = Multiples(self, "hyperbolic")
         self.exponential = Multiples(self, "exp")
         for each in sorted(symbols, key=lambda s: s.name):
-            self._atom(each)
+            self.atom(each)
         self.prepare(expressions)
 
     def prepare(self, expressions: Iterable[Expr]) -> None:
@@ -89,7 +86,7 @@ class Field(FractionField):
 
     def _enter(self, node: Expr) -> Element:
         if node.is_Symbol:
-            return self._atom(node)
+            return self.atom(node)
         if node.is_Rational:
             return self.rational(Fraction(int(node.p), int(node.q)))
         if node.is_Add:
@@ -106,7 +103,7 @@ class Field(FractionField):
             return self._function(node)
         if node in (sympy.zoo, sympy.nan, sympy.oo, -sympy.oo):
             raise ZeroDivisionError
-        return self._atom(node)
+        return self.atom(node)
 
     def _product(self, node: Expr) -> Element:
         above, below = self.ring.one, self.ring.one
@@ -179,72 +176,3 @@ class Field(FractionField):
         value = node.func(*[self.to_sympy(self(a)) for a in node.args])
         # SymPy may have evaluated the function of the normalized arguments
         return self.opaque(value) if value.func is node.func else self(value)
-
-    def _atom(self, expression: Expr) -> Element:
-        number = self._numbers.get(expression)
-        if number is None:
-            kind = "symbol" if expression.is_Symbol else "opaque"
-            nonnegative = bool(expression.is_nonnegative)
-            number = self.add_generator(Generator(kind, expression, nonnegative=nonnegative))
-            self._numbers[expression] = number
-            if expression is sympy.I:
-                self.ring.rule(number, 2, -self.ring.one)
-        return self.generator(number)
-
-    def opaque(self, expression: Expr) -> Element:
-        """The generator of an expression that the field does not look into."""
-        if expression not in self._numbers:
-            if isinstance(expression, DefiniteIntegral):
-                self.doubtful = True  # it may be elementary
-            undefined = isinstance(expression, sympy.core.function.AppliedUndef)
-            if not undefined and any(
-                g.kind == "opaque" and g.expression.args for g in self.generators
-            ):
-                self.doubtful = True
-        return self._atom(expression)
-
-    def modulus(self, factor: Poly) -> Element:
-        """The generator |factor|, with |factor|² = factor²."""
-        expression = sympy.Abs(self.to_sympy(self.polynomial(factor)))
-        if expression not in self._numbers:
-            number = self.add_generator(Generator("abs", expression, nonnegative=True))
-            self._numbers[expression] = number
-            self.ring.rule(number, 2, self.ring.lift(factor) ** 2)
-            self.doubtful = True
-        return self.generator(self._numbers[expression])
-
-    def signum(self, factor: Poly) -> Element:
-        """The generator s = sign(f), with s*f = |f|, s*|f| = f and s³ = s, at f = 0 too."""
-        expression = sympy.sign(self.to_sympy(self.polynomial(factor)))
-        if expression not in self._numbers:
-            size = self.modulus(factor).numerator
-            number = self.add_generator(Generator("sign", expression))
-            self._numbers[expression] = number
-            one = self.ring.generator(number)
-            for other, value in ((factor, size), (size, factor), (one**2, one)):
-                self.ring.rule_of_product(number, other, value)
-            self.doubtful = True
-        return self.generator(self._numbers[expression])
-
-    def radical(self, radicand: Poly, index: int) -> Element:
-        """The generator radicand^(1/index)."""
-        return make_radical(self, radicand, index)
-
-    def to_sympy(self, element: Element) -> Expr:
-        """The SymPy expression numerator / denominator, both expanded."""
-        above = self.polynomial_to_sympy(element.numerator)
-        if element.denominator == 1:
-            return above
-        return Mul(above, Pow(self.polynomial_to_sympy(element.denominator), -1))
-
-    def polynomial_to_sympy(self, poly: Poly) -> Expr:
-        """The SymPy expression of a polynomial, expanded."""
-        terms = []
-        for monomial, coefficient in self.ring.terms(poly):
-            factors = [Pow(self.generators[g].expression, e) for g, e in monomial]
-            terms.append(Mul(Rational(coefficient), *factors))
-        return Add(*terms)
-
-    def number_of(self, symbol: Symbol) -> int | None:
-        """The generator of a symbol, None when it does not occur."""
-        return self._numbers.get(symbol)

@@ -11,15 +11,12 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from functools import cached_property, reduce
 from math import lcm
-from typing import TYPE_CHECKING
 
 import sympy
 from sympy import Expr
 
 from lagcli.algebra.field import Element, Generator
-
-if TYPE_CHECKING:
-    from lagcli.algebra.entry import Field
+from lagcli.algebra.generators import ExpressionField
 
 #: Beyond these, an argument is a base argument of its own.
 MAX_MULTIPLE = 10
@@ -31,7 +28,7 @@ _INVERSE = (
 )  # fmt: skip
 
 
-def split(field: Field, argument: Expr) -> list[tuple[Fraction, Expr]]:
+def split(field: ExpressionField, argument: Expr) -> list[tuple[Fraction, Expr]]:
     """The argument as a sum of rational multiples of base arguments (1 for a number)."""
     if argument.is_Symbol:
         return [(Fraction(1), argument)]
@@ -59,7 +56,7 @@ class Multiples:
         circular, hyperbolic, exp or power.
     """
 
-    def __init__(self, field: Field, kind: str, base: Expr | None = None) -> None:
+    def __init__(self, field: ExpressionField, kind: str, base: Expr | None = None) -> None:
         self.field = field
         self.kind = kind
         self.base = base  # of a power

@@ -8,11 +8,11 @@ together.  sqrt(N/D) = sqrt(N*D)/|D|.
 from __future__ import annotations
 
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 import sympy
 
 from lagcli.algebra.field import Element, Generator
+from lagcli.algebra.generators import ExpressionField
 from lagcli.algebra.half_angles import (
     angles_of,
     degree_in_angle,
@@ -21,15 +21,12 @@ from lagcli.algebra.half_angles import (
 )
 from lagcli.algebra.ring import Poly, factorization
 
-if TYPE_CHECKING:
-    from lagcli.algebra.entry import Field
-
 _MOST_ANGLES = 5  # beyond, and at higher degrees, no square is looked for in half angles
 _HIGHEST = 8
 _MAX_FACTORED = 10**24  # larger integers under a root are not factored
 
 
-def is_nonnegative(field: Field, poly: Poly) -> bool:
+def is_nonnegative(field: ExpressionField, poly: Poly) -> bool:
     """Whether the assumptions show at once that the polynomial is >= 0."""
     for monomial, coefficient in field.ring.terms(poly):
         if coefficient < 0:
@@ -39,12 +36,12 @@ def is_nonnegative(field: Field, poly: Poly) -> bool:
     return True
 
 
-def absolute(field: Field, element: Element) -> Element:
+def absolute(field: ExpressionField, element: Element) -> Element:
     """|element|, factor by factor."""
     return _absolute(field, element.numerator) / _absolute(field, element.denominator)
 
 
-def _absolute(field: Field, poly: Poly) -> Element:
+def _absolute(field: ExpressionField, poly: Poly) -> Element:
     content, factors = factorization(poly)
     result = field.rational(abs(int(content)))
     for factor, exponent in factors:
@@ -57,12 +54,12 @@ def _absolute(field: Field, poly: Poly) -> Element:
     return result
 
 
-def sign(field: Field, element: Element) -> Element:
+def sign(field: ExpressionField, element: Element) -> Element:
     """sign(element), factor by factor."""
     return _sign(field, element.numerator) * _sign(field, element.denominator)
 
 
-def _sign(field: Field, poly: Poly) -> Element:
+def _sign(field: ExpressionField, poly: Poly) -> Element:
     if poly == 0:
         return field.rational(0)
     content, factors = factorization(poly)
@@ -76,7 +73,7 @@ def _sign(field: Field, poly: Poly) -> Element:
     return result
 
 
-def rational_power(field: Field, base: Element, exponent: Fraction) -> Element:
+def rational_power(field: ExpressionField, base: Element, exponent: Fraction) -> Element:
     """base^exponent."""
     if exponent.denominator == 1:
         return base**exponent.numerator
@@ -86,7 +83,7 @@ def rational_power(field: Field, base: Element, exponent: Fraction) -> Element:
     return root**exponent.numerator
 
 
-def _root(field: Field, base: Element, index: int) -> Element:
+def _root(field: ExpressionField, base: Element, index: int) -> Element:
     above, below = base.numerator, base.denominator
     if below == 1 or is_nonnegative(field, below):
         # (N/D)^(1/q) = (N D^(q-1))^(1/q) / D for D >= 0
@@ -99,7 +96,7 @@ def _root(field: Field, base: Element, index: int) -> Element:
     return field.opaque(sympy.Pow(field.to_sympy(base), sympy.Rational(1, index)))
 
 
-def _note_scale(field: Field, above: Poly, below: Poly) -> None:
+def _note_scale(field: ExpressionField, above: Poly, below: Poly) -> None:
     """Remember that sqrt(above/d²) was used: it may read better than sqrt(above)/d.
 
     Only for d >= 0: it is sqrt(above)/|d| otherwise.
@@ -118,7 +115,7 @@ def _note_scale(field: Field, above: Poly, below: Poly) -> None:
             field.root_scales[number] = scale
 
 
-def _polynomial_root(field: Field, radicand: Poly, index: int) -> Element:
+def _polynomial_root(field: ExpressionField, radicand: Poly, index: int) -> Element:
     ring = field.ring
     square = _hidden_square(field, radicand) if index == 2 else None
     if square is not None:
@@ -134,7 +131,7 @@ def _polynomial_root(field: Field, radicand: Poly, index: int) -> Element:
         if is_nonnegative(field, factor):
             result = result * field.polynomial(factor) ** whole
             if rest:
-                result = result * field.radical(factor, index) ** rest
+                result = result * _radical(field, factor, index) ** rest
         elif index == 2:
             base = field.polynomial(factor)
             result = result * (base if whole % 2 == 0 else absolute(field, base)) ** whole
@@ -142,11 +139,11 @@ def _polynomial_root(field: Field, radicand: Poly, index: int) -> Element:
         else:
             together = together * factor**exponent
     if together != 1:
-        result = result * field.radical(together, index)
+        result = result * _radical(field, together, index)
     return result
 
 
-def _integer_root(field: Field, number: int, index: int) -> Element:
+def _integer_root(field: ExpressionField, number: int, index: int) -> Element:
     result = field.rational(1)
     if number == 1:
         return result
@@ -155,16 +152,16 @@ def _integer_root(field: Field, number: int, index: int) -> Element:
         whole, rest = divmod(exponent, index)
         result = result * field.rational(int(prime) ** whole)
         if rest:
-            result = result * field.radical(field.ring.constant(int(prime)), index) ** rest
+            result = result * _radical(field, field.ring.constant(int(prime)), index) ** rest
     return result
 
 
-def _hidden_square(field: Field, radicand: Poly) -> Element | None:
+def _hidden_square(field: ExpressionField, radicand: Poly) -> Element | None:
     """The square root modulo sin² + cos² = 1: 1 − cos² is a square though it factors."""
     return _square_of_one_angle(field, radicand) or _square_in_half_angles(field, radicand)
 
 
-def _square_in_half_angles(field: Field, radicand: Poly) -> Element | None:
+def _square_in_half_angles(field: ExpressionField, radicand: Poly) -> Element | None:
     """The square root of 1 − cos²(a + b), which is one of a polynomial in tan(a/2), tan(b/2)."""
     radicand = field.ring.lift(radicand)
     angles = angles_of(field, radicand)
@@ -186,7 +183,7 @@ def _square_in_half_angles(field: Field, radicand: Poly) -> Element | None:
     return _integer_root(field, int(content), 2) * field.polynomial(root) * scale
 
 
-def _square_of_one_angle(field: Field, radicand: Poly) -> Element | None:
+def _square_of_one_angle(field: ExpressionField, radicand: Poly) -> Element | None:
     ring = field.ring
     radicand = ring.lift(radicand)
     for index in ring.used(radicand):
@@ -208,7 +205,7 @@ def _square_of_one_angle(field: Field, radicand: Poly) -> Element | None:
     return None
 
 
-def substitute_square(field: Field, poly: Poly, index: int, value: Poly) -> Poly:
+def substitute_square(field: ExpressionField, poly: Poly, index: int, value: Poly) -> Poly:
     """The polynomial with g_index² replaced by value."""
     ring = field.ring
     poly = ring.lift(poly)
@@ -218,7 +215,7 @@ def substitute_square(field: Field, poly: Poly, index: int, value: Poly) -> Poly
     return result
 
 
-def make_radical(field: Field, radicand: Poly, index: int) -> Element:
+def _radical(field: ExpressionField, radicand: Poly, index: int) -> Element:
     """The generator s with s^index = radicand, made when it is new."""
     ring = field.ring
     radicand = ring.lift(radicand)

@@ -9,6 +9,7 @@ from lagcli.problem_data import Problem
 
 if TYPE_CHECKING:  # a large system is stated without SymPy, which these import
     from lagcli.mechanics.discovery.discovery import Discovery
+    from lagcli.mechanics.discovery.special import SpecialCase
     from lagcli.mechanics.dynamics import Dynamics
     from lagcli.mechanics.energy import EnergyFunction
     from lagcli.mechanics.hamiltonian import GivenHamiltonian, Hamiltonian
@@ -118,3 +119,10 @@ class Derivation:
         from lagcli.mechanics.discovery.discovery import Discovery
 
         return Discovery(self.noether)
+
+    @cached_property
+    def special_cases(self) -> tuple[SpecialCase, ...]:
+        """Values of parameters at which there are more charges, with these."""
+        from lagcli.mechanics.discovery.special_search import special_cases
+
+        return special_cases(self.discovery, lambda problem: Derivation(problem).discovery)

@@ -48,7 +48,7 @@ def derive(statements: Statements) -> AlgebraSection | None:
             number=case.number,
             charges={c.name: statements.by_terms(c.charge) for c in case.charges},
         )
-        for case in discovery.special
+        for case in statements.derivation.special_cases
     )
     section = algebra_section(discovery, found, lambda: _separates(statements))
     return replace(section, special=special)

@@ -15,7 +15,6 @@ from typing import Literal, NamedTuple
 
 from lagcli import expression as tree
 from lagcli.expression import FUNCTIONS, Expression
-from lagcli.verification import integrals
 
 Kind = Literal["number", "symbol", "sum", "product", "power", "call", "unspecified", "integral"]
 #: A name with its primes.
@@ -135,7 +134,7 @@ class VerificationProgram:
             case tree.Power(base=base, exponent=exponent):
                 return self._power(self.of(base), self.of(exponent))
             case tree.Call(function="integral") if "integral" not in self.functions:
-                return integrals.integral(self, node.arguments)
+                return self._integral(node.arguments)
             case tree.Call(function=function, arguments=arguments, primes=primes):
                 parts = tuple(map(self.of, arguments))
                 if function in self.functions:
@@ -150,6 +149,22 @@ class VerificationProgram:
                 symbol = self.symbol(variable.name, variable.primes)
                 return self.derivative(self.of(operand), {symbol: self.one})
         raise TypeError(f"{type(node).__name__} has no value")
+
+    def _integral(self, arguments: tuple[Expression, ...]) -> int:
+        """`integral(f, x, a, b)`; inside, x is a symbol that nothing else is."""
+        integrand, variable, start, end = arguments
+        assert isinstance(variable, tree.Name)
+        inner = self.symbol(f"{variable.name}~", variable.primes)
+        with self.standing_for(variable.name, inner):
+            inside = self.of(integrand)
+        return self._integral_of(inner, inside, self.of(start), self.of(end))
+
+    def _integral_of(self, inner: int, inside: int, start: int, end: int) -> int:
+        """The integral of a step by a symbol."""
+        if inside == self.zero:
+            return self.zero
+        outer = [p for p in self.order([inside]) if self.steps[p].kind == "symbol" and p != inner]
+        return self.step("integral", (inner, inside), (start, end, *outer))
 
     def define(self, name: str, place: int) -> None:
         """Let a name stand for a step."""
@@ -238,9 +253,32 @@ class VerificationProgram:
             case "call":
                 return list(zip(parts, _SLOPES[str(what)](self, place, *parts), strict=True))
             case "integral":
-                return integrals.slopes(self, place)
+                return self._slopes_of_integral(place)
             case _:
                 return []
+
+    def _slopes_of_integral(self, place: int) -> list[tuple[int, int]]:
+        """d of the integral of f from a to b = f(b) db - f(a) da + the integral of df (Leibniz)."""
+        _, what, (start, end, *outer) = self.steps[place]
+        inner, inside = what  # type: ignore[misc]
+        found = [
+            (start, self.negative(self._substituted(inside, inner, start))),  # type: ignore[has-type]
+            (end, self._substituted(inside, inner, end)),  # type: ignore[has-type]
+        ]
+        for symbol in outer:
+            slope = self.derivative(inside, self.seeds(inside, symbol))  # type: ignore[has-type]
+            found.append((symbol, self._integral_of(inner, slope, start, end)))  # type: ignore[has-type]
+        return found
+
+    def _substituted(self, root: int, old: int, new: int) -> int:
+        """The step with one step in the place of another."""
+        known = {old: new}
+        for place in self.order([root]):
+            if place not in known:
+                kind, what, parts = self.steps[place]
+                moved = tuple(known[part] for part in parts)
+                known[place] = place if moved == parts else self.step(kind, what, moved)
+        return known[root]
 
     def seeds(self, root: int, symbol: int) -> dict[int, int]:
         """1 for one symbol, 0 for the other ones that a step needs."""

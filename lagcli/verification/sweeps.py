@@ -14,8 +14,8 @@ from typing import Protocol
 from flint import arb
 
 from lagcli.verification.functions import ELEMENTARY, Instance, ball, power
-from lagcli.verification.integrals import quadrature
 from lagcli.verification.program import Key, VerificationProgram
+from lagcli.verification.quadrature import quadrature
 
 
 class Environment(Protocol):

@@ -97,7 +97,7 @@ SPECIAL = {
 @pytest.mark.long
 @pytest.mark.parametrize("name", SPECIAL)
 def test_special_parameters_are_told_with_the_charges_they_add(name):
-    cases = {(c.parameter.name, str(c.value)): c for c in derived(name).discovery.special}
+    cases = {(c.parameter.name, str(c.value)): c for c in derived(name).special_cases}
     assert set(SPECIAL[name]) == set(cases)
     for key, (number, names) in SPECIAL[name].items():
         assert cases[key].number == number
@@ -126,7 +126,7 @@ def test_special_parameters_are_told_with_the_charges_they_add(name):
 )  # fmt: skip
 def test_special_values_of_other_systems(parameters, coordinates, L, value, number, names):
     text = f"coordinates: {coordinates}\nparameters: {parameters}\nL: {L}\n"
-    cases = derive(text.replace("POS", "{assume: positive}")).discovery.special
+    cases = derive(text.replace("POS", "{assume: positive}")).special_cases
     [case] = [c for c in cases if (c.parameter.name, str(c.value)) == value]
     assert case.number == number
     assert set(names.split()) <= {c.name for c in case.charges}

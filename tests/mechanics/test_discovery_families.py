@@ -184,7 +184,7 @@ V: {V.replace("R", R).replace("kexp", "k*exp")}
 )  # fmt: skip
 def test_special_values_are_those_of_the_family(parameters, coordinates, L, values):
     text = f"{{parameters: {parameters}, coordinates: {coordinates}, L: {L}}}"
-    cases = derive(text.replace("POS", POS)).discovery.special
+    cases = derive(text.replace("POS", POS)).special_cases
     assert set(values.split()) <= {f"{c.parameter}={c.value}" for c in cases}
 
 
@@ -228,7 +228,7 @@ def test_lane_and_emden_have_special_indices():
     """Chandrasekhar, *Stellar Structure*, chapter IV: 0, 1 and 5 in closed form."""
     text = (f"{{parameters: {{n: {{}}}}, coordinates: {{x: {POS}}}, "
             "L: t^2*(x'^2/2 - x^(n + 1)/(n + 1))}")  # fmt: skip
-    cases = {str(c.value): c.number for c in derive(text).discovery.special}
+    cases = {str(c.value): c.number for c in derive(text).special_cases}
     assert cases == {"0": 5, "1": 5, "5": 1}
 
 

@@ -43,7 +43,7 @@ def test_plane_waves_have_a_heisenberg_algebra(L, coordinates, number, independe
 def test_a_number_is_no_special_strength_of_a_plane_wave():
     """With sin(u) in the ansatz alone a = 1 had two charges that every a has with sin(sqrt(a) u)."""
     derivation = derive(problem("u'*v' + x'^2/2 - a*u'^2*x^2/2", "[u, v, x]", "a"))
-    assert derivation.discovery.special == ()
+    assert derivation.special_cases == ()
 
 
 @pytest.mark.parametrize(

@@ -192,7 +192,7 @@ def test_equal_axes_under_constraints_are_special(name):
     constraint, more, expected = SURFACES[name]
     letters = [p for p in "abc" if p in constraint + more]
     text = text_of("xyz", f"{kinetic('xyz')}{more}", " ".join(letters), constraint)
-    special = derive(text).discovery.special
+    special = derive(text).special_cases
     found = {f"{s.parameter} = {s.value}": " ".join(c.name for c in s.charges) for s in special}
     assert found == expected
 
@@ -201,6 +201,6 @@ def test_equal_axes_under_constraints_are_special(name):
 def test_each_pair_of_equal_moments_makes_a_top_symmetric():
     L = ("A*(u'*sin(v)*sin(w) + v'*cos(w))^2/2 + B*(u'*sin(v)*cos(w) - v'*sin(w))^2/2"
          " + C*(w' + u'*cos(v))^2/2")  # fmt: skip
-    special = derive(text_of("uvw", L, "A B C")).discovery.special
+    special = derive(text_of("uvw", L, "A B C")).special_cases
     assert {f"{s.parameter} = {s.value}" for s in special} == {"B = A", "C = A", "C = B"}
     assert [s.number for s in special] == [5, 5, 5]

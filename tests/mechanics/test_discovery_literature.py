@@ -180,5 +180,5 @@ def test_three_frequencies_are_special_where_one_is_the_sum_or_the_difference_of
     """Jauch and Hill, Phys. Rev. 57 (1940) 641: commensurate frequencies have integrals of their own."""
     V = "(a*x^2 + b*y^2 + c*z^2)/2"
     derivation = derive(problem(f"m*(x'^2 + y'^2 + z'^2)/2 - {V}", "[x, y, z]", "m a b c"))
-    cases = {str(c.value): len(c.charges) for c in derivation.discovery.special}
+    cases = {str(c.value): len(c.charges) for c in derivation.special_cases}
     assert cases["(sqrt(a) - sqrt(b))**2"] == cases["(sqrt(a) + sqrt(b))**2"] == 1

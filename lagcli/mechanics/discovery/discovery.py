@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
-from functools import cached_property
 
 import sympy
 from sympy import Expr
@@ -35,8 +34,6 @@ from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.setting import Setting
 from lagcli.mechanics.discovery.slots import point_slots
-from lagcli.mechanics.discovery.special import SpecialCase
-from lagcli.mechanics.discovery.special_search import special_cases
 from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
@@ -167,11 +164,6 @@ class Discovery(Setting):
     def _transformations(self, search: Search) -> list[Transformation]:
         constants = set(self.system.parameters)
         return [point.transformation_of(search, s, constants) for s in search.solutions()]
-
-    @cached_property
-    def special(self) -> tuple[SpecialCase, ...]:
-        """Values of parameters at which there are more charges, with these."""
-        return special_cases(self)
 
     def _hidden(self) -> None:
         if len(self.system.q) < 2 or not self.quadratic_mass or not self.canonical:

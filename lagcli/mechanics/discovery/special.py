@@ -32,7 +32,7 @@ from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.spectrum import Exponent
-from lagcli.mechanics.discovery.surface import relations_on_surface
+from lagcli.mechanics.discovery.surface import independent_on_surface
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
@@ -80,36 +80,19 @@ def problem_at(problem: Problem, parameter: Symbol, value: Expr) -> Problem | No
 
 
 def new_charges(
-    known: Sequence[Expr],
-    found: Sequence[NoetherCharge],
-    variables: Sequence[Symbol],
-    allowed: Allowance,
+    known: Sequence[Expr], found: Sequence[NoetherCharge], dynamics: Dynamics, allowed: Allowance
 ) -> tuple[NoetherCharge, ...]:
-    """Those that are no combinations of the known ones, over the constants."""
-    vectors = [[x] for x in (*known, *(c.charge for c in found))]
+    """Those that are no combinations of the known ones, over the constants, on the constraints."""
+    system, charges = dynamics.system, [*known, *(c.charge for c in found)]
     try:
-        kept = Relation(vectors, variables, allowed).independent()
+        if dynamics.constraints.equations:
+            kept = independent_on_surface(charges, dynamics, allowed)
+        else:
+            variables = (system.t, *system.q, *system.qdot)
+            kept = Relation([[x] for x in charges], variables, allowed).independent()
     except (NoPoint, ZeroDivisionError):
         return ()
     return tuple(found[k - len(known)] for k in kept if k >= len(known))
-
-
-def new_on_surface(
-    known: Sequence[Expr],
-    found: Sequence[NoetherCharge],
-    dynamics: Dynamics,
-    allowed: Allowance,
-) -> tuple[NoetherCharge, ...]:
-    """Those that are no combinations of the known ones where the constraints hold."""
-    kept = [[x] for x in known]
-    new = []
-    for charge in found:
-        last = len(kept)
-        relations = relations_on_surface([*kept, [charge.charge]], dynamics, allowed)
-        if not any(last in relation for relation in relations):
-            kept.append([charge.charge])
-            new.append(charge)
-    return tuple(new)
 
 
 def exchanged(dynamics: Dynamics) -> list[Value]:

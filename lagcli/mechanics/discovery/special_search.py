@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Iterator, Sequence
 
 import sympy
 from sympy import Expr, Symbol
@@ -11,6 +10,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra.build import free_of
 from lagcli.diagnostics import ProblemError
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unknowns
+from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.discovery.modular import NoPoint
@@ -25,13 +25,10 @@ from lagcli.mechanics.discovery.special import (
     exchanged,
     linear_powers,
     new_charges,
-    new_on_surface,
     problem_at,
 )
 from lagcli.mechanics.discovery.spectrum import Exponent
-
-if TYPE_CHECKING:
-    from lagcli.mechanics.discovery.discovery import Discovery
+from lagcli.problem_data import Problem
 
 _MOST_COORDINATES = 4
 _UNITS = 56_000_000  # three frequencies: 11 values take 45 million
@@ -43,8 +40,10 @@ _NOT_TRIED = "not all special values of the parameters were tried"
 _NOT_ALL = "not all special values of the parameters were sought"
 
 
-def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
-    """One parameter at a time."""
+def special_cases(
+    discovery: Discovery, search: Callable[[Problem], Discovery]
+) -> tuple[SpecialCase, ...]:
+    """One parameter at a time; `search` makes the same search for another problem."""
     system = discovery.system
     if discovery.unsearched:
         return ()
@@ -68,7 +67,7 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
             if sympy.count_ops(value) > _MOST_OPERATIONS:
                 discovery.words.append(_NOT_TRIED)
                 continue
-            there = _at(discovery, parameter, value)
+            there = _at(discovery, parameter, value, search)
             allowed.check()
             if there is None or not _has_more(there, discovery):
                 continue
@@ -78,11 +77,7 @@ def special_cases(discovery: Discovery) -> tuple[SpecialCase, ...]:
                     _at_value(c.charge, (parameter, value), variables), c.charge
                 )
             ]  # fmt: skip
-            charges = (
-                new_on_surface(known, there.charges, there.dynamics, allowed)
-                if there.dynamics.constraints.equations
-                else new_charges(known, there.charges, variables, allowed)
-            )
+            charges = new_charges(known, there.charges, there.dynamics, allowed)
             if charges:
                 found.append(SpecialCase(parameter, value, len(there.charges), charges))
     except TooMuchWork:
@@ -131,13 +126,13 @@ def _exponents(discovery: Discovery) -> tuple[Exponent, ...]:
     return discovery.time_functions.exponents
 
 
-def _at(discovery: Discovery, parameter: Symbol, value: Expr) -> Discovery | None:
+def _at(
+    discovery: Discovery, parameter: Symbol, value: Expr, search: Callable[[Problem], Discovery]
+) -> Discovery | None:
     """The same search with a value in place of a parameter."""
-    from lagcli.mechanics.derivation import Derivation
-
     problem = problem_at(discovery.system.problem, parameter, value)
     try:
-        return None if problem is None else Derivation(problem).discovery
+        return None if problem is None else search(problem)
     except (ProblemError, ZeroDivisionError):
         return None
 
