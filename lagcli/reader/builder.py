@@ -31,7 +31,6 @@ from lagcli.expression import (
     terms_of,
 )
 from lagcli.problem_data import Comparison, Inequality
-from lagcli.reader.habits import fraction
 from lagcli.reader.limits import NUMBER_DIGITS, thousands
 from lagcli.reader.text import Mistake
 from lagcli.record import replace
@@ -220,7 +219,7 @@ def _split_name(token: Token) -> tuple[str, int]:
     letters = written.rstrip("".join(_PRIME_COUNT))
     primes = sum(_PRIME_COUNT[prime] for prime in written[len(letters) :])
     name = unicodedata.normalize("NFC", letters)
-    for place, character in enumerate(name):
+    for character in name:
         if (
             character != "_"
             and unicodedata.category(character)[0] != "L"
@@ -229,21 +228,5 @@ def _split_name(token: Token) -> tuple[str, int]:
             raise mistake(
                 f"a name has letters, digits and underscores, not '{character}'",
                 span_of(token),
-                _advice(name[:place], character),
             )
     return name, primes
-
-
-def _advice(before: str, character: str) -> str:
-    """What to write instead of a superscript, a subscript or an accent."""
-    if fraction(character):
-        return f"write {before}{fraction(character)}"
-    plain = unicodedata.normalize("NFKC", character)
-    decomposition = unicodedata.decomposition(character)
-    if decomposition.startswith("<super>"):
-        return f"write {before}^{plain}"
-    if decomposition.startswith("<sub>"):
-        return f"write {before}_{plain}"
-    if character == "\u0307":
-        return f"write {before[:-1]}{before[-1:]}' for the velocity"
-    return ""

@@ -313,13 +313,15 @@ class FileReader:
 
     def name(self, node: DocumentNode, what: str, role: Role) -> Name | None:
         """A single name with its primes, such as `x'`."""
+        mistakes = len(self.diagnostics)
         expression = self._read(node, what, read_expression)
-        if expression is None:
-            return None
-        if not isinstance(expression, Name):
+        if isinstance(expression, Name):
+            self._check_names(expression, role, what)
+        elif expression is not None:
             self.error(f"{what} must be a name", node.span)
-            return None
-        return expression if self._check_names(expression, role, what) else None
+        self._say_in_all(node, what, role, read_expression, mistakes)
+        right = len(self.diagnostics) == mistakes
+        return expression if right and isinstance(expression, Name) else None
 
     def _read(self, node: DocumentNode, what: str, read: Callable[[Excerpt], _T]) -> _T | None:
         if not isinstance(node, Scalar):

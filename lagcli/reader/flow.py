@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.reader.habits import function_meant
 from lagcli.reader.misshapen import as_list
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 
@@ -60,8 +59,6 @@ def _mend(
             hint = f"write a list as {as_list(one)}" if is_list else f'put it in quotes: "{one}"'
             if pair := re.fullmatch(r"\(\s*['\"](\w+)['\"]\s*,\s*([\d.]+)\s*\)", one):
                 hint = f"write {pair[1]}: {pair[2]}, with braces {{ }} around all"
-            for name, inside in re.findall(r"(\w+)\(([^()]*)\)", one):
-                hint = function_meant(name, [each.strip() for each in inside.split(",")]) or hint
             message = "inside { } and [ ] a comma ends the value"
             mistakes.append(Diagnostic(message, first.text.span(first.start, end), hint))
             if isinstance(first, Scalar):

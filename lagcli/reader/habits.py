@@ -9,12 +9,10 @@ from __future__ import annotations
 import json
 import re
 import unicodedata
-from collections.abc import Collection
 from functools import cache
 from pathlib import Path
 from typing import Any, get_args
 
-from lagcli.expression import FUNCTIONS
 from lagcli.problem_data import Assumption
 
 #: Keys whose value is a map or a list.
@@ -49,11 +47,20 @@ _WITH_UNIT = re.compile(
 _TYPES = frozenset("Real real float double int Integer parameter const var let symbol".split())
 _ANGLES = frozenset("theta phi psi alpha beta gamma varphi angle θ φ ϕ ψ α β γ".split())
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
-IN_FULL = {
+RATES = frozenset("Derivative derivative D ddt dt Dt der deriv diff dot".split())
+POWERS = frozenset("pow power Pow Power".split())
+SQUARES = frozenset("square sqr sq".split())
+FOREIGN = RATES | POWERS | SQUARES | {"norm", "hypot", "Subscript"}
+#: Functions of other programs for which there is no formula here, and what is done instead.
+INSTEAD = {
+    **dict.fromkeys(CASES, CASE),
     **dict.fromkeys(("integrate", "Integral", "int", "integral"), "write the antiderivative"),
     **dict.fromkeys(("sum", "Sum", "prod", "Product"), "write each term"),
     **dict.fromkeys(("dot", "norm", "cross"), "write the sum over the components"),
     **dict.fromkeys(("grad", "gradient", "nabla"), "a force that V has is found from V"),
+    **dict.fromkeys(("Eq", "Equality"), "write left = right"),
+    "max": "compare two at a time: max(a, b) is (a + b + abs(a - b))/2",
+    "min": "compare two at a time: min(a, b) is (a + b - abs(a - b))/2",
 }  # fmt: skip
 _VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "⅛": "1/8"}
 
@@ -213,16 +220,6 @@ def unit_at_end(text: str) -> str:
     return found[1] if found and unit_behind(f"1 {found[1]}") == found[1] else ""
 
 
-def product_meant(name: str, known: Collection[str]) -> str:
-    """`m*g*y` for mgy, where each factor is a known name; nothing where one is not."""
-    if name in known:
-        return name
-    for end in range(len(name) - 1, 0, -1):
-        if name[:end] in known and (rest := product_meant(name[end:], known)):
-            return f"{name[:end]}*{rest}"
-    return ""
-
-
 def superscript(text: str) -> str:
     """The power that raised digits mean: `^2` for `²`; nothing for other characters."""
     digits = [str(_SUPERSCRIPTS.index(c)) for c in text if c in _SUPERSCRIPTS]
@@ -234,78 +231,11 @@ def fraction(character: str) -> str:
     return _VULGAR.get(character, "")
 
 
-def function_meant(name: str, arguments: list[str]) -> str:
-    """What to write instead of a function of other programs."""
-    is_rate = name in {"Derivative", "derivative", "D", "ddt", "dt", "Dt", "der", "deriv"}
-    if (is_rate and arguments) or (name == "dot" and len(arguments) == 1):
-        x = arguments[0]
-        if arguments[2:] == ["2"] and _plain(x):
-            return f"the acceleration of {x} is {x}'': write {x}''"
-        return f"the velocity of {x} is {x}': write {x}'" if _plain(x) else ""
-    if name in {"pow", "power", "Pow"} and len(arguments) == 2:
-        return f"write {group(arguments[0])}^{group(arguments[1])}"
-    if name in {"Eq", "Equality"}:
-        return "write left = right"
-    if name in {"sq", "square"} and len(arguments) == 1:
-        return f"write {group(arguments[0])}^2"
-    if name in CASES:
-        return CASE
-    if name in {"norm", "hypot"} and arguments[1:]:
-        return "write sqrt(" + " + ".join(f"{group(each)}^2" for each in arguments) + ")"
-    if name in IN_FULL:
-        return IN_FULL[name]
-    written_out = habits()["written_out"].get(name, "")
-    if written_out and len(arguments) == written_out.count("{}"):
-        return f"write {written_out.format(*arguments)}"
-    if name in {"max", "min"} and len(arguments) == 2:
-        a, b = arguments
-        return f"write ({a} + {b} {'+' if name == 'max' else '-'} abs({a} - {b}))/2"
-    if name in {"max", "min"}:
-        two = f"(a + b {'+' if name == 'max' else '-'} abs(a - b))/2"
-        return f"compare two at a time: {name}(a, b) is {two}"
-    return ""
-
-
 def is_angle(name: str) -> bool:
     """Whether a name is that of an angle in most books."""
     return name.partition("_")[0] in _ANGLES
 
 
-def velocity_meant(name: str, coordinates: list[str]) -> str:
-    """`x'` for dx, x_t, xp, vx and the like, where x is a coordinate and no letter is lost."""
-    for coordinate in coordinates:
-        if name in {f"d{coordinate}", f"v{coordinate}", f"v_{coordinate}", f"{coordinate}p",
-                    f"{coordinate}_t", f"D{coordinate}", f"d_{coordinate}"}:  # fmt: skip
-            return f"the velocity of {coordinate} is {coordinate}'"
-        if name in {f"{coordinate}̇", _dotted(coordinate)}:
-            return f"write {coordinate}'"
-        if name in {f"a{coordinate}", f"dd{coordinate}", f"d2{coordinate}"}:
-            return f"the acceleration of {coordinate} is {coordinate}''"
-        stem, _, index = coordinate.partition("_")
-        if stem in _ANGLES and name.partition("_")[::2] in {(w, index) for w in ("omega", "ω")}:
-            velocity = f"the velocity of {coordinate} is {coordinate}'"
-            return f"{velocity}; for another {name}, declare it under 'parameters'"
-    return ""
-
-
-def called_meant(name: str, inside: str) -> str:
-    """What `Cos[theta[t]]` means: `cos(theta)`; nothing where the name is no function."""
-    inside = re.sub(r"(\w)[\[(]t[\])]", r"\1", inside)
-    arguments = [each.strip() for each in inside.split(",")]
-    usual = meanings("functions").get(name, name.casefold().replace("arc", "a"))
-    return function_meant(name, arguments) or (
-        f"write {usual}({', '.join(arguments)})" if usual in FUNCTIONS else ""
-    )
-
-
-def _dotted(letter: str) -> str:
-    return unicodedata.normalize("NFC", f"{letter}̇")
-
-
-def _plain(text: str) -> bool:
-    return re.fullmatch(r"\w+", text) is not None
-
-
-def group(text: str) -> str:
-    """A text as one factor: in parentheses unless it is a name."""
-    return text if re.fullmatch(r"\w+'*", text) else f"({text})"
+def foreign_function(name: str) -> bool:
+    """Whether it is a function of other programs that the format writes otherwise."""
+    return name in FOREIGN or name in habits()["written_out"]

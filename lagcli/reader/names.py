@@ -12,14 +12,13 @@ from lagcli.expression import (
     Diff,
     Expression,
     Name,
-    Number,
     PartialCall,
     Quotient,
     walk,
 )
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
-from lagcli.reader.habits import IN_FULL, function_meant, meanings, product_meant, velocity_meant
+from lagcli.reader.habits import INSTEAD, foreign_function, meanings
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import alike, closest, did_you_mean
 from lagcli.reader.undeclared import COORDINATE, UNDECLARED
@@ -70,7 +69,7 @@ def name_mistakes(
                 yield from _name(node, scope, role, what, before)
             case Call():
                 yield from _call(node, scope, role, what)
-                if node.function in IN_FULL and node.function not in scope.kinds:
+                if node.function in INSTEAD and node.function not in scope.kinds:
                     covered |= {id(each) for each in walk(node)}
             case PartialCall():
                 yield from _partial_call(node, scope)
@@ -212,8 +211,6 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return "momenta are named p_" + ", p_".join(coordinates)
     if name in {"p", "P"} and role.order > 0:
         return _MOMENTA
-    if role.order > 0 and velocity_meant(name, coordinates):
-        return velocity_meant(name, coordinates)
     if name.casefold() in {"inf", "infinity", "oo"}:
         return "there is no infinity"
     if not role.parameters and not role.definitions and role.order < 0:
@@ -221,8 +218,6 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     for function in FUNCTIONS:
         if inner := name.startswith(function) and alike(name[len(function) :], scope.usable(role)):
             return f"write {function}({inner})"
-    if product := len(name) < 9 and product_meant(name, scope.usable(role)):
-        return "did you mean " + product + "'" * primes + "?"
     if what.startswith("the symmetry") and name in {"eps", "epsilon", "ε", "s", "a", "delta"}:
         return "the value is the change by itself: write x: 1 for x → x + ε"
     if what.startswith("the constraint") and name in {"lambda", "λ", "lam"}:
@@ -277,22 +272,12 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         if scope.kinds.get(name) == "coordinate" and node.arguments == (Name("t"),):
             hint = f"a coordinate is a function of t by itself: write {written}"
         yield Diagnostic(message, node.span, hint)
-    elif not scope.refused or function_meant(name, ["x"]):
+    elif not scope.refused or name in INSTEAD or foreign_function(name):
         functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]
         best = closest(name, functions)
-        product = product_meant(name, scope.usable(role)) if len(name) < 9 else ""
-        meant = best or (f"{product}*" if product else "")
-        hint = f"did you mean {meant}(…)?" if meant else "declare it under 'functions'"
-        arguments = [_shown(each) for each in node.arguments]
-        hint = function_meant(name, arguments) or hint
+        hint = f"did you mean {best}(…)?" if best else "declare it under 'functions'"
+        hint = INSTEAD.get(name, hint)
         yield Diagnostic(f"unknown function '{name}' in {what}", node.span, hint)
-
-
-def _shown(argument: Expression) -> str:
-    """A name or a number as it is written, anything else as `…`."""
-    if isinstance(argument, Name):
-        return str(argument)
-    return str(argument.value) if isinstance(argument, Number) else "…"
 
 
 def _a(kind: str | None) -> str:
@@ -311,7 +296,7 @@ def _integral(node: Call, role: Role, what: str) -> Iterator[Diagnostic]:
     """`integral(f, x, a, b)` of f by x from a to b."""
     count = len(node.arguments)
     if not role.integrals:
-        yield Diagnostic(f"an integral cannot stand in {what}", node.span, IN_FULL["integral"])
+        yield Diagnostic(f"an integral cannot stand in {what}", node.span, INSTEAD["integral"])
     elif count != 4 or node.primes:
         yield _wrong_count("integral", 4, count, node)
     elif not isinstance(node.arguments[1], Name):

@@ -12,7 +12,7 @@ from lagcli.problem_data import Inequality
 from lagcli.reader.expressions import read_equation, read_expression
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import Unclear, Vocabulary
-from lagcli.reader.habits import COMMENT, name_meant
+from lagcli.reader.habits import name_meant
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.text import Mistake
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from lagcli.reader.scope import Role, Scope
 
 #: A longer formula is not repeated in a hint.
-_LONGEST = 120
+_LONGEST = 300
 #: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
 _LEFT_SIDE = re.compile(r"^\s*[^\W\d][\w ]*(?:\(\w+\))?\s*:?=(?!=)")
 
@@ -71,14 +71,15 @@ def with_whole(
             else (read_back,)
         )
         wrong = [each for side in sides for each in name_mistakes(side, scope, role, what)]
-        words = set(re.findall(r"\w+", node.value))
+        words = set(re.findall(r"\w+", re.sub(r"_?[\[{](\w+)[\]}]", r"_\1", node.value)))
         if len(whole) > _LONGEST or not all(_is_undeclared(each, role, words) for each in wrong):
             return found
         proposed = re.search(rf"(?:write|mean) {re.escape(whole)}(?:[?;,]|$)", found[0].hint)
         if whole == node.value.strip() or (proposed and not found[1:]):
             return found
-        first = replace(found[0], hint=_in_all(found[0].hint, whole))
-        return [first, *(replace(each, span=node.span) for each in wrong)]
+        guess = found[0].hint.endswith("?")
+        hint = f"did you mean {whole}?" if guess else f"write {whole}"
+        return [replace(found[0], hint=hint), *(replace(each, span=node.span) for each in wrong)]
     return found
 
 
@@ -98,16 +99,8 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
 def _is_undeclared(mistake: Diagnostic, role: Role, words: set[str]) -> bool:
     """Whether a name is not declared that the author has written: another mistake."""
     named = set(re.findall(r"'(\w+)'", mistake.message))
-    return role.order >= 0 and UNDECLARED in mistake.hint and named <= words
-
-
-def _in_all(hint: str, whole: str) -> str:
-    """A hint on a part of a formula, with the whole of it; that alone where they differ."""
-    part = re.fullmatch(r"(?:write|did you mean) ([^ …?]+|.* .*[*/^].*?|.*\*\(….*)\??", hint)
-    if hint in {"", COMMENT} or (part and part[1].strip("'") not in whole):
-        return f"write {whole}"
-    between = " In all: " if hint.endswith("?") else "; in all: "
-    return f"{hint}{between}{whole}"
+    undeclared = role.order >= 0 and UNDECLARED in mistake.hint and named <= words
+    return undeclared or mistake.message.startswith("the acceleration ")
 
 
 def _vocabulary(scope: Scope, role: Role) -> Vocabulary:

@@ -11,14 +11,12 @@ from lagcli.reader.habits import (
     CASE,
     CASES,
     COMMENT,
-    IN_FULL,
-    fraction,
-    function_meant,
+    INSTEAD,
     meanings,
     superscript,
     unit_behind,
 )
-from lagcli.reader.strange_characters import END_VALUE, character_meant, prime_meant
+from lagcli.reader.strange_characters import END_VALUE, character_meant
 
 if TYPE_CHECKING:
     from lagcli.reader.automaton import Token, Unexpected
@@ -59,14 +57,12 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
         following = tokens[place + 1] if place + 1 < len(tokens) else None
         if place >= 3 and tokens[place - 2].type == "_POWER" and tokens[place - 3] in FUNCTIONS:
             function = tokens[place - 3]
-            hint = f"did you mean {function}(…)^{previous}?"
-            return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt), hint)
+            return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt))
         if [str(other) for other in tokens[place - 3 : place]] == ["^", "-", "1"]:
             function = tokens[place - 4]
-            hint = f"the inverse function is a{function}(…)"
-            return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt), hint)
-        if CASES & {str(previous), str(token)} and (name := _called(tokens[:place])) in IN_FULL:
-            return Diagnostic("a formula has no loops", _span(token, excerpt), IN_FULL[name])
+            return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt))
+        if CASES & {str(previous), str(token)} and (name := _called(tokens[:place])) in INSTEAD:
+            return Diagnostic("a formula has no loops", _span(token, excerpt), INSTEAD[name])
         return _missing_product(previous, token, following, excerpt, start)
     if token.type == "COMPARISON" and CASES & {str(other) for other in tokens}:
         return Diagnostic("a formula has no cases", _span(token, excerpt), CASE)
@@ -86,22 +82,16 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
     span = excerpt.span(at, at + 1)
     shown = f"'{character}'" if character.isprintable() else f"U+{ord(character):04X}"
     if character == "'":
-        grouped = re.match(r"'(\d{3}(?:'\d{3})*)", excerpt.value[at:])
-        if grouped and tokens and tokens[-1].type == "NUMBER":
-            hint = f"write {tokens[-1]}{grouped[1].replace(character, '')}"
-            return Diagnostic("digits are not grouped by a prime", span, hint)
-        behind = re.match(r"'([^\W\d]\w*)", excerpt.value[at:])
-        hint = f"write {behind[1]}'" if behind else prime_meant(tokens)
+        if re.match(r"'\d{3}", excerpt.value[at:]) and tokens and tokens[-1].type == "NUMBER":
+            return Diagnostic("digits are not grouped by a prime", span)
+        hint = "a prime stands right behind a name; an expression has one under 'definitions'"
         return Diagnostic("a prime without a name", span, hint)
     if not character.isprintable():
         return Diagnostic(f"{shown} has no meaning in an expression", span, "leave it out")
     if character in '"“”„' and not (tokens and tokens[-1].type == "NAME"):
         return Diagnostic("quotes are not part of a formula", span, "leave them out")
     if character in "°˚":
-        number = tokens[-1] if tokens and tokens[-1].type == "NUMBER" else "x"
-        return Diagnostic("angles are in radians", span, f"write {number}*pi/180")
-    if fraction(character):
-        return Diagnostic(f"{shown} has no meaning", span, f"write {fraction(character)}")
+        return Diagnostic("angles are in radians", span)
     hint = character_meant(excerpt.value[at:], tokens) or meanings("characters").get(character, "")
     return Diagnostic(f"{shown} has no meaning in an expression", span, hint)
 
@@ -133,7 +123,7 @@ def _missing_product(
         message = f"the argument of {left} stands in parentheses"
         return Diagnostic(message, span, f"did you mean {known}({right})?")
     if left.type == right.type == "NAME" and str(left) == "dt":  # d/dt x
-        return Diagnostic("a rate is written with a prime", span, function_meant("dt", [right]))
+        return Diagnostic("a rate is written with a prime", span)
     if str(right) == "and":
         return Diagnostic("two statements in one", span, "write each by itself, under its own name")
     if str(left) == "lambda" and ":" in excerpt.value:
@@ -159,24 +149,20 @@ def _missing_product(
     if right.type == "NAME" and (number := _TIMES_TEN.match(rest)):
         hint = f"write {number[1]}e{number[2]}{number[3]}"
         return Diagnostic("a power of ten is written with e", span, hint)
-    before = _written(left).replace("′", "'") if left.type != "RPAR" else "(…)"
-    if str(right) in {"rad", "radian", "radians"}:
-        return Diagnostic("angles are in radians", span, f"leave out '{right}'")
-    if str(right) in {"deg", "degree", "degrees", "º"}:
-        return Diagnostic("angles are in radians", span, f"write {before}*pi/180")
+    before = left.replace("′", "'") if left.type != "RPAR" else "(…)"
+    if str(right) in {"rad", "radian", "radians", "deg", "degree", "degrees", "º"}:
+        return Diagnostic("angles are in radians", span)
     if left.type == "NUMBER" and right.type == "NUMBER":
         grouped = f"write {left}{right}" if len(right) == 3 else f"did you mean {left}*{right}?"
         hint = grouped if apart else "a number has one decimal point"
         return Diagnostic("two numbers side by side", span, hint)
     if left.type == "NUMBER" and right.startswith("_") and not apart:
-        return Diagnostic("digits are not grouped by '_'", span, f"write {left}{right[1:]}")
+        return Diagnostic("digits are not grouped by '_'", span)
     if str(left).endswith("'") and right.type == "NUMBER" and not apart:
         return Diagnostic("a power is written with '^'", span, f"did you mean {left}^{right}?")
     if superscript(right):
-        return Diagnostic(
-            "a power is written with '^'", span, f"write {before}{superscript(right)}"
-        )
-    after = _written(right) if right.type != "LPAR" else "(…)"
+        return Diagnostic("a power is written with '^'", span)
+    after = str(right) if right.type != "LPAR" else "(…)"
     if (
         right.type == "NAME"
         and following is not None
@@ -188,11 +174,6 @@ def _missing_product(
     unit = left.type == "NUMBER" and len(right) > 1 and unit_behind(f"1 {right}")
     stands = f"; the unit {right} stands where a name is declared" if unit else ""
     return Diagnostic(message, span, f"did you mean {before}*{after}?{stands}")
-
-
-def _written(token: Token) -> str:
-    """A token as the format has it: `(1/2)` for ½."""
-    return f"({fraction(token)})" if fraction(token) else str(token)
 
 
 def _unexpected(
@@ -212,7 +193,7 @@ def _unexpected(
         if start == "equation" and inside is None and previous is not None:
             return "an equation has one '='", "write an equation of its own for each"
         if name := _called(before):
-            hint = IN_FULL.get(name, "write the value alone")
+            hint = INSTEAD.get(name, "write the value alone")
             return "an argument of a function has no name", hint
         if start == "equation" and inside is not None:
             return "'=' stands inside parentheses", "is a ')' missing before it?"

@@ -15,7 +15,6 @@ from lagcli.reader.habits import (
     habits,
     meanings,
 )
-from lagcli.reader.latex_habits import latex_meant
 
 if TYPE_CHECKING:
     from lagcli.reader.text import SourceText
@@ -78,9 +77,8 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return _second_colon(offset, text)
     if latex := re.search(r"\\[A-Za-z]+\{", line):
         begin = text.line_starts[number] + latex.start()
-        hint = latex_meant(line[latex.start() :])
         message = "'\\' has no meaning in an expression"
-        return Diagnostic(message, text.span(begin, begin + 1), hint)
+        return Diagnostic(message, text.span(begin, begin + 1), "put the formula in quotes: '…'")
     if re.match(r"\s*[–—•·]\s", line):
         return Diagnostic("this is no item of a list", span, colon_advice(line))
     if line.startswith("```"):

@@ -9,12 +9,7 @@ from lagcli.expression import FUNCTIONS
 from lagcli.reader.foreign.sums import Part, Sums, raised
 from lagcli.reader.foreign.tokens import SIGNS, Token
 from lagcli.reader.foreign.words import Unclear, function_named
-from lagcli.reader.habits import habits
-
-_RATES = frozenset("Derivative derivative D ddt dt Dt der deriv diff dot".split())
-_POWERS = frozenset("pow power Pow Power".split())
-_SQUARES = frozenset("square sqr sq".split())
-FOREIGN = _RATES | _POWERS | _SQUARES | {"norm", "hypot", "Subscript"}
+from lagcli.reader.habits import POWERS, RATES, SQUARES, habits
 
 
 class Functions(Sums):
@@ -111,7 +106,7 @@ class Functions(Sums):
         if not arguments:
             raise Unclear
         grouped = [each if re.fullmatch(r"[\w.]+'*", each) else f"({each})" for each in arguments]
-        if word in _RATES:
+        if word in RATES:
             x = arguments[0]
             if not re.fullmatch(r"\w+'*", x):
                 return self.partial(word, arguments)
@@ -125,15 +120,15 @@ class Functions(Sums):
             return Part(f"sqrt({squares})", 3, is_call=True)
         if word == "Subscript" and len(arguments) == 2:
             return self.named("_".join(arguments))
-        if word in _SQUARES and len(arguments) == 1:
+        if word in SQUARES and len(arguments) == 1:
             return Part(f"{grouped[0]}^2", 2)
-        if word in _POWERS and len(arguments) == 2:
+        if word in POWERS and len(arguments) == 2:
             return Part(f"{grouped[0]}^{grouped[1]}", 2)
         form = habits()["written_out"].get(word, "")
-        if form.count("{}") != len(arguments):
+        if len(set(re.findall(r"{\d}", form))) != len(arguments):
             raise Unclear
-        text = form.format(*(grouped if "{}*" in form or "/{}" in form else arguments))
-        return Part(text, 3 if form == "{}" and re.fullmatch(r"[\w.]+", text) else 1)
+        text = form.format(*(grouped if re.search(r"}\*|/{", form) else arguments))
+        return Part(text, 3 if form == "{0}" and re.fullmatch(r"[\w.]+", text) else 1)
 
     def partial(self, word: str, arguments: list[str]) -> Part:
         """A derivative by a name other than t."""

@@ -10,11 +10,13 @@ from lagcli.reader.foreign.tokens import SIGNS, Token, prepared, tokens
 from lagcli.reader.foreign.words import Unclear, Vocabulary
 from lagcli.reader.habits import fraction, superscript
 
-#: What stands behind an angle, and what it multiplies it by.
-_ANGLES = {
+#: What stands behind an angle or a ratio, and what it multiplies it by.
+_BEHIND = {
+    **dict.fromkeys(["%", "percent"], "/100"),
     **dict.fromkeys(["°", "˚", "º", "deg", "degree", "degrees"], "*pi/180"),
     **dict.fromkeys(["rad", "radian", "radians"], ""),
 }
+_PRIMES = {"″": 2, "‴": 3}
 
 
 class Part(NamedTuple):
@@ -146,13 +148,17 @@ class Sums(ABC):
             token = self.peek()
             if self.sign() == "^":
                 self.at += 1
-                base = _raise(base, "^" + self.exponent())
+                exponent = self.exponent()
+                base = _raise(self.with_primes(base), "^" + exponent)
             elif token is not None and token.kind == "raised" and not fraction(token.text):
                 self.at += 1
                 base = _raise(base, raised(token.text))
-            elif token is not None and base.level == 3 and token.text in _ANGLES:
+            elif token is not None and base.level == 3 and token.text in _BEHIND:
                 self.at += 1
-                base = Part(base.text + _ANGLES[token.text], 1 if _ANGLES[token.text] else 3)
+                base = Part(base.text + _BEHIND[token.text], 1 if _BEHIND[token.text] else 3)
+                following = self.peek()
+                if "/100" in base.text and following is not None and self.begins(following):
+                    raise Unclear  # x % 2, or a comment of TeX
             else:
                 return base
 
@@ -164,6 +170,21 @@ class Sums(ABC):
         if self.sign() == "^":
             raise Unclear
         return f"(-{part.within(2)})" if minus else part.within(3)
+
+    def primes(self) -> int:
+        """How many primes stand here, which are passed."""
+        token = self.peek()
+        if token is None or token.kind != "primes":
+            return 0
+        self.at += 1
+        return sum(_PRIMES.get(each, 1) for each in token.text)
+
+    def with_primes(self, part: Part) -> Part:
+        """`x'` for (x)' and x^2'."""
+        primes = self.primes()
+        if primes and not re.fullmatch(r"\w+'*", part.text):
+            raise Unclear
+        return part._replace(text=part.text + "'" * primes)
 
     @abstractmethod
     def atom(self) -> Part:

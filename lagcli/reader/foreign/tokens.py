@@ -62,7 +62,7 @@ def prepared(text: str, names: Vocabulary) -> str:
         raise Unclear  # m*g*y [J]
     text = "".join(map(_on_the_keyboard, _RATE_OF_VECTOR.sub(r"\\vec{v}", text)))
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
-    text = re.sub(r"(?<=\w)//(?=\w)", "/", text.strip(" =").rstrip(";,"))
+    text = re.sub(r"(?<=\w)//(?=\w)", "/", re.sub(r"\s\.\s", " * ", text).strip(" =").rstrip(";,"))
     text = re.sub(r"\bDerivative\[(\d)\]\[(\w+)\]", lambda m: m[2] + "'" * int(m[1]), text)
     text = _leibniz(_square_of_speed(text, names), names)
     return _OWNER.sub(lambda m: m[0] if m[1] in names.known else "", text)

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import re
 
-from lagcli.reader.foreign.functions import FOREIGN, Functions, bare
+from lagcli.reader.foreign.functions import Functions, bare
 from lagcli.reader.foreign.sums import Part
 from lagcli.reader.foreign.tokens import SIGNS, Token
 from lagcli.reader.foreign.words import VELOCITIES, Unclear, Vocabulary, function_named, meant
-from lagcli.reader.habits import CASES, fraction, habits
+from lagcli.reader.habits import CASES, foreign_function, fraction
 
 _DEEPEST = 30
-_PRIMES = {"″": 2, "‴": 3}
 
 
 def translated(text: str, names: Vocabulary) -> str:
@@ -52,7 +51,7 @@ class _Translation(Functions):
         if sign == "(":
             inner = self.sum()
             self.closed(")")
-            return inner if inner.level == 3 else Part(f"({inner.text})", 3)
+            return self.with_primes(inner) if inner.level == 3 else Part(f"({inner.text})", 3)
         if sign == "|":
             inner = self.sum()
             self.closed("|")
@@ -123,8 +122,7 @@ class _Translation(Functions):
         function = function_named(word, self.names)
         if function and not primes:
             return self.call(function)
-        foreign = word in FOREIGN or word in habits()["written_out"]
-        if foreign and self.sign() == "(" and word not in self.names.known:
+        if foreign_function(word) and self.sign() == "(" and word not in self.names.known:
             return self.foreign(word)
         if word in {"e", "E"} and word not in self.names.known and self.sign() == "^":
             return self.exponential()
@@ -140,9 +138,12 @@ class _Translation(Functions):
             if name not in self.names.coordinates or (more and "dot" not in word):
                 raise Unclear
             primes += self.primes()
-        if self.sign() == "." and (method := self.peek(1)) and method.text in {"diff", "dt"}:
+        while self.sign() == "." and (method := self.peek(1)) and method.text in {"diff", "dt"}:
             self.at += 2
-            primes += self.order(self.arguments() if self.sign() == "(" else [])
+            arguments = self.arguments() if self.sign() == "(" else []
+            if len(arguments) == 1 and arguments[0] != "t":
+                return self.partial("diff", [name + "'" * primes, *arguments])
+            primes += self.order(arguments)
         text = name + "'" * primes
         return Part(text, 1 if "*" in text else 3)
 
@@ -153,7 +154,7 @@ class _Translation(Functions):
             return ""
         self.at += 2
         self.closed(")")
-        return index.text
+        return f"_{index.text}"
 
     def refuse_unknown_call(self, word: str) -> None:
         """U(x) may be a function, x(t - 1) is an earlier time; k(x - 1) is a product."""
@@ -163,14 +164,6 @@ class _Translation(Functions):
         alone = self.sign(2) == ")"
         if alone != (inside.text == "t") and (alone or word in self.names.coordinates):
             raise Unclear
-
-    def primes(self) -> int:
-        """How many primes stand here, which are passed."""
-        token = self.peek()
-        if token is None or token.kind != "primes":
-            return 0
-        self.at += 1
-        return sum(_PRIMES.get(each, 1) for each in token.text)
 
 
 def _indexed(name: str) -> str:
