@@ -14,9 +14,6 @@ if TYPE_CHECKING:
 #: Names longer than this, and more names than these, are not compared.
 _LONGEST, _MOST = 60, 300
 
-#: Below it `sections` (0.71) and `reduction` (0.67) would be near to `functions`.
-_NEAR = 0.72
-
 #: Cyrillic letters, which look like Latin ones.
 _CYRILLIC = dict(zip("асеорхуіјкмтн", "aceopxyijkmth", strict=True))
 
@@ -59,7 +56,7 @@ def closest(name: str, known: Iterable[str]) -> str:
         spelled = {spelling: known for spelling, known in spelled.items() if len(spelling) > 1}
     if len(name) == 1:  # one letter is near to those that begin with it
         spelled = {spelling: known for spelling, known in spelled.items() if spelling[0] == name}
-    near = get_close_matches(name, list(spelled)[-_MOST:], n=1, cutoff=_NEAR)
+    near = get_close_matches(name, list(spelled)[-_MOST:], n=1, cutoff=0.6)
     return spelled[near[0]] if near else ""
 
 
