@@ -13,7 +13,7 @@ from sympy import Expr, Symbol, cos, exp, sin, sqrt, tan
 from lagcli.algebra import shape, simplify, to_expression
 from lagcli.algebra.build import unspecified
 from lagcli.algebra.writing import Writer
-from lagcli.expression import operation_count
+from lagcli.expression import Call, Power, operation_count, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.reader import parse_text
 
@@ -266,3 +266,17 @@ def test_a_sine_of_what_is_written_with_a_minus_is_turned(below):
         at = {k: 3, t: 2, M: 1 + 4 * (below == M - m), m: 1 + 4 * (below != M - m)}
         read = sp.sympify(written.replace("^", "**"), {str(s): s for s in at})
         assert abs((value - read).xreplace(at).evalf()) < 1e-12
+
+
+@pytest.mark.parametrize("function", [sin, sp.sinh])
+@pytest.mark.parametrize("power", [-4, -2, 2, 6])
+@pytest.mark.parametrize("below", [cos(alpha), cos(alpha) - sin(alpha) / 3, k - cos(alpha)])
+def test_the_root_of_a_square_of_a_sine_is_its_modulus(function, power, below):
+    """A bead in a cone turns with p = m r sqrt(g r cos) |sin|, not sqrt(cos/sin²) sin²."""
+    expression = m * function(alpha) ** 2 * sqrt(g * below * function(alpha) ** power / r)
+    written = shape(expression)
+    inside = [e.arguments[0] for e in walk(written) if isinstance(e, Call) and e.function == "sqrt"]
+    assert not any(isinstance(e, Power) for each in inside for e in walk(each))
+    for value in (0.7, -0.4):
+        at = {alpha: value, m: 2, g: 3, r: 5, k: 7}
+        assert abs((expression - simplify(expression)).xreplace(at).evalf()) < 1e-12
