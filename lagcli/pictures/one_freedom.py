@@ -137,6 +137,6 @@ def _too_many(left: list[str]) -> str:
     names = ", ".join(left)
     return (
         f"without constraints and cyclic coordinates {names} are left: an effective potential "
-        f"or a portrait with energy levels needs one; --kind phase --show {left[0]} draws the motion in the plane of one "
-        "coordinate"
+        f"or a portrait with energy levels needs one; --kind phase --show {left[0]} draws the "
+        "motion in the plane of one coordinate"
     )
