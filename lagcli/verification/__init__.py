@@ -7,6 +7,7 @@ differentiation.  Only the reader and the expression tree are shared with the de
 normal form, no simplification, no elimination.
 """
 
+from lagcli.verification.examination import REFUTED, UNDECIDED
 from lagcli.verification.verify import verified
 
-__all__ = ["verified"]
+__all__ = ["REFUTED", "UNDECIDED", "verified"]

@@ -22,6 +22,9 @@ from lagcli.verification.reference import Reference
 from lagcli.verification.states import State, phase_states, random_states
 from lagcli.verification.sweeps import StepValues, Unknown
 
+#: What a warning says of a claim that does not hold at a state, and of claims without a value.
+REFUTED = "could not be confirmed; this is left out"
+UNDECIDED = "not verified in numbers"
 #: States at which each claim is tried, and how many are looked at where it has no value.
 STATES = 3
 LOOKED_AT = 9
@@ -299,7 +302,7 @@ class Examination:
 
     def refute(self, what: str, why: str) -> None:
         """Note that a claim is not printed."""
-        sentence = f"{what} could not be confirmed; this is left out: {why}"
+        sentence = f"{what} {REFUTED}: {why}"
         if sentence not in self.retracted:
             self.retracted.append(sentence)
 
@@ -313,7 +316,7 @@ class Examination:
             return tuple(self.retracted)
         names = ", ".join(dict.fromkeys(self.unchecked))
         why = "" if self.states() else " (no state was found that the constraints allow)"
-        return (*self.retracted, f"not verified in numbers{why}: {names}")
+        return (*self.retracted, f"{UNDECIDED}{why}: {names}")
 
 
 def _shown(x: arb) -> str:

@@ -33,7 +33,7 @@ from lagcli.statements.explanation import Explanation
 from lagcli.statements.registry import built_in
 from lagcli.studies.check.expectations import sections_expected
 from lagcli.studies.check.initial import initial_mistakes
-from lagcli.studies.check.laws import SECTIONS as LAWS
+from lagcli.studies.check.one import SECTIONS as VERIFIED
 from lagcli.studies.check.one import compared
 from tests.browser import PROGRAM, Browser
 from tests.formatters.test_latex import compiled, needs_latex
@@ -79,7 +79,7 @@ def usual(problem: Problem) -> list[str]:
 
 def checked(derivation: Derivation) -> list[str]:
     expected = [each.name for each in sections_expected(derivation.given.expect)]
-    return expected if derivation.no_lagrangian else [*LAWS, *expected]
+    return expected if derivation.no_lagrangian else [*VERIFIED, *expected]
 
 
 def examined(problem: Problem) -> list[str]:

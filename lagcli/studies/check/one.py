@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import ProblemError, Source
 from lagcli.pipeline import Read, Request, derive, read, state
 from lagcli.studies.check.findings import CheckOutcome, Finding, Report
+from lagcli.verification import REFUTED, UNDECIDED
 
 if TYPE_CHECKING:
     from lagcli.mechanics.derivation import Derivation
     from lagcli.statements.answers import Answers
+
+#: The sections that are verified of each problem, whatever it expects.
+SECTIONS = ("accelerations", "multipliers", "charges")
 
 
 def check_problem(name: str, data: bytes) -> Report:
@@ -33,7 +38,6 @@ def check_problem(name: str, data: bytes) -> Report:
 def _check(found: Read) -> Report:
     from lagcli.studies.check.expectations import sections_expected
     from lagcli.studies.check.initial import initial_mistakes
-    from lagcli.studies.check.laws import SECTIONS
 
     source, problem = Source(found.source.name, ""), found.problem
     if problem is None:
@@ -58,25 +62,40 @@ def _check(found: Read) -> Report:
 
 
 def compared(derivation: Derivation, answers: Answers) -> list[Finding | None]:
-    """Every comparison of the answers: with `expect`, with the laws, with the expected motion.
+    """Every comparison of the answers: with `expect`, in numbers, with the expected motion.
 
     None stands for one that holds.
     """
     from lagcli.studies.check.expectations import Expectations
-    from lagcli.studies.check.laws import Laws
     from lagcli.studies.check.trajectory import TrajectoryCheck
 
     expectations = Expectations(derivation, answers)
     if derivation.no_lagrangian:  # there is no motion in q and q'
         return list(expectations)
     trajectory = TrajectoryCheck(derivation.problem)
-    return [*expectations, *Laws(derivation, answers), *trajectory]
+    return [*expectations, *_confirmed(answers), *trajectory]
+
+
+def _confirmed(answers: Answers) -> Iterator[Finding | None]:
+    """What `solve` verified in numbers before it would print it, section by section."""
+    from lagcli.statements.answers import AccelerationsSection
+
+    found = answers.sections["accelerations"]
+    assert isinstance(found, AccelerationsSection)
+    left_out = [said for said in answers.warnings if REFUTED in said or UNDECIDED in said]
+    if found.accelerations is None and found.regular and not left_out:
+        yield Finding(CheckOutcome.UNDECIDED, "accelerations", "no solution was found")
+    for said in left_out:
+        outcome = CheckOutcome.WRONG if REFUTED in said else CheckOutcome.UNDECIDED
+        yield Finding(outcome, "verification", said)
+    yield from [None] * (len(answers.sections) - len(left_out))
 
 
 def _without_sections(source: Source, answers: Answers) -> Report:
     """Nothing can be compared with a section that could not be made."""
-    reason = "; ".join(w for w in answers.warnings if "the section" in w)
+    reason = "; ".join(w for w in answers.warnings if "the section" in w or REFUTED in w)
     outcome = CheckOutcome.BROKEN if "bug of lagcli" in reason else CheckOutcome.UNDECIDED
+    outcome = CheckOutcome.WRONG if REFUTED in reason else outcome
     findings = tuple(Finding(outcome, name, reason) for name in answers.absent)
     return Report(source, len(findings), findings)
 
