@@ -143,6 +143,9 @@ def _position(file: FileReader, node: DocumentNode, name: str) -> tuple[Expressi
     items = _components(file, node, what, _CARTESIAN)
     if isinstance(node, Sequence) and not 1 <= len(items) <= 3:
         file.error(f"{what} has {len(items)} components, it may have 1 to 3", node.span)
+    for axis, item in zip("xyz", items, strict=False):
+        if isinstance(item, Scalar):
+            file.scope.components[f"{name}.{axis}"] = item.value
     return tuple(file.expression(item, what, POSITION) for item in items)
 
 

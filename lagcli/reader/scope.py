@@ -101,6 +101,9 @@ class Scope:
     #: names that could not be declared: what is unknown afterwards may be one of them
     refused: list[str] = field(default_factory=list)
 
+    #: what is written for a component of a point, `bob.x`, which has no name
+    components: dict[str, str] = field(default_factory=dict)
+
     def of_kind(self, kind: Kind) -> Iterator[str]:
         """The names of one kind, in the order of their declaration."""
         return (name for name, other in self.kinds.items() if other == kind)

@@ -472,3 +472,12 @@ def test_a_section_as_a_key_is_an_option(name):
 def test_sections_as_a_key_are_no_functions():
     [said] = messages(text(sections="[equilibria]"))
     assert said.endswith("lagcli solve FILE --show equilibria,modes")
+
+
+def test_a_component_of_a_point_is_written_out():
+    [said] = messages("""coordinates: [theta]
+parameters: {m: {assume: positive}, l: {assume: positive}, g: {assume: positive}}
+points: {bob: {mass: m, position: [l*sin(theta), -l*cos(theta)]}}
+V: m*g*bob.y + m*g*bob.x^2/l
+""")
+    assert said.endswith("write m*g*(-l*cos(theta)) + m*g*(l*sin(theta))^2/l")

@@ -65,6 +65,8 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = re.sub(r"(?<=\w)//(?=\w)", "/", re.sub(r"\s\.\s", " * ", text).strip(" =").rstrip(";,"))
     text = re.sub(r"\bDerivative\[(\d)\]\[(\w+)\]", lambda m: m[2] + "'" * int(m[1]), text)
     text = _leibniz(_square_of_speed(text, names), names)
+    for name, component in names.components.items():
+        text = re.sub(rf"(?<![\w.]){re.escape(name)}(?!\w)", f"({component})", text)
     return _OWNER.sub(lambda m: m[0] if m[1] in names.known else "", text)
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from lagcli.expression import FUNCTIONS
@@ -31,6 +32,7 @@ class Vocabulary(NamedTuple):
     others: frozenset[str]  #: parameters, definitions, multipliers, t and pi
     functions: frozenset[str] = frozenset()
     momenta: bool = False
+    components: Mapping[str, str] = {}  #: of points: what `bob.x` is written as
 
     @property
     def known(self) -> tuple[str, ...]:
