@@ -1,4 +1,4 @@
-"""Two equations in two unknowns: what one of the unknowns must satisfy alone.
+"""Equations in two unknowns: what one of them must satisfy alone, and the pairs of values.
 
 An unknown that occurs in sines and cosines only is taken by t = tan(angle/2), in which both are
 polynomials; where t is infinite, at pi, is a case of its own.
@@ -10,20 +10,81 @@ Cox, Little, O'Shea, *Ideals, Varieties, and Algorithms*, 4th ed., section 3.6.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from itertools import combinations
 
 import sympy
 from sympy import Expr, Symbol
+from sympy.functions.elementary.trigonometric import InverseTrigonometricFunction
 
 from lagcli.algebra.entry import Field
+from lagcli.algebra.equations import solve_for
 from lagcli.algebra.half_angles import degree_in_angle, from_half_angle, to_half_angle
+from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.ring import Poly, factorization
+from lagcli.algebra.simplification import simplify
 
 _MOST_TERMS = 120
 _HIGHEST = 16
 
 
-def without(equations: Sequence[Expr], kept: Symbol, gone: Symbol) -> list[Expr] | None:
+def pairs_of_values(
+    equations: Sequence[Expr], kept: Symbol, gone: Symbol
+) -> list[dict[Symbol, Expr]] | None:
+    """The pairs of values that fulfil all equations; None where not all are found."""
+    resultants = (_without(two, kept, gone) for two in combinations(equations, 2))
+    conditions = next((found for found in resultants if found is not None), None)
+    if conditions is None:
+        return None
+    pairs: list[dict[Symbol, Expr]] = []
+    for condition in conditions:
+        roots = solve_for(condition, kept)
+        if roots is None:
+            return None
+        for root in map(simplify, roots.values):
+            if not _may_be_real(root):
+                continue
+            there = [substituted(e, kept, root) for e in equations]
+            open_ = [e for e in there if not vanishes_at_random(e)]
+            if not open_:
+                return None  # a line of solutions
+            others = solve_for(open_[0], gone)
+            if others is None:
+                return None
+            candidates = [{kept: root, gone: simplify(other)} for other in others.values]
+            pairs += [
+                pair
+                for pair in candidates
+                if _may_be_real(pair[gone])
+                and all(vanishes_at_random(_at(e, pair)) for e in equations)
+            ]
+    return pairs
+
+
+def _at(expression: Expr, pair: Mapping[Symbol, Expr]) -> Expr:
+    return expression.subs(list(pair.items()), simultaneous=True)
+
+
+def _may_be_real(root: Expr) -> bool:
+    if root.free_symbols:
+        return True
+    return bool(abs(sympy.im(root.evalf(30))) < sympy.Float("1e-15"))
+
+
+def substituted(expression: Expr, unknown: Symbol, root: Expr) -> Expr:
+    """The root put in, sines of multiples expanded first so that sin(acos(k)) is radical."""
+    if unknown not in expression.free_symbols:
+        return expression
+    if not root.has(InverseTrigonometricFunction):
+        return expression.subs(unknown, root)
+    field = Field([expression])
+    try:
+        return field.to_sympy(field(expression)).subs(unknown, root)
+    except ZeroDivisionError:
+        return expression.subs(unknown, root)
+
+
+def _without(equations: Sequence[Expr], kept: Symbol, gone: Symbol) -> list[Expr] | None:
     """Equations in one unknown alone of which each solution of both fulfils one.
 
     None where there is no resultant, or where it vanishes: both have a factor in common.

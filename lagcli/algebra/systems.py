@@ -13,12 +13,9 @@ from itertools import combinations
 
 import sympy
 from sympy import Expr, Symbol
-from sympy.functions.elementary.trigonometric import InverseTrigonometricFunction
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import coefficients, solve_for
-from lagcli.algebra.factors import factors_of
-from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.opening import (
     by_distances,
     opened,
@@ -28,14 +25,13 @@ from lagcli.algebra.opening import (
     without_phases,
 )
 from lagcli.algebra.real_roots import not_negative_where_real
-from lagcli.algebra.resultants import without
-from lagcli.algebra.ring import factorization
+from lagcli.algebra.resultants import pairs_of_values, substituted
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import is_zero, simplify
+from lagcli.algebra.vanishing_factors import same, vanishing_factors, without_repeats
 from lagcli.platform.effort import Work
 
 _MAX_BRANCHES = 256
-_HIGHEST_POWER = 4  # k of f^(k + 1/2): forces of two centres have 3/2
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,13 +124,13 @@ class _Solver:
             return
         left: list[list[Expr]] = []
         for equation in equations:
-            factors = self._factors(equation)
+            factors = vanishing_factors(equation, self.unknowns)
             if factors is None:
                 continue
             if not factors:
                 return
             left.append(factors)
-        left = _without_repeats(left)
+        left = without_repeats(left)
         if not left:
             self._keep(values, positive)
             return
@@ -209,7 +205,7 @@ class _Solver:
         if len(equations) < 2 or len(present) != 2:
             return False
         for kept, gone in (present, present[::-1]):
-            pairs = _pairs(equations, kept, gone)
+            pairs = pairs_of_values(equations, kept, gone)
             if pairs is not None:
                 break
         else:
@@ -228,43 +224,6 @@ class _Solver:
 
     def _in(self, expression: Expr) -> list[Symbol]:
         return [u for u in self.unknowns if u in expression.free_symbols]
-
-    def _factors(self, equation: Expr) -> list[Expr] | None:
-        """The factors that can vanish: None for 0 = 0, empty for a contradiction."""
-        equation = _without_signs(equation)
-        field = Field([equation])
-        try:
-            element = field(equation)
-        except ZeroDivisionError:
-            return []
-        if element.is_zero():
-            return None
-        if not self._in(equation) and vanishes_at_random(equation):
-            return None
-        factors, below = (
-            [field.polynomial_to_sympy(f) for f, _ in factorization(field.ring.lift(part))[1]]
-            for part in (element.numerator, element.denominator)
-        )
-        # sqrt(k)/k is nowhere 0
-        factors = [
-            _with_equal_bases(f)
-            for f in factors
-            if not (f.is_Pow and f.exp.is_number and _divides(f.base, below))
-        ]
-        if field.doubtful and any(is_zero(f) is None and abs(_value(f)) < 1e-25 for f in factors
-                                  if not f.free_symbols):  # fmt: skip
-            return None
-        open_ = [f for f in factors if self._in(f) and sign(f) not in (1, -1)]
-        # sin(y - 2 x) is not multiplied out: its roots are y = 2 x + n pi
-        whole = len(open_) == 1 and not field.ring.used(element.denominator)
-        return [equation] if whole and self._is_one_wave(equation) else open_
-
-    def _is_one_wave(self, equation: Expr) -> bool:
-        """Whether the unknowns occur in one sine or cosine of several of them alone."""
-        waves = [f for f in equation.atoms(sympy.sin, sympy.cos) if self._in(f)]
-        if len(waves) != 1:
-            return False
-        return not self._in(equation.xreplace({waves[0]: sympy.Dummy()}))
 
     def _solvable(self, factor: Expr) -> bool:
         unknowns = self._in(factor)
@@ -312,7 +271,7 @@ class _Solver:
                 continue
             put = {unknown: root}
             self.branch(
-                [_substituted(e, unknown, root) for e in rest],
+                [substituted(e, unknown, root) for e in rest],
                 {**{s: v.xreplace(put) for s, v in values.items()}, **put},
                 tuple(dict.fromkeys((*positive, *conditions))),
             )
@@ -377,105 +336,6 @@ def _within_a_turn(angle: Expr) -> Expr:
     return (turns - sympy.ceiling(turns - sympy.S.Half)) * 2 * sympy.pi
 
 
-def divisors(product: Expr) -> set[Expr]:
-    """What a product is divided by, in powers."""
-    powers = (factor.as_base_exp() for factor in sympy.Mul.make_args(product))
-    return {base for base, exponent in powers if exponent.is_negative}
-
-
-def _divides(product: Expr, factors: Sequence[Expr]) -> bool:
-    """Whether all its factors are among these, up to their signs."""
-    own = (factor for factor, _ in factors_of(product) if not factor.is_number)
-    return all(factor in factors or -factor in factors for factor in own)
-
-
-def _without_signs(equation: Expr) -> Expr:
-    """v/u^k of v sgn(u)/u^k, which has no value where u = 0."""
-    below = divisors(equation)
-    signs = (u for u in sympy.Mul.make_args(equation) if isinstance(u, sympy.sign))
-    void = [u for u in signs if {u.args[0], -u.args[0]} & below]
-    return equation.xreplace(dict.fromkeys(void, sympy.S.One)) if void else equation
-
-
-def _with_equal_bases(factor: Expr) -> Expr:
-    """f - g of f^p - g^p, p = ±(k + 1/2), which vanishes where f = g alone: both are positive."""
-    roots = [p for p in factor.atoms(sympy.Pow) if p.exp == sympy.S.Half]
-    if len(roots) != 2 or not factor.is_Add:
-        return factor
-    first, second = (sympy.collect(factor, roots, evaluate=False).get(p, 0) for p in roots)
-    if sympy.expand(factor - first * roots[0] - second * roots[1]) != 0:
-        return factor
-    bases = [p.base for p in roots]
-    equal = any(
-        sympy.expand(first * g**k + second * f**k) == 0
-        for k in range(_HIGHEST_POWER)
-        for f, g in (bases, bases[::-1])
-    )
-    return sympy.expand(bases[0] - bases[1]) if equal else factor
-
-
-def _pairs(
-    equations: Sequence[Expr], kept: Symbol, gone: Symbol
-) -> list[dict[Symbol, Expr]] | None:
-    """The pairs of values that fulfil all equations; None where not all are found."""
-    resultants = (without(two, kept, gone) for two in combinations(equations, 2))
-    conditions = next((found for found in resultants if found is not None), None)
-    if conditions is None:
-        return None
-    pairs = []
-    for condition in conditions:
-        roots = solve_for(condition, kept)
-        if roots is None:
-            return None
-        for root in map(simplify, roots.values):
-            if not _may_be_real(root):
-                continue
-            there = [_substituted(e, kept, root) for e in equations]
-            open_ = [e for e in there if not vanishes_at_random(e)]
-            if not open_:
-                return None  # a line of solutions
-            others = solve_for(open_[0], gone)
-            if others is None:
-                return None
-            candidates = [{kept: root, gone: simplify(other)} for other in others.values]
-            pairs += [
-                pair
-                for pair in candidates
-                if _may_be_real(pair[gone])
-                and all(vanishes_at_random(_at(e, pair)) for e in equations)
-            ]
-    return pairs
-
-
-def _at(expression: Expr, pair: Mapping[Symbol, Expr]) -> Expr:
-    return expression.subs(list(pair.items()), simultaneous=True)
-
-
-def _may_be_real(root: Expr) -> bool:
-    if root.free_symbols:
-        return True
-    return bool(abs(sympy.im(root.evalf(30))) < sympy.Float("1e-15"))
-
-
-def _without_repeats(left: list[list[Expr]]) -> list[list[Expr]]:
-    """The equations without those that another one, which has one factor, makes 0."""
-    kept: list[list[Expr]] = []
-    for place, factors in enumerate(left):
-        others = [*kept, *left[place + 1 :]] if len(factors) > 1 else kept
-        alone = [other[0] for other in others if len(other) == 1]
-        if not any(_same(f, g) for f in factors for g in alone):
-            kept.append(factors)
-    return kept
-
-
-def _same(first: Expr, second: Expr) -> bool:
-    if first in (second, -second):
-        return True
-    if first.free_symbols != second.free_symbols:
-        return False
-    return bool(sympy.expand(first + second) == 0)
-
-
 def _lies_on(solution: SystemSolution, other: SystemSolution) -> bool:
     """Whether a solution is one of a family that is given by a relation."""
     if other is solution or other.relation is None:
@@ -483,21 +343,4 @@ def _lies_on(solution: SystemSolution, other: SystemSolution) -> bool:
     ties = [other.relation, *(s - v for s, v in other.values.items())]
     there = [tie.xreplace(solution.values) for tie in ties]
     own = solution.relation
-    return all(is_zero(tie) is True or (own is not None and _same(tie, own)) for tie in there)
-
-
-def _substituted(expression: Expr, unknown: Symbol, root: Expr) -> Expr:
-    """The root put in, sines of multiples expanded first so that sin(acos(k)) is radical."""
-    if unknown not in expression.free_symbols:
-        return expression
-    if not root.has(InverseTrigonometricFunction):
-        return expression.subs(unknown, root)
-    field = Field([expression])
-    try:
-        return field.to_sympy(field(expression)).subs(unknown, root)
-    except ZeroDivisionError:
-        return expression.subs(unknown, root)
-
-
-def _value(expression: Expr) -> float:
-    return float(abs(expression.evalf(40)))
+    return all(is_zero(tie) is True or (own is not None and same(tie, own)) for tie in there)

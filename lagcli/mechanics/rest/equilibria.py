@@ -17,7 +17,8 @@ from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
-from lagcli.algebra.systems import SolvedSystem, SystemSolution, divisors, solve_system
+from lagcli.algebra.systems import SolvedSystem, SystemSolution, solve_system
+from lagcli.algebra.vanishing_factors import divisors
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.inequalities import never_together
 from lagcli.mechanics.rest.family import Family, exists_where, family

@@ -18,7 +18,8 @@ from sympy import Expr, Symbol
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
 from lagcli.algebra.signs import sign
-from lagcli.algebra.systems import divisors, solve_system
+from lagcli.algebra.systems import solve_system
+from lagcli.algebra.vanishing_factors import divisors
 
 
 def at_kinks(

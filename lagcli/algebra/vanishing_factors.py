@@ -1,0 +1,115 @@
+"""The factors of equations that can vanish, and which equations say nothing new."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra.build import free_of
+from lagcli.algebra.entry import Field
+from lagcli.algebra.factors import factors_of
+from lagcli.algebra.numeric import vanishes_at_random
+from lagcli.algebra.ring import factorization
+from lagcli.algebra.signs import sign
+from lagcli.algebra.simplification import is_zero
+
+_HIGHEST_POWER = 4  # k of f^(k + 1/2): forces of two centres have 3/2
+_ZERO = 1e-25  # of 40 digits: those of a number that is not 0 do not cancel so far
+
+
+def vanishing_factors(equation: Expr, unknowns: Sequence[Symbol]) -> list[Expr] | None:
+    """The factors that can vanish: None for 0 = 0, empty for a contradiction."""
+    equation = _without_signs(equation)
+    field = Field([equation])
+    try:
+        element = field(equation)
+    except ZeroDivisionError:
+        return []
+    if element.is_zero():
+        return None
+    if free_of(equation, unknowns) and vanishes_at_random(equation):
+        return None
+    factors, below = (
+        [field.polynomial_to_sympy(f) for f, _ in factorization(field.ring.lift(part))[1]]
+        for part in (element.numerator, element.denominator)
+    )
+    # sqrt(k)/k is nowhere 0
+    factors = [
+        _with_equal_bases(f)
+        for f in factors
+        if not (f.is_Pow and f.exp.is_number and _divides(f.base, below))
+    ]
+    if field.doubtful and any(is_zero(f) is None and abs(f.evalf(40)) < _ZERO for f in factors
+                              if not f.free_symbols):  # fmt: skip
+        return None
+    open_ = [f for f in factors if not free_of(f, unknowns) and sign(f) not in (1, -1)]
+    # sin(y - 2 x) is not multiplied out: its roots are y = 2 x + n pi
+    whole = len(open_) == 1 and not field.ring.used(element.denominator)
+    return [equation] if whole and _is_one_wave(equation, unknowns) else open_
+
+
+def _is_one_wave(equation: Expr, unknowns: Sequence[Symbol]) -> bool:
+    """Whether the unknowns occur in one sine or cosine of several of them alone."""
+    waves = [f for f in equation.atoms(sympy.sin, sympy.cos) if not free_of(f, unknowns)]
+    if len(waves) != 1:
+        return False
+    return free_of(equation.xreplace({waves[0]: sympy.Dummy()}), unknowns)
+
+
+def divisors(product: Expr) -> set[Expr]:
+    """What a product is divided by, in powers."""
+    powers = (factor.as_base_exp() for factor in sympy.Mul.make_args(product))
+    return {base for base, exponent in powers if exponent.is_negative}
+
+
+def _divides(product: Expr, factors: Sequence[Expr]) -> bool:
+    """Whether all its factors are among these, up to their signs."""
+    own = (factor for factor, _ in factors_of(product) if not factor.is_number)
+    return all(factor in factors or -factor in factors for factor in own)
+
+
+def _without_signs(equation: Expr) -> Expr:
+    """v/u^k of v sgn(u)/u^k, which has no value where u = 0."""
+    below = divisors(equation)
+    signs = (u for u in sympy.Mul.make_args(equation) if isinstance(u, sympy.sign))
+    void = [u for u in signs if {u.args[0], -u.args[0]} & below]
+    return equation.xreplace(dict.fromkeys(void, sympy.S.One)) if void else equation
+
+
+def _with_equal_bases(factor: Expr) -> Expr:
+    """f - g of f^p - g^p, p = ±(k + 1/2), which vanishes where f = g alone: both are positive."""
+    roots = [p for p in factor.atoms(sympy.Pow) if p.exp == sympy.S.Half]
+    if len(roots) != 2 or not factor.is_Add:
+        return factor
+    first, second = (sympy.collect(factor, roots, evaluate=False).get(p, 0) for p in roots)
+    if sympy.expand(factor - first * roots[0] - second * roots[1]) != 0:
+        return factor
+    bases = [p.base for p in roots]
+    equal = any(
+        sympy.expand(first * g**k + second * f**k) == 0
+        for k in range(_HIGHEST_POWER)
+        for f, g in (bases, bases[::-1])
+    )
+    return sympy.expand(bases[0] - bases[1]) if equal else factor
+
+
+def without_repeats(left: list[list[Expr]]) -> list[list[Expr]]:
+    """The equations without those that another one, which has one factor, makes 0."""
+    kept: list[list[Expr]] = []
+    for place, factors in enumerate(left):
+        others = [*kept, *left[place + 1 :]] if len(factors) > 1 else kept
+        alone = [other[0] for other in others if len(other) == 1]
+        if not any(same(f, g) for f in factors for g in alone):
+            kept.append(factors)
+    return kept
+
+
+def same(first: Expr, second: Expr) -> bool:
+    """Whether two equations are one, up to the sign."""
+    if first in (second, -second):
+        return True
+    if first.free_symbols != second.free_symbols:
+        return False
+    return bool(sympy.expand(first + second) == 0)
