@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Container, Mapping
+from collections.abc import Container, Iterable, Mapping
 from fractions import Fraction
 from math import gcd, prod
 
@@ -20,10 +20,13 @@ from lagcli.expression import (
     Sum,
     factors_of,
     quotient_of,
+    walk,
 )
 from lagcli.notation.likeness import parity
-from lagcli.notation.ordering import Ordering
+from lagcli.notation.ordering import Ordering, positive_first
 
+#: Terms of a sum of products of masses that is multiplied out.
+_MULTIPLIED = 4
 _INVERSE = {"tan": "cot", "cot": "tan"}
 
 
@@ -242,7 +245,7 @@ def _half(node: Expression) -> Fraction | None:
 
 
 def product_of_powers(
-    number: Fraction, powers: Mapping[Expression, int], ordering: Ordering
+    number: Fraction, powers: Mapping[Expression, int | Fraction], ordering: Ordering
 ) -> Expression:
     """number · prod base^exponent, its factors in order, as one quotient."""
     found: list[list[Expression]] = []
@@ -255,3 +258,41 @@ def product_of_powers(
         found.append([Number(Fraction(value)), *shown] if value != 1 else shown)
     whole = quotient_of(found[0] or [ONE], found[1])
     return Negative(whole) if number < 0 else whole
+
+
+def multiplied(node: Sum, ordering: Ordering) -> Sum:
+    """m1 m2 + m1 m3 + 4 m2 m3 for m1 (m2 + m3) + 4 m2 m3, of quantities of one kind."""
+    names = {part.name for part in walk(node) if isinstance(part, Name)}
+    if len({name.rstrip("0123456789_").lower() for name in names}) != 1:
+        return node
+    terms = [each for term in node.terms for each in _distributed(term, ordering)]
+    if not len(node.terms) < len(terms) <= _MULTIPLIED:
+        return node
+    return Sum(tuple(positive_first(sorted(terms, key=ordering.term))))
+
+
+def _distributed(term: Expression, ordering: Ordering) -> list[Expression]:
+    """The terms of a product with one bracket; the product itself where it is none."""
+    minus, above, below = parts_of(term)
+    sums = [factor for factor in above if isinstance(factor, Sum)]
+    if len(sums) != 1 or below or len(above) == 1:
+        return [term]
+    found: list[Expression] = []
+    for each in sums[0].terms:
+        other, factors, under = parts_of(each)
+        if under:
+            return [term]
+        whole = power_product([f for f in (*above, *factors) if f is not sums[0]], ordering)
+        found.append(Negative(whole) if minus ^ other else whole)
+    return found
+
+
+def power_product(factors: Iterable[Expression], ordering: Ordering) -> Expression:
+    """The product of numbers and powers, each base once."""
+    number, powers = Fraction(1), dict[Expression, int | Fraction]()
+    for base, exponent in map(whole_power, factors):
+        if isinstance(base, Number):
+            number *= base.value**exponent
+        else:
+            powers[base] = powers.get(base, Fraction(0)) + exponent
+    return product_of_powers(number, powers, ordering)

@@ -10,7 +10,7 @@ minus goes and whether a number comes first does not change a value, and follows
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
 
 from lagcli.evaluation import sign_at_random, value_of
@@ -36,8 +36,10 @@ from lagcli.notation.angles import difference_of_angles, with_versines
 from lagcli.notation.brackets import NamedMomenta, squares_as_brackets
 from lagcli.notation.factors import (
     cancelled,
+    multiplied,
     odd_base,
     parts_of,
+    power_product,
     product_of_powers,
     whole_power,
     with_base,
@@ -53,9 +55,6 @@ from lagcli.notation.likeness import EVEN, ODD, Key, Monomial, multiplied_out, p
 from lagcli.notation.ordering import Ordering, positive_first
 from lagcli.problem_data import Problem
 from lagcli.rewriting import rebuilt
-
-#: Terms of a sum of products of masses that is multiplied out.
-_MULTIPLIED = 4
 
 
 class Manner:
@@ -168,7 +167,8 @@ class Manner:
 
     def _sum(self, node: Sum) -> Expression:
         """The sum, its brackets as in the denominator above: a - b (u - v), not a + b (v - u)."""
-        first, *rest = with_versines(self._sums.within(self._multiplied(self._ordered(node))).terms)
+        whole = multiplied(self._ordered(node), self._ordering)
+        first, *rest = with_versines(self._sums.within(whole).terms)
         return Sum((first, *map(self._as_within, rest))) if rest else first
 
     def _ordered(self, node: Sum) -> Sum:
@@ -181,43 +181,6 @@ class Manner:
             return Sum((*first, *(t for t in terms if t not in first)))
         # in order anew: a bracket that was turned has changed the sign of its term
         return Sum((*positive_first(sorted(terms, key=self._ordering.term)),))
-
-    def _multiplied(self, node: Sum) -> Sum:
-        """m1 m2 + m1 m3 + 4 m2 m3 for m1 (m2 + m3) + 4 m2 m3, of quantities of one kind."""
-        names = {part.name for part in walk(node) if isinstance(part, Name)}
-        if len({name.rstrip("0123456789_").lower() for name in names}) != 1:
-            return node
-        terms = [each for term in node.terms for each in self._distributed(term)]
-        if not len(node.terms) < len(terms) <= _MULTIPLIED:
-            return node
-        return Sum(tuple(positive_first(sorted(terms, key=self._ordering.term))))
-
-    def _distributed(self, term: Expression) -> list[Expression]:
-        """The terms of a product with one bracket; the product itself where it is none."""
-        minus, above, below = parts_of(term)
-        sums = [factor for factor in above if isinstance(factor, Sum)]
-        if len(sums) != 1 or below or len(above) == 1:
-            return [term]
-        found: list[Expression] = []
-        for each in sums[0].terms:
-            other, factors, under = parts_of(each)
-            if under:
-                return [term]
-            whole = self._power_product([f for f in (*above, *factors) if f is not sums[0]])
-            found.append(Negative(whole) if minus ^ other else whole)
-        return found
-
-    def _power_product(self, factors: Iterable[Expression]) -> Expression:
-        """The product of numbers and powers, each base once."""
-        number, powers = Fraction(1), dict[Expression, Fraction]()
-        for base, exponent in map(whole_power, factors):
-            if isinstance(base, Number):
-                number *= base.value**exponent
-            else:
-                powers[base] = powers.get(base, Fraction(0)) + exponent
-        ranked = self._ordering.arranged(powers.items())
-        shown = [base if e == 1 else Power(base, Number(e)) for base, e in ranked]
-        return quotient_of([Number(number), *shown] if number != 1 else shown, [])
 
     def _as_within(self, term: Expression) -> Expression:
         minus, above, below = parts_of(term)
@@ -350,7 +313,7 @@ class Manner:
             number *= like[0]
             above[place] = like[2]
             kept = [Power(x, Number(Fraction(e))) for x, e in left.items() if e]
-            below = parts_of(self._power_product(kept))[1] if kept else []
+            below = parts_of(power_product(kept, self._ordering))[1] if kept else []
         return number, above, below
 
     def _with_given_sums(
