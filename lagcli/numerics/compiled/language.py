@@ -10,23 +10,13 @@ capitals is a constant of the module.  Both sides of `and` and `or` are worked o
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
 from typing import Any, NamedTuple
 
 from lagcli.numerics.compiled.numbers import Numbers
+from lagcli.numerics.compiled.signatures import Signature, signature_of
 
-#: name -> (type of the result, types of the arguments)
-Signature = tuple[str, tuple[str, ...]]
-
-_KINDS = {
-    "float": "real",
-    "int": "i64",
-    "Reals": "ptr",
-    "Ints": "ints",
-    "DoubleCells": "doubles",
-    "None": "void",
-}
 #: Of what is in memory from a place on.
 _ENTRIES = {"ptr": "real", "ints": "i64", "doubles": "double"}
 _OPERATIONS: dict[tuple[type, str], str] = {
@@ -85,7 +75,7 @@ def translated(
         if isinstance(target, ast.Name)
     }
     functions = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
-    signatures = dict(given) | dict(beside or {}) | {f.name: _signature(f) for f in functions}
+    signatures = dict(given) | dict(beside or {}) | {f.name: signature_of(f) for f in functions}
     head = [] if beside else _head(numbers, given)
     bodies = [_Function(f, numbers, signatures, constants, set(given)).text() for f in functions]
     return "\n".join((*head, *bodies))
@@ -98,11 +88,6 @@ def _head(numbers: Numbers, given: Iterable[str]) -> list[str]:
     head += [f"declare double @{name}(double)" for name in ("exp", "log")]
     head.append(f"declare {real} @llvm.fmuladd.{suffix}({', '.join([real] * 3)})")
     return head
-
-
-def _signature(function: ast.FunctionDef) -> Signature:
-    kinds = tuple(_KINDS[ast.unparse(a.annotation)] for a in function.args.args if a.annotation)
-    return (_KINDS[ast.unparse(function.returns or ast.Constant(None))], kinds)
 
 
 class _Function:
@@ -391,10 +376,3 @@ def _loaded(target: ast.expr) -> ast.expr:
         case ast.Name(id=name):
             return ast.Name(name, ast.Load())
     raise TypeError("only names and places are assigned to")
-
-
-def functions_of(source: str) -> Iterator[tuple[str, Signature]]:
-    """The names and types of a module's functions."""
-    for node in ast.parse(source).body:
-        if isinstance(node, ast.FunctionDef):
-            yield node.name, _signature(node)

@@ -272,7 +272,8 @@ def _kernels(numbers: Numbers, *, quickly: bool = False) -> Compiled:
     source = "\n".join(map(_source, ("layout", "unseen", "expansion", "kernels")))
 
     def text() -> str:
-        from lagcli.numerics.compiled.language import functions_of, translated
+        from lagcli.numerics.compiled.language import translated
+        from lagcli.numerics.compiled.signatures import functions_of
 
         known = {name: kind for name, kind in functions_of(outside) if name in _GIVEN}
         return translated(source, numbers, known)
@@ -288,7 +289,8 @@ def _sums(numbers: Numbers) -> Compiled:
     inner = convolution(numbers, "noinline")
 
     def text() -> str:
-        from lagcli.numerics.compiled.language import functions_of, translated
+        from lagcli.numerics.compiled.language import translated
+        from lagcli.numerics.compiled.signatures import functions_of
 
         beside = {name: kind for name, kind in functions_of(outside) if name == "inner"}
         return "\n".join((declarations(numbers), inner, translated(source, numbers, {}, beside)))

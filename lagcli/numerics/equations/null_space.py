@@ -128,15 +128,21 @@ def pivots_of(masses: Sequence[float], rows: Matrix) -> Vector:
     return found
 
 
-def reduced(work: list[Vector], n: int, least: float) -> list[tuple[int, int]]:
-    """Gauss-Jordan with full pivoting, in place; (row, column) of each pivot above the least."""
+def reduced(
+    work: list[Vector], n: int, least: float, weights: Sequence[float] | None = None
+) -> list[tuple[int, int]]:
+    """Gauss-Jordan with full pivoting, in place; (row, column) of each pivot above the least.
+
+    The pivots are compared by weights of their columns, if there are any.
+    """
+    weights = weights or [1.0] * n
     pivots: list[tuple[int, int]] = []
     rows = set(range(len(work)))
     columns = set(range(n))
     while rows and columns:
-        size, i, j = max((abs(work[i][j]), -i, -j) for i in rows for j in columns)
+        _, i, j = max((abs(work[i][j]) * weights[j], -i, -j) for i in rows for j in columns)
         i, j = -i, -j
-        if not size > least:
+        if not abs(work[i][j]) > least:
             break
         pivots.append((i, j))
         rows.discard(i)

@@ -20,6 +20,7 @@ from lagcli.numerics.compiled.machine import Machine, pointer
 from lagcli.numerics.compiled.numbers import Extended
 from lagcli.numerics.compiled.text import exact
 from lagcli.numerics.equations.surface import Surface
+from lagcli.numerics.hybrid.leaps import Leaps
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.request import Progress
 from lagcli.numerics.hybrid.run import Run
@@ -35,14 +36,6 @@ _LOOK = 64
 _LIMIT = 1_000_000_000
 #: Of the order in the logarithm of the tolerance, by what was measured.
 _ORDER, _LOWEST = 0.7, 8
-#: Roundings of the time over which a place without a series is passed, in one run and the other;
-#: _WIDER times as many each time, at most _AT_ONE_PLACE times within _NEARBY of them.
-_NARROW, _WIDE, _WIDER, _AT_ONE_PLACE, _NEARBY = 16, 32, 8, 8, 1e9
-#: In the first of these times the velocity changes by less than this part of its scale: more is
-#: what a pole does.
-_IMPULSE = 1e-12
-#: What a change of the accelerations over it may add to a velocity in 80 and 128 bits.
-_UNFELT = 1e-17
 #: Constraints are held to _HELD roundings, and one that the others imply to _IMPLIED.
 _HELD, _IMPLIED = 3.6, 1e-12
 
@@ -79,8 +72,6 @@ class CompiledTaylor:
         self.n = machine.motion.n
         self.evaluations = 0
         self.reached: int | None = None
-        #: when what has values and no series was stepped over
-        self._leaps: list[float] = []
         self._array = machine.numbers.array
         both, motion = 2 * self.n, machine.motion
         self._rows, self._other = (self._zeros(machine.rows * k.STRIDE) for _ in range(2))
@@ -93,6 +84,7 @@ class CompiledTaylor:
         self._held = self._zeros(max(1, 4 * motion.m))
         self._facts = self._zeros(k.FACTS)
         self._counts = (c_int64 * k.COUNTS)()
+        self._leaps = Leaps(machine, self._scales, self._facts, self._counts)
         watch = machine.watch
         self._watch = (c_int64 * max(1, len(watch)))(*watch)
         self._other[both * k.STRIDE + 1] = machine.numbers.cell(1.0)
@@ -159,10 +151,10 @@ class CompiledTaylor:
             if more and t + h > t:  # a time is a double, whatever the state has
                 inside = self._inside(t)
             else:
-                h, move = self._across(t), self._leap
+                h, move = self._leaps.length(t), self._leap
                 if not h:
                     raise CannotGoOn(t, q, v, "")
-                inside = self._straight(t, q, v)
+                inside = self._leaps.straight(t, q, v)
             end = until if t + 1.01 * h >= until else t + h
             q_end, v_end = move(state, end, q, v)
             if motion.kinks:
@@ -221,71 +213,22 @@ class CompiledTaylor:
         found = self._read(cells, 2 * self.n)
         return found[: self.n], found[self.n :]
 
-    # -- over a place where the equations have values and no series --------------------------------
-
-    def _across(self, t: float) -> float:
-        """How long a step over it is, where a root or an inverse function blocks the way; or 0."""
-        if not self._counts[k.BLOCKED]:
-            return 0.0
-        unit = self._unit(t)
-        self._leaps = [*(before for before in self._leaps if t - before < _NEARBY * unit), t]
-        if len(self._leaps) > _AT_ONE_PLACE:
-            return 0.0
-        return unit * float(_WIDER ** (len(self._leaps) - 1))
-
-    def _unit(self, t: float) -> float:
-        """The shortest time over which such a place is passed: times are doubles."""
-        unit = 2.0**-52 * max(t, 1e-3 * float(self._facts[k.UNTIL]))
-        return unit * (_WIDE if self._facts[k.KICK] else _NARROW)
-
-    def _straight(self, start: float, q: Any, v: Any) -> Any:
-        """The state a time after another one, under the accelerations there."""
-        a = self.machine.motion.accelerations(start, *q, *v)
-
-        def inside(t: float) -> tuple[list[Any], list[Any], list[Any]]:
-            h = t - start
-            places = [x + h * (u + h * b / 2) for x, u, b in zip(q, v, a, strict=True)]
-            return places, [u + h * b for u, b in zip(v, a, strict=True)], list(a)
-
-        return inside
-
     def _leap(self, state: Any, end: float, q: Any, v: Any) -> tuple[list[Any], list[Any]]:
-        """As `_move`, where what acts is no impulse.
-
-        Raises
-        ------
-        CannotGoOn
-            Where it grows without bound.
-        """
-        both, ahead, t = 2 * self.n, self._ahead, float(state[2 * self.n])
-        inside, numbers = self._straight(t, q, v), self.machine.numbers
-        places, speeds, rates = inside(end)
-        scales = [*map(float, self._scales[self.n : both])]
-        pairs = zip(rates, scales, strict=True)
-        if any(abs(a) * self._unit(t) > _IMPULSE * scale for a, scale in pairs):
-            raise CannotGoOn(t, q, v, "")
-        if numbers.rounding < 2.0**-53:  # more digits than a time has: a jump is not passed
-            later = map(float, self.machine.motion.accelerations(end, *places, *speeds))
-            jumps = (  # beyond |u| = 0 a root of u has no value
-                abs((0.0 if math.isnan(b) else b) - float(a))
-                for a, b in zip(rates, later, strict=True)
-            )
-            least = _UNFELT / (end - t)
-            if not all(x <= least * scale for x, scale in zip(jumps, scales, strict=True)):
-                raise CannotGoOn(t, q, v, "")
-        zeros = [0] * (both + 1)  # the time, and what rounding has taken
+        """As `_move`, over a place where the equations have values and no series."""
+        places, speeds = self._leaps.over(float(state[2 * self.n]), end, q, v)
+        zeros = [0] * (2 * self.n + 1)  # the time, and what rounding has taken
         found = self._array([*map(exact, (*places, *speeds)), *zeros])
-        memmove(ahead, found, sizeof(found))
+        memmove(self._ahead, found, sizeof(found))
         return places, speeds
 
     def _goes_across(self, state: Any) -> bool:
         """Whether the state of a whole run could be carried over what blocks the way."""
         t = float(state[2 * self.n])
-        h = self._across(t)
+        h = self._leaps.length(t)
         if not h or t + h >= float(self._facts[k.UNTIL]):
             return False
         try:
-            places, speeds = self._leap(state, t + h, *self._halves(state))
+            places, speeds = self._leaps.over(t, t + h, *self._halves(state))
         except (ArithmeticError, ValueError):
             return False
         found = self._array([*map(exact, (*places, *speeds)), t + h])

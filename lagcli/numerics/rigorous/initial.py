@@ -23,6 +23,7 @@ from lagcli.graph.nodes import Node, Symbol
 from lagcli.graph.substitution import Substitution
 from lagcli.numerics.certified.simulate import Simulation
 from lagcli.numerics.equations.motion import Motion
+from lagcli.numerics.equations.null_space import reduced
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import given_values
 from lagcli.numerics.hybrid.request import RunRequest
@@ -112,7 +113,10 @@ def _solve(
     width = len(unknown)
     values = [float(x) for x in at(slope)]
     matrix = [values[i * width : (i + 1) * width] for i in range(len(rows))]
-    pivots = _pivots(matrix, [abs(float(state[s])) > 0 for s in unknown])
+    # columns of zeros come last
+    weights = [1.0 if float(state[s]) else _NO_PIVOT**0.5 for s in unknown]
+    least = _NO_PIVOT * max((abs(x) for x in values), default=0.0)
+    pivots = reduced(matrix, width, least, weights)
     free = [unknown[j] for j in range(width) if j not in {j for _, j in pivots}]
     if any(not state[s].is_zero() for s in free):
         message = f"the file does not determine the initial value of {free[0]} exactly"
@@ -149,27 +153,6 @@ def _solve(
         middle = [x.mid() for x in box]
     state |= dict(zip(chosen, box, strict=True))
     return {i for i, _ in pivots}
-
-
-def _pivots(matrix: list[list[float]], preferred: Sequence[bool]) -> list[tuple[int, int]]:
-    """Rows and columns of an elimination with full pivoting; columns of zeros come last."""
-    rest = [list(row) for row in matrix]
-    largest = max((abs(x) for row in rest for x in row), default=0.0)
-    rows, columns, found = set(range(len(rest))), set(range(len(preferred))), []
-    while rows and columns:
-        _, i, j = max(
-            (abs(rest[i][j]) * (1.0 if preferred[j] else _NO_PIVOT ** 0.5), i, j)
-            for i in rows for j in columns
-        )  # fmt: skip
-        if not abs(rest[i][j]) > _NO_PIVOT * largest:
-            break
-        found.append((i, j))
-        rows.discard(i)
-        columns.discard(j)
-        for k in rows:
-            factor = rest[k][j] / rest[i][j]
-            rest[k] = [a - factor * b for a, b in zip(rest[k], rest[i], strict=True)]
-    return found
 
 
 def setup_of(problem: Problem, request: RunRequest) -> tuple[Simulation, frozenset[int]]:
