@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from shutil import get_terminal_size
 from typing import Annotated
 
 from lagcli.cli.options import argument
@@ -35,6 +36,9 @@ def list(words: Words = None) -> int:  # noqa: A001 - the command's name
         report_line(f"no problem of the library has: {' '.join(words or ())}")
         return Status.NOT_FOUND
     width = max(len(name) for name, _ in found)
+    most = get_terminal_size().columns if sys.stdout.isatty() else sys.maxsize
     for name, title in found:
-        sys.stdout.write(f"{name:{width}}  {title}\n")
+        line = f"{name:{width}}  {title}"
+        sys.stdout.write(line if len(line) <= most else f"{line[: most - 1]}…")
+        sys.stdout.write("\n")
     return Status.WELL

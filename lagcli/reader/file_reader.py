@@ -25,6 +25,7 @@ from lagcli.reader.limits import MISTAKES
 from lagcli.reader.misshapen import as_list, as_map, as_text, by_its_name, one_sum
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
+from lagcli.reader.number_units import unit_mistake
 from lagcli.reader.scope import NUMBERS, VALUES, Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.text import Mistake
@@ -33,7 +34,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
     from lagcli.problem_data import Inequality
-    from lagcli.reader.positions import Excerpt
+from lagcli.reader.positions import Excerpt
 
 _T = TypeVar("_T")
 
@@ -240,7 +241,9 @@ class FileReader:
         alone = node.value.strip() if isinstance(node, Scalar) else ""
         unit = unit_behind(alone)
         if unit and (role in _NUMERIC or self._is_unit(unit)):
-            self._misplaced_unit(node, what, unit)
+            declared = what.startswith("the value of")
+            message, hint = unit_mistake(alone, self.scope.kinds, declared=declared) or ("", "")
+            self.error(message, node.span, hint)
             return UNREADABLE
         if (unit := unit_at_end(alone)) and self._is_unit(unit):
             hint = f"leave out '{unit}': units stand where names are declared"
@@ -278,20 +281,6 @@ class FileReader:
         names = _NAME.findall(text)
         known = names and all(name in self.scope.kinds for name in names)
         return not known and unit_behind(f"1 {text}") == text != ""
-
-    def _misplaced_unit(self, node: DocumentNode, what: str, unit: str) -> None:
-        assert isinstance(node, Scalar)
-        number = node.value.partition(unit)[0].strip(" [(")
-        hint = f"write {number}: numbers are in the units of the file"
-        if unit in {"min", "h"}:
-            hint = f"write {number}*{60 if unit == 'min' else 3600} for seconds"
-        if what.startswith("the value of"):
-            hint = f"write {{value: {number}, unit: {unit}}}"
-        if unit in {"deg", "°"}:
-            hint = f"angles are in radians: write {number}*pi/180"
-        if unit in self.scope.kinds:
-            hint += f"; the product is {number}*{unit}"
-        self.error(f"the unit '{unit}' cannot stand behind a number", node.span, hint)
 
     def equation(self, node: DocumentNode, what: str, role: Role) -> Equation:
         """`left = right`, or an expression that is 0."""

@@ -10,6 +10,7 @@ from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
 from lagcli.expression import Name
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.names import name_mistakes
+from lagcli.reader.number_units import unit_mistake
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.quantities import value_cycle
 from lagcli.reader.scope import VALUES, Scope
@@ -100,6 +101,9 @@ def _read(
         raise ProblemError(source, (Diagnostic(message, text.span(0, len(written)), hint),))
     start = len(written) + 1
     offsets = range(start, len(source.text) + 1)
+    if mistake := unit_mistake(value, scope.kinds):
+        span = text.span(len(source.text) - len(value.lstrip()), len(source.text))
+        raise ProblemError(source, (Diagnostic(mistake[0], span, mistake[1]),))
     try:
         expression = read_expression(Excerpt(value, text, offsets))
     except Mistake as error:

@@ -82,6 +82,15 @@ def test_the_command_says_it_with_its_exit_status(tmp_path, capsysbinary):
     assert run(["diff", old, str(tmp_path / "none.yaml")]) == 2
 
 
+def test_values_are_shown_as_they_are_written():
+    old, new = (
+        lagcli.loads(f"coordinates: [x]\nparameters: {{g: {g}}}\nL: x'^2/2 - g*x\n")
+        for g in ("9.81", "98/10 + pi")
+    )
+    [found] = differences(old, new)
+    assert (found.old, found.new) == ("9.81", "98/10 + pi")
+
+
 def test_shards_are_a_partition(tmp_path, capsysbinary):
     for k in range(5):
         (tmp_path / f"{k}.yaml").write_text("coordinates: [x]\nL: x'^2/2\n")

@@ -7,6 +7,7 @@ import pytest
 from lagcli.diagnostics import NOWHERE, ProblemError
 from lagcli.expression import Name, Number, walk
 from lagcli.reader import read_problem, set_parameters, set_state
+from lagcli.reader.columns import read_number
 
 PROBLEM = read_problem("f.yaml", b"coordinates: [x]\nparameters: [m, g]\nT: x'^2\n").checked()
 
@@ -24,6 +25,7 @@ def test_numbers_and_other_parameters_are_values():
         ("q=1", 1, "no parameter 'q'"),
         ("m=x", 3, "unknown name 'x'"),
         ("m = 2g", 5, "2*g"),
+        ("m = 2 kg", 5, "write 2: numbers are in the units of the file"),
         ("m=m", 3, "needs itself"),
         ("m=", 3, "empty"),
     ],
@@ -34,6 +36,15 @@ def test_a_wrong_setting_has_a_place(setting, column, piece):
     (mistake,) = caught.value.diagnostics
     assert mistake.span.column == column
     assert piece in mistake.message + mistake.hint
+
+
+@pytest.mark.parametrize(
+    ("text", "advice"), [("3 s", "write 3"), ("2min", "2*60"), ("30°", "30*pi/180")]
+)
+def test_a_number_of_an_option_has_no_unit(text, advice):
+    with pytest.raises(ProblemError) as caught:
+        read_number(text, "--until")
+    assert advice in caught.value.diagnostics[0].hint
 
 
 def test_a_state_is_put_in_for_that_of_the_file():

@@ -121,8 +121,6 @@ def _formula(
 
 def _numbers(old: Problem, new: Problem) -> Iterator[Difference]:
     """Values and the initial state, where the formulas are the same."""
-    from lagcli.formatters.grammar import to_grammar
-
     for subject, take in (
         ("parameters", lambda p: {one.name: one.value for one in p.parameters}),
         ("initial", lambda p: {str(name): value for name, value in p.initial.items()}),
@@ -131,8 +129,16 @@ def _numbers(old: Problem, new: Problem) -> Iterator[Difference]:
         for name in sorted({*before, *after}):
             one, other = before.get(name), after.get(name)
             if one != other:
-                shown = ["" if each is None else to_grammar(each) for each in (one, other)]
-                yield Difference(f"{subject}.{name}", shown[0], shown[1])
+                yield Difference(f"{subject}.{name}", _written(old, one), _written(new, other))
+
+
+def _written(problem: Problem, value: Expression | None) -> str:
+    """A value as the file has it."""
+    if value is None:
+        return ""
+    place = value.span
+    lines = problem.source.text.splitlines()[max(0, place.line - 1) : place.line]
+    return "".join(line[place.column - 1 : place.end_column - 1] for line in lines)
 
 
 def _decided(question: Any) -> bool | None:

@@ -1,0 +1,35 @@
+"""Units behind numbers, which stand where names are declared."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lagcli.reader.habits import unit_behind
+
+if TYPE_CHECKING:
+    from collections.abc import Container
+
+
+def unit_mistake(
+    text: str, names: Container[str] = (), *, declared: bool = False
+) -> tuple[str, str] | None:
+    """What is wrong with `10 kg`, and what to write; None where no unit stands behind a number.
+
+    Numbers are in the units of the file, whose names may be letters that are units as well;
+    a parameter is declared with its own.
+    """
+    text = text.replace("°", " deg")
+    unit = unit_behind(text)
+    if not unit:
+        return None
+    number = text.partition(unit)[0].strip(" [(")
+    hint = f"write {number}: numbers are in the units of the file"
+    if declared:
+        hint = f"write {{value: {number}, unit: {unit}}}"
+    elif unit in {"min", "h"}:
+        hint = f"write {number}*{60 if unit == 'min' else 3600} for seconds"
+    if unit == "deg":
+        hint = f"angles are in radians: write {number}*pi/180"
+    if unit in names:
+        hint += f"; the product is {number}*{unit}"
+    return f"the unit '{unit}' cannot stand behind a number", hint
