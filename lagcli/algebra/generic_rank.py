@@ -9,7 +9,7 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol
 
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import Evaluator, with_assumed_sign
 from lagcli.algebra.row_rank import independent_rows, rows_of
 
 _DIGITS = 50
@@ -51,4 +51,4 @@ def _drawn(symbol: Symbol, source: random.Random) -> mpf:
         size = mpf(source.randint(2, 5))
     else:
         size = mpf(source.randint(3000, 17000)) / 10007
-    return -size if symbol.is_negative else size
+    return with_assumed_sign(source, symbol, size, 1)

@@ -215,6 +215,15 @@ def _constant(node: Expr) -> Any:
     raise ZeroDivisionError(f"no finite value for {node!r}")
 
 
+def with_assumed_sign(
+    source: random.Random, symbol: Symbol, size: mpf, positive: float = 0.5
+) -> mpf:
+    """The size with the sign of the symbol; with this chance it is positive where none is known."""
+    if symbol.is_negative:
+        return -size
+    return size if symbol.is_nonnegative or source.random() < positive else -size
+
+
 def vanishes_at_random(expression: Expr) -> bool:
     """Whether an expression is 0 at random values of its symbols at which it is real.
 
@@ -226,8 +235,8 @@ def vanishes_at_random(expression: Expr) -> bool:
     decimals = any(len(str(r.q)) > 7 for r in expression.atoms(sympy.Rational))
     found: list[bool] = []
     for _ in range(_SAMPLES):
-        values = {s: mpf(source.randint(100, 3000)) / 1009 for s in symbols}
-        values = {s: -v if s.is_negative else v for s, v in values.items()}
+        sizes = {s: mpf(source.randint(100, 3000)) / 1009 for s in symbols}
+        values = {s: with_assumed_sign(source, s, v, 1) for s, v in sizes.items()}
         try:
             parts = evaluator(values)
         except (ArithmeticError, ValueError, TypeError):

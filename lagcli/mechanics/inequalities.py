@@ -11,7 +11,7 @@ from sympy import Dummy, Expr, Symbol
 from sympy.core.function import AppliedUndef
 
 from lagcli.algebra import simplify
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import Evaluator, with_assumed_sign
 from lagcli.algebra.positivity import deciding, sign_of, weak_sign
 from lagcli.algebra.signs import beyond
 
@@ -68,10 +68,7 @@ def shorter_sums(first: Expr, second: Expr) -> Iterator[Expr]:
 
 def _all_positive(evaluate: Evaluator, symbols: Sequence[Symbol], source: random.Random) -> bool:
     """Whether all are at values of random sizes."""
-    values = {
-        s: mpf(10 ** source.uniform(-1, 1)) * (1 if s.is_positive else source.choice((1, -1)))
-        for s in symbols
-    }
+    values = {s: with_assumed_sign(source, s, mpf(10 ** source.uniform(-1, 1))) for s in symbols}
     try:
         return all(isinstance(x, mpf) and x > 0 for x in evaluate(values))
     except (ArithmeticError, ValueError, TypeError):

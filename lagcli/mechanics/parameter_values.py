@@ -8,7 +8,7 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol
 
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import Evaluator, with_assumed_sign
 from lagcli.mechanics.system import System
 
 DIGITS = 60
@@ -58,8 +58,4 @@ def random_parameter(source: random.Random, parameter: Symbol, *, wide: bool) ->
     size = 30011 if wide else 7001
     with mpmath.workdps(DIGITS):
         magnitude = mpmath.exp(mpf(source.randint(-size, size)) / 10007)
-    if parameter.is_negative:
-        return -magnitude
-    if parameter.is_nonnegative or source.random() < 0.5:
-        return magnitude
-    return -magnitude
+    return with_assumed_sign(source, parameter, magnitude)

@@ -18,7 +18,7 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.build import without_jumps
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import Evaluator, with_assumed_sign
 from lagcli.algebra.row_rank import Elimination, independent_rows, least_norm_solution, rows_of
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.system import System
@@ -326,11 +326,7 @@ def random_value(source: random.Random, symbol: Symbol, low: float, high: float)
     if symbol.is_integer:
         return mpf(source.randint(2, 5))
     magnitude = mpf(source.randint(int(low * 10007), int(high * 10007))) / 10007
-    if symbol.is_negative:
-        return -magnitude
-    if symbol.is_nonnegative:
-        return magnitude
-    return magnitude if source.random() < 0.7 else -magnitude
+    return with_assumed_sign(source, symbol, magnitude, 0.7)
 
 
 def _moved(state: State, unknowns: Sequence[Symbol], step: Sequence[mpf]) -> State:

@@ -28,7 +28,7 @@ from sympy import Expr
 
 from lagcli.algebra import derivative
 from lagcli.algebra.build import free_of
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import Evaluator, with_assumed_sign
 from lagcli.algebra.row_rank import nullspace, rank
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.dynamics import Dynamics
@@ -128,10 +128,9 @@ class Brackets:
                 width = turn if turn % 2 else 1  # beyond a horizon r^2 > m as well
                 state = dict(base)
                 for x in (*system.q, *system.qdot):
-                    value = mpf(source.randint(2000, 13000)) / 10007
-                    negative = x.is_negative or (not x.is_nonnegative and source.random() < 0.4)
                     scale = mpf(1) / 3 if x in system.qdot else mpf(width)
-                    state[x] = -value * scale if negative else value * scale
+                    size = scale * source.randint(2000, 13000) / 10007
+                    state[x] = with_assumed_sign(source, x, size, 0.6)
                 state[system.t] = mpf(source.randint(1000, 9000)) / 10007
                 if not self.dynamics.states.placed(state):
                     bad += 1

@@ -14,7 +14,7 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol
 
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import Evaluator, with_assumed_sign
 from lagcli.evaluation import bisected
 
 _DIGITS = 30
@@ -52,10 +52,7 @@ def same_region(found: Sequence[Expr], expected: Sequence[Expr]) -> bool:
 
 
 def _drawn(symbol: Symbol, random: Random) -> mpf:
-    size = mpf(random.randint(1, 4000)) / 1009
-    if symbol.is_negative or not (symbol.is_nonnegative or random.random() < 0.5):
-        return -size
-    return size
+    return with_assumed_sign(random, symbol, mpf(random.randint(1, 4000)) / 1009)
 
 
 def _along(expressions: Sequence[Expr], ends: Sequence[dict[Symbol, mpf]]) -> Holds:
