@@ -63,23 +63,23 @@ def abbreviated(answers: Answers, taken: Collection[str]) -> Answers:
     return replace(answers, sections=sections, where=names.where)
 
 
-def in_steps(told: Explanation, taken: Collection[str]) -> Explanation:
+def in_steps(explanation: Explanation, taken: Collection[str]) -> Explanation:
     """The explanation with such names in its results, listed where the first of them occurs.
 
     The system, L and the equations of motion are derived from each other as they are written.
     """
-    derived = told.steps[_DERIVATION:]
+    derived = explanation.steps[_DERIVATION:]
     names = _found(derived, taken)
     if names is None:
-        return told
-    steps = [*told.steps[:_DERIVATION], *rewritten(derived, names)]
+        return explanation
+    steps = [*explanation.steps[:_DERIVATION], *rewritten(derived, names)]
     first = next(
         place for place, step in enumerate(steps) if names_in(step.blocks) & names.where.keys()
     )
     rows = tuple(Row(Name(name), node) for name, node in names.where.items())
     listed = (Paragraph(("With the abbreviations",)), Equations(rows))
     steps[first] = replace(steps[first], blocks=(*listed, *steps[first].blocks))
-    return replace(told, steps=tuple(steps))
+    return replace(explanation, steps=tuple(steps))
 
 
 def _found(parts: Sequence[object], taken: Collection[str]) -> _Abbreviations | None:

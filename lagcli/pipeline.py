@@ -197,8 +197,8 @@ def _with_words(problem: Problem, sections: Mapping[str, Section]) -> Mapping[st
     energy = sections.get("energy")
     if not isinstance(energy, EnergySection):
         return sections
-    told = sentence(energy.reason, names_of(problem))
-    return {**sections, "energy": replace(energy, reason=told)}
+    reason = sentence(energy.reason, names_of(problem))
+    return {**sections, "energy": replace(energy, reason=reason)}
 
 
 def _with_given_decimals(problem: Problem, request: Request, answers: Answers) -> Answers:
@@ -247,8 +247,8 @@ def explain(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
         return _in_the_manner(derivation, _confirmed(derivation, explanation_of_large(large), ()))
     from lagcli.mechanics.explaining.explain import explanation
 
-    told = _ended(lambda: explanation(derivation, also))
-    return _in_the_manner(derivation, _confirmed(derivation, told, also))
+    account = _ended(lambda: explanation(derivation, also))
+    return _in_the_manner(derivation, _confirmed(derivation, account, also))
 
 
 #: The sections whose answers a step of an explanation derives.
@@ -265,7 +265,7 @@ _STEPS: Mapping[str, tuple[str, ...]] = {
 _UNCONFIRMED = "This step is left out: its result was not confirmed at random states."
 
 
-def _confirmed(derivation: Derivation, told: Explanation, also: Sequence[str]) -> Explanation:
+def _confirmed(derivation: Derivation, account: Explanation, also: Sequence[str]) -> Explanation:
     """The explanation without the steps whose answers are not confirmed in numbers."""
     from lagcli.document import Paragraph
     from lagcli.statements.explanation import ExplanationStep
@@ -276,23 +276,23 @@ def _confirmed(derivation: Derivation, told: Explanation, also: Sequence[str]) -
         one.title: (name,) for name in also if (one := find_section(name).explained) is not None
     }
     steps = {**_STEPS, **further}
-    titles = [step.title for step in told.steps]
+    titles = [step.title for step in account.steps]
     names = tuple(dict.fromkeys(name for title in titles for name in steps.get(title, ())))
     if not VERIFYING or not names or derivation.no_lagrangian:
-        return told
+        return account
     derived = _with_charges(derivation, _ended(lambda: _statements(derivation)).answers(names))
     sound = _ended(lambda: verified(derivation.problem, derived))
     wrong = {name for name in names if sound.sections.get(name) != derived.sections.get(name)}
     if not wrong:
-        return told
+        return account
     left_out = (Paragraph((_UNCONFIRMED,)),)
     return replace(
-        told,
+        account,
         steps=tuple(
             ExplanationStep(step.title, left_out) if wrong & {*steps.get(step.title, ())} else step
-            for step in told.steps
+            for step in account.steps
         ),
-        warnings=(*told.warnings, *(w for w in sound.warnings if w not in derived.warnings)),
+        warnings=(*account.warnings, *(w for w in sound.warnings if w not in derived.warnings)),
         complete=False,
     )
 
@@ -315,7 +315,7 @@ def _ended(work: Callable[[], Made]) -> Made:
         raise TimeoutError(TOO_MUCH) from None
 
 
-def _in_the_manner(derivation: Derivation, told: Explanation) -> Explanation:
+def _in_the_manner(derivation: Derivation, account: Explanation) -> Explanation:
     """The explanation with its formulas as the file writes its own, and no letter twice."""
     from lagcli.abbreviations import in_steps
     from lagcli.notation.given_formulas import names_of
@@ -324,11 +324,11 @@ def _in_the_manner(derivation: Derivation, told: Explanation) -> Explanation:
     from lagcli.rewriting import rewritten
 
     taken = names_of(derivation.given)
-    told = replace(told, steps=rewritten(told.steps, Manner(derivation.given)))
+    account = replace(account, steps=rewritten(account.steps, Manner(derivation.given)))
     if derivation.large_form is None:
-        told = in_steps(told, taken)
-    said = tuple(sentence(warning, taken) for warning in told.warnings)
-    return replace(told, steps=settled(told.steps, taken), warnings=said)
+        account = in_steps(account, taken)
+    said = tuple(sentence(warning, taken) for warning in account.warnings)
+    return replace(account, steps=settled(account.steps, taken), warnings=said)
 
 
 def _statements(derivation: Derivation) -> Stating:

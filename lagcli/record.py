@@ -101,8 +101,8 @@ def _initializer(cls: type, parts: tuple[_RecordField, ...]) -> Callable[..., No
     def __init__(self: Any, *given: Any, **named: Any) -> None:  # noqa: N807
         count = len(given)
         if count > positional:
-            told = f"takes {positional} positional arguments but {count} were given"
-            raise TypeError(f"{cls.__name__}() {told}")
+            mistake = f"takes {positional} positional arguments but {count} were given"
+            raise TypeError(f"{cls.__name__}() {mistake}")
         for put, value in zip(setters, given):  # noqa: B905 - the rest follows
             put(self, value)
         rest = plain[count]

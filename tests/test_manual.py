@@ -95,7 +95,7 @@ def test_the_sections_are_listed_as_their_modules_describe_them():
 
     def row(each):
         summary = import_module(f"lagcli.sections.{each.name}").__doc__.splitlines()[0]
-        dot = "" if each.unasked is never else "· "
+        dot = "" if each.by_default is never else "· "
         return f"| {dot}| `{each.name}` | {summary.removesuffix('.')} |\n"
 
     rows = "".join(map(row, built_in()))

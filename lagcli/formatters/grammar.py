@@ -38,9 +38,9 @@ from lagcli.formatters.numbers import DecimalParts, decimal_parts, digit_groups
 from lagcli.formatters.precedence import Level, Printer
 
 #: Columns of a bracket that is not parted.
+_SHORT = 24
 #: The same of a denominator: the line breaks before its slash.
 _DENOMINATOR = 66
-_SHORT = 24
 
 
 def to_grammar(expression: Expression) -> str:

@@ -159,7 +159,7 @@ class Stating:
 
     def _usual(self) -> list[str]:
         """The sections that are shown without a request, for what the file gives."""
-        return [each.name for each in built_in() if each.unasked(self.problem)]
+        return [each.name for each in built_in() if each.by_default(self.problem)]
 
     def lacks(self, what: str, why: str = "") -> None:
         """Note that a requested answer was not found."""

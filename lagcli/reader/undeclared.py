@@ -37,14 +37,14 @@ def one_for_undeclared(
         for each in diagnostics
     ]
     kept: list[Diagnostic] = []
-    told: set[tuple[str, str]] = set()
+    reported: set[tuple[str, str]] = set()
     undeclared: dict[str, Diagnostic] = {}
     for each in diagnostics:
         found = _NAME.fullmatch(each.message)
-        if found is None or (found[1], each.hint) not in told:
+        if found is None or (found[1], each.hint) not in reported:
             kept.append(each)
         if found is not None:
-            told.add((found[1], each.hint))
+            reported.add((found[1], each.hint))
             if UNDECLARED in each.hint:
                 undeclared.setdefault(found[1], each)
     if not (together and len(undeclared) > 1):

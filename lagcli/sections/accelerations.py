@@ -76,7 +76,7 @@ SECTION = declared(
     heading="Accelerations",
     order=40,
     schema=map_of(FORMULA),
-    unasked=always,
+    by_default=always,
     abbreviated=True,
     expected=(expected_by_coordinate("accelerations", "the expected acceleration of '{}'"),),
 )

@@ -82,7 +82,7 @@ SECTION = declared(
     heading="Poisson brackets",
     order=120,
     phase_space=derive,
-    unasked=attrgetter("brackets"),
+    by_default=attrgetter("brackets"),
     explained=Explained(title="Poisson brackets", blocks=step("phase_space:brackets"), order=70),
     expected=(expected_of("brackets", _EXPECTED, compare),),
 )

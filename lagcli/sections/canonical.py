@@ -178,7 +178,7 @@ SECTION = declared(
     heading="Canonical transformations",
     order=130,
     phase_space=derive,
-    unasked=attrgetter("canonical_transformations"),
+    by_default=attrgetter("canonical_transformations"),
     explained=Explained(
         title="Canonical transformations", blocks=step("transformations:transformations"), order=80
     ),

@@ -82,7 +82,7 @@ SECTION = declared(
     heading="Canonical equations",
     order=110,
     schema=map_of(record_of(("q", "p"), {"q": FORMULA, "p": FORMULA})),
-    unasked=attrgetter("hamiltonian"),
+    by_default=attrgetter("hamiltonian"),
     explained=Explained(
         title="Canonical equations", blocks=step("phase_space:canonical_equations"), order=60
     ),

@@ -253,6 +253,6 @@ SECTION = declared(
     heading="Symmetries and conserved quantities",
     order=140,
     schema=CHARGES,
-    unasked=always,
+    by_default=always,
     expected=(expected_of("charges", of_known("charge", _symmetries, EXPECTED_CHARGE), compare),),
 )

@@ -81,6 +81,6 @@ SECTION = declared(
             "reason": {"type": "string"},
         },
     ),
-    unasked=always,
+    by_default=always,
     expected=(expected_of("energy", formula("the expected energy", STATE), compare),),
 )

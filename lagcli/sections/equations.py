@@ -161,6 +161,6 @@ SECTION = declared(
             ("coordinate", "equation"), {"coordinate": {"type": "string"}, "equation": FORMULA}
         ),
     },
-    unasked=always,
+    by_default=always,
     expected=(expected_of("equations", _EXPECTED, compare),),
 )

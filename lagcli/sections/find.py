@@ -233,7 +233,7 @@ SECTION = declared(
     globals(),
     heading="Questions",
     order=170,
-    unasked=attrgetter("find"),
+    by_default=attrgetter("find"),
     explained=Explained(title="Questions", blocks=step("questions:questions"), order=10),
     content="answers",
     abbreviated=True,

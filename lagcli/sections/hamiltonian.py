@@ -95,7 +95,7 @@ SECTION = declared(
     heading="Hamiltonian",
     order=100,
     schema=OR_NULL,
-    unasked=attrgetter("hamiltonian"),
+    by_default=attrgetter("hamiltonian"),
     abbreviated=True,
     expected=(
         expected_of("hamiltonian", formula("the expected Hamiltonian", PHASE_SPACE), compare),

@@ -44,4 +44,4 @@ def blocks(section: LagrangianSection, _: Answers) -> Iterable[Block]:
     return [not_found() if found is None else one_row(Label("L"), found)]
 
 
-SECTION = declared(globals(), heading="Lagrangian", order=10, schema=OR_NULL, unasked=always)
+SECTION = declared(globals(), heading="Lagrangian", order=10, schema=OR_NULL, by_default=always)

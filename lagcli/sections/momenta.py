@@ -53,6 +53,6 @@ SECTION = declared(
     heading="Momenta",
     order=80,
     schema=map_of(FORMULA),
-    unasked=always,
+    by_default=always,
     expected=(expected_by_coordinate("momenta", "the expected momentum of '{}'"),),
 )

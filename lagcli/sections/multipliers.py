@@ -147,7 +147,7 @@ SECTION = declared(
             },
         )
     ),
-    unasked=attrgetter("constraints"),
+    by_default=attrgetter("constraints"),
     abbreviated=True,
     expected=(expected_of("multipliers", _EXPECTED, compare),),
 )

@@ -114,7 +114,7 @@ class Declaration:
     large, phase_space : function (statements) -> statement, or None
         The derivation for a system too large for simplified formulas, and for an H that gives
         no Lagrangian; None where the section is missing there.
-    unasked : function (problem) -> bool
+    by_default : function (problem) -> bool
         Whether it is shown without a request.
     explained : Explained or None
         Its step in an explanation.
@@ -135,7 +135,7 @@ class Declaration:
     schema: Schema | None = None
     large: Callable[[Any], Any] | None = None
     phase_space: Callable[[Any], Any] | None = None
-    unasked: Callable[[Any], bool] = never
+    by_default: Callable[[Any], bool] = never
     explained: Explained | None = None
     expected: tuple[Expected, ...] = ()
     content: str = ""

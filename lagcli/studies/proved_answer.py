@@ -64,14 +64,16 @@ def _told(proof: Proof, until: float, *, lasts: bool) -> Proved | str:
     last = proof.events[-1] if proof.events else None
     if last is not None and last.what == "stopped":
         at = proved_digits(last.t)
-        told = f"it holds until t = {at} and fails there" if lasts else f"it is reached at t = {at}"
-        return _proved(told, until, holds=not lasts, at=at)
+        claim = (
+            f"it holds until t = {at} and fails there" if lasts else f"it is reached at t = {at}"
+        )
+        return _proved(claim, until, holds=not lasts, at=at)
     if not proof.reached:
         return proof.refusal
-    told = "holds" if lasts else "is not reached"
-    return _proved(f"it {told} until t = {proof.holds_until:g}", proof.holds_until, holds=lasts)
+    claim = "holds" if lasts else "is not reached"
+    return _proved(f"it {claim} until t = {proof.holds_until:g}", proof.holds_until, holds=lasts)
 
 
-def _proved(told: str, until: float, *, holds: bool, at: str = "") -> Proved:
-    sentence = f"For the values of the file {told}: proved by an enclosure of the motion."
+def _proved(claim: str, until: float, *, holds: bool, at: str = "") -> Proved:
+    sentence = f"For the values of the file {claim}: proved by an enclosure of the motion."
     return Proved(holds=holds, until=until, at=at, sentence=sentence)

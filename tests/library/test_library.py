@@ -74,7 +74,7 @@ class Solved:
 
 
 def usual(problem: Problem) -> list[str]:
-    return [each.name for each in built_in() if each.unasked(problem)]
+    return [each.name for each in built_in() if each.by_default(problem)]
 
 
 def checked(derivation: Derivation) -> list[str]:

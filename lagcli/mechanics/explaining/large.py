@@ -30,14 +30,14 @@ def explanation_of_large(form: MatrixForm) -> Explanation:
     """What follows for a large system from its structure."""
     charges = LargeCharges(form)
     solution = ClosedForm(form, names_of(form.problem)).motion
-    told = {
+    account = {
         "The system": _system(form),
         "Lagrange's equations": _equations(form, solved=solution is not None),
     }
     if solution is not None:
-        told["The accelerations"] = _solved(form, solution)
-    told["The energy"] = _energy(form, charges)
-    steps = [ExplanationStep(title, tuple(blocks)) for title, blocks in told.items()]
+        account["The accelerations"] = _solved(form, solution)
+    account["The energy"] = _energy(form, charges)
+    steps = [ExplanationStep(title, tuple(blocks)) for title, blocks in account.items()]
     missing = (UNSOLVED,) if solution is None else ()
     return explained(form.problem, form.degrees_of_freedom, steps, missing)
 

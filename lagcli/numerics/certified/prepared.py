@@ -132,14 +132,14 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
         nonlocal count
         moved, done = -1 if slow else int(count % 2 == 0), simulation.finished
 
-        def told(part: float) -> None:
+        def report(part: float) -> None:
             if simulation.progress is not None:
                 simulation.progress((done + part) / max(total, done + 1))
 
         def again() -> Run:
             bound = Tolerance(tolerance, n, request.until, longest, peaks, made.floor)
             bound.moved = moved != 0
-            return made.run(bound, every, told, moved=moved)
+            return made.run(bound, every, report, moved=moved)
 
         run = again()
         run.again = again

@@ -201,5 +201,5 @@ def correction_function(
 
 
 def _table(name: str, values: Iterable[int]) -> str:
-    told = [f"i64 {value}" for value in values]
-    return f"@{name} = internal constant [{len(told)} x i64] [{', '.join(told)}]"
+    cells = [f"i64 {value}" for value in values]
+    return f"@{name} = internal constant [{len(cells)} x i64] [{', '.join(cells)}]"

@@ -150,8 +150,8 @@ class _Function:
                 self._if(self._value(test), body, otherwise)
             case ast.Return(value=value):
                 found = None if value is None else self._value(value)
-                told = "void" if found is None else f"{self._type(found.kind)} {found.text}"
-                self._lines.append(f"ret {told}")
+                returned = "void" if found is None else f"{self._type(found.kind)} {found.text}"
+                self._lines.append(f"ret {returned}")
                 self._begin(self._label())
             case ast.Break():
                 self._jump(self._ends[-1])
@@ -169,10 +169,10 @@ class _Function:
                 self._set(name, value)
             case ast.Subscript():
                 place, kind = self._place(target)
-                told = self._as(value, "real" if kind == "double" else kind)
+                stored = self._as(value, "real" if kind == "double" else kind)
                 if kind == "double":
-                    told = self._converted("fptrunc", self._numbers.type, told, "double")
-                self._lines.append(f"store {self._type(kind)} {told}, ptr {place}")
+                    stored = self._converted("fptrunc", self._numbers.type, stored, "double")
+                self._lines.append(f"store {self._type(kind)} {stored}, ptr {place}")
             case _:
                 raise TypeError("only names and places are assigned to")
 
@@ -264,21 +264,21 @@ class _Function:
 
     def _operation(self, op: ast.operator, left: Value, right: Value) -> Value:
         kind = "real" if "real" in {left.kind, right.kind} or isinstance(op, ast.Div) else "i64"
-        told = f"{self._as(left, kind)}, {self._as(right, kind)}"
-        return self._made(kind, f"{_OPERATIONS[type(op), kind]} {self._type(kind)} {told}")
+        operands = f"{self._as(left, kind)}, {self._as(right, kind)}"
+        return self._made(kind, f"{_OPERATIONS[type(op), kind]} {self._type(kind)} {operands}")
 
     def _comparison(self, op: ast.cmpop, left: Value, right: Value) -> Value:
         kind = "real" if "real" in {left.kind, right.kind} else "i64"
         real, whole = _COMPARISONS[type(op)]
         word = f"fcmp {real}" if kind == "real" else f"icmp {whole}"
-        told = f"{self._as(left, kind)}, {self._as(right, kind)}"
-        return self._made("i1", f"{word} {self._type(kind)} {told}")
+        operands = f"{self._as(left, kind)}, {self._as(right, kind)}"
+        return self._made("i1", f"{word} {self._type(kind)} {operands}")
 
     def _better(self, op: ast.cmpop, b: Value, best: Value) -> Value:
         kind = "real" if "real" in {b.kind, best.kind} else "i64"
         taken = self._comparison(op, b, best).text
-        told = (f"{self._type(kind)} {self._as(value, kind)}" for value in (b, best))
-        return self._made(kind, f"select i1 {taken}, {', '.join(told)}")
+        operands = (f"{self._type(kind)} {self._as(value, kind)}" for value in (b, best))
+        return self._made(kind, f"select i1 {taken}, {', '.join(operands)}")
 
     def _call(self, name: str, arguments: list[ast.expr]) -> Value:
         values = [self._value(argument) for argument in arguments]
@@ -309,14 +309,14 @@ class _Function:
                     self._made("double", f"call double @{name}(double {given})").text
                 )
         result, kinds = self._signatures[name]
-        told = ", ".join(
+        operands = ", ".join(
             f"{self._type(kind)} {self._as(value, kind)}"
             for kind, value in zip(kinds, values, strict=True)
         )
         function = f"@{name}"
         if name in self._given:  # its address is put there before the first call
             function = self._made("ptr", f"load ptr, ptr @at.{name}").text
-        call = f"call {self._type(result)} {function}({told})"
+        call = f"call {self._type(result)} {function}({operands})"
         if result == "void":
             self._lines.append(call)
             return Value("void", "")
@@ -347,8 +347,8 @@ class _Function:
         return self._offset(base, kind, self._value(node.slice)).text, kind
 
     def _offset(self, base: Value, kind: str, index: Value) -> Value:
-        told = f"{self._type(kind)}, ptr {base.text}, i64 {index.text}"
-        return self._made(base.kind, f"getelementptr {told}")
+        operands = f"{self._type(kind)}, ptr {base.text}, i64 {index.text}"
+        return self._made(base.kind, f"getelementptr {operands}")
 
     # -- text ------------------------------------------------------------------------------------
 

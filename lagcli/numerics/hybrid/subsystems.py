@@ -109,12 +109,12 @@ class Apart:
             each.phases.append(Phase(self.mode, surface, 0.0))
             q, v = map(part.state, state)
 
-            def told(done: float, before: int = count) -> None:
+            def report(done: float, before: int = count) -> None:
                 if progress is not None:
                     progress((before + done) / len(self.parts))
 
             method = CompiledTaylor(part.machine, surface)
-            method.go(each, q, v, times, probes=probes, progress=told)
+            method.go(each, q, v, times, probes=probes, progress=report)
             if each.stop is not None or len(each.marks) < len(times):
                 return False
             made.append(each)

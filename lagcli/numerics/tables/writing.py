@@ -143,8 +143,8 @@ def to_table(result: Result) -> str:
     lines.append(f"  estimated by {held.estimated_by}")
     lines += [f"charge {name}: drift {drift:.1e}" for name, drift in held.charges.items()]
     for name, (position, rate) in held.constraints.items():
-        told = "" if position is None else f"residual {position:.1e}, "
-        lines.append(f"constraint {name}: {told}residual of its rate {rate:.1e}")
+        words = "" if position is None else f"residual {position:.1e}, "
+        lines.append(f"constraint {name}: {words}residual of its rate {rate:.1e}")
     if result.cut is not None:
         lines += _model_lines(result.cut)
     work = f"{result.steps} steps, {result.evaluations} evaluations"
@@ -170,8 +170,8 @@ def _told(events: Sequence[Event]) -> list[str]:
     if len(lines) > 2 * _LISTED + 1:
         left_out = len(lines) - 2 * _LISTED
         lost = sum(event.energy_lost or 0.0 for event in events[_LISTED:-_LISTED])
-        told = f"… {left_out} more events" + (f", energy lost {lost:.6g}" if lost else "")
-        lines = [*lines[:_LISTED], told, *lines[-_LISTED:]]
+        words = f"… {left_out} more events" + (f", energy lost {lost:.6g}" if lost else "")
+        lines = [*lines[:_LISTED], words, *lines[-_LISTED:]]
     return lines
 
 

@@ -163,22 +163,22 @@ class TrajectoryCheck:
             )
             return
         event = result.events[place]
-        told = f"{event.what} of {event.name} at t = {event.t!r}"
+        computed = f"{event.what} of {event.name} at t = {event.t!r}"
         same = expected.event in {None, event.name} and expected.what in {None, event.what}
         if not same:
             wanted = " of ".join(word for word in (expected.what, expected.event) if word)
-            yield self._finding(CheckOutcome.WRONG, path, f"expected {wanted}, computed {told}")
+            yield self._finding(CheckOutcome.WRONG, path, f"expected {wanted}, computed {computed}")
             return
         if expected.t is not None:
             [t] = self._value(expected.t)
             if abs(event.t - t) > tolerance * max(1.0, until):
                 yield self._finding(
-                    CheckOutcome.WRONG, path, f"expected t = {t!r}, computed {told}"
+                    CheckOutcome.WRONG, path, f"expected t = {t!r}, computed {computed}"
                 )
                 return
         yield None
         rows = _by_time(result)
-        yield from self._values(path, expected, event.before, tolerance, rows, told)
+        yield from self._values(path, expected, event.before, tolerance, rows, computed)
 
     def _finding(self, outcome: CheckOutcome, path: tuple[str, ...], message: str) -> Finding:
         whole = ("trajectory", *path)

@@ -142,7 +142,7 @@ def _at_angle(
     name, factor = moved
     rest = [(n, k) for n, k in angle.factors if n != name]
     target = _beside(halves, side)
-    told = f"{_combined(angle)} = {to_grammar(target)}"
+    words = f"{_combined(angle)} = {to_grammar(target)}"
     if not rest and factor == 1 and not angle.constant:
         exact, value = target, math.pi / 2 * halves + side * float(_BESIDE)
     else:
@@ -152,9 +152,9 @@ def _at_angle(
     if name in names:
         q = list(scene.q)
         q[names.index(name)] = value
-        yield from _stated(scene, "angles", told, q, scene.v, {Name(name): exact})
+        yield from _stated(scene, "angles", words, q, scene.v, {Name(name): exact})
     else:
-        yield from _valued(scene, "angles", told, {name: exact})
+        yield from _valued(scene, "angles", words, {name: exact})
 
 
 def _value(scene: ExtremeScene, names: Sequence[str], name: str) -> float:
@@ -185,9 +185,9 @@ def _singular(scene: ExtremeScene) -> Iterator[Case]:
                 small = Number(beside, decimal=True)
                 exact = small if root.twelfths == 0 else Sum((place, small))
             shown = f"{root.value:.10g}" if root.twelfths is None else to_grammar(place)
-            told = "1e-9" if beside and shown == "0" else shown + " + 1e-9" * bool(beside)
+            words = "1e-9" if beside and shown == "0" else shown + " + 1e-9" * bool(beside)
             yield from _stated(
-                scene, "singular", f"{name} = {told}", q, scene.v, {Name(name): exact}
+                scene, "singular", f"{name} = {words}", q, scene.v, {Name(name): exact}
             )
 
 
@@ -211,8 +211,8 @@ def _separatrix(scene: ExtremeScene) -> Iterator[Case]:
         for side in (-1, 1):
             v = _velocity(scene, top, side)
             if v is not None:
-                told = f"E = E({where}) {'-+'[side > 0]} 1e-12"
-                yield from _stated(scene, "separatrix", told, scene.q, v, {})
+                words = f"E = E({where}) {'-+'[side > 0]} 1e-12"
+                yield from _stated(scene, "separatrix", words, scene.q, v, {})
 
 
 def _velocity(scene: ExtremeScene, top: float, side: int) -> Vector | None:
@@ -244,7 +244,7 @@ def _light(scene: ExtremeScene) -> Iterator[Case]:
     names = [c.name for c in scene.problem.coordinates]
     for direction, factor in light_speeds(scene):
         moving = [j for j, x in enumerate(direction) if x]
-        told = " and ".join(f"{names[j]}'" for j in moving)
+        words = " and ".join(f"{names[j]}'" for j in moving)
         for share, text in (
             (1 - _CLOSE, "(1 - 1e-12) times"),
             (_BESIDE, "1e-9 times"),
@@ -252,4 +252,4 @@ def _light(scene: ExtremeScene) -> Iterator[Case]:
         ):
             v = [float(Fraction(factor * x) * share) for x in direction]
             exact = {Name(names[j], 1): number(v[j]) for j in moving}
-            yield from _stated(scene, "light", f"{told} {text} the limit", scene.q, v, exact)
+            yield from _stated(scene, "light", f"{words} {text} the limit", scene.q, v, exact)

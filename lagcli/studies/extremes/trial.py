@@ -167,10 +167,10 @@ def _moved(case: Case, measured: CaseTrial, end: float, wanted: Wanted) -> CaseT
             return _run(case, request, measured, last, wanted)
         except LimitReached:
             request = replace(request, until=request.until / _SHORTER)
-            told = f"only until t = {request.until:.3g}: {measured.until:.3g} takes too long"
-            measured = replace(measured, reason=told)
-    told = f"it takes more than {wanted.limit:g} s, until t = {request.until * _SHORTER:.3g} too"
-    return replace(measured, reason=told)
+            why = f"only until t = {request.until:.3g}: {measured.until:.3g} takes too long"
+            measured = replace(measured, reason=why)
+    why = f"it takes more than {wanted.limit:g} s, until t = {request.until * _SHORTER:.3g} too"
+    return replace(measured, reason=why)
 
 
 def _run(
@@ -189,8 +189,8 @@ def _run(
     )
     error, bound, proved = _error(case, request, result, _SHARE * wanted.limit)
     if error is not None and error > wanted.accuracy + bound:
-        told = f"it claims {wanted.accuracy:g} and errs by {error:.1e}"
-        return replace(known, verdict="wrong", reason=told, error=error)
+        why = f"it claims {wanted.accuracy:g} and errs by {error:.1e}"
+        return replace(known, verdict="wrong", reason=why, error=error)
     if not held.reached:
         return replace(known, verdict="refused", reason=result.refusal, error=error)
     verdict: Verdict = "claimed" if error is None or bound > wanted.accuracy else "right"

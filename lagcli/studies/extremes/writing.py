@@ -88,9 +88,9 @@ def to_text(study: ExtremesStudy) -> str:
         for verdict in ("right", "claimed", "refused", "wrong", "undecided")
     }
     proved = sum(t.proved for _, t in study.trials)
-    told = ", ".join(f"{n} {verdict}" for verdict, n in count.items() if n)
-    told += f"; {proved} proved" if proved else ""
-    lines += ["", f"{len(study.trials)} case{'s' * (len(study.trials) != 1)}: {told}"]
+    summary = ", ".join(f"{n} {verdict}" for verdict, n in count.items() if n)
+    summary += f"; {proved} proved" if proved else ""
+    lines += ["", f"{len(study.trials)} case{'s' * (len(study.trials) != 1)}: {summary}"]
     return "".join(f"{line.rstrip()}\n" for line in lines)
 
 
@@ -150,10 +150,10 @@ def _legend() -> list[str]:
 
 
 def _told(study: ExtremesStudy) -> Iterator[str]:
-    told = [(case.name, trial.reason) for case, trial in study.trials if trial.reason]
-    if told:
+    reasons = [(case.name, trial.reason) for case, trial in study.trials if trial.reason]
+    if reasons:
         yield ""
-    for name, reason in told:
+    for name, reason in reasons:
         yield from textwrap.wrap(f"{name}: {reason}", _WIDTH, subsequent_indent="  ")
 
 

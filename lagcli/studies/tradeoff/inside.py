@@ -18,7 +18,7 @@ class Trade:
     """One alternative: what it is, what it costs in words, and in numbers."""
 
     name: str
-    told: str
+    sentence: str
     numbers: Mapping[str, float] = field(default_factory=dict)
 
 
@@ -43,8 +43,8 @@ def _cut(study: Study) -> Trade | None:
         if (ratio := _ratio(full, cheapest(same, accuracy, cost))) is not None:
             return Trade(
                 name="minimal coordinates against multipliers",
-                told=f"at {accuracy:.0e} {full.method} integrates\n  the model of the requested "
-                f"columns {ratio:.3g} times faster than the one of the file",
+                sentence=f"at {accuracy:.0e} {full.method} integrates\n  the model of the "
+                f"requested columns {ratio:.3g} times faster than the one of the file",
                 numbers={"accuracy": accuracy, "faster": ratio},
             )
     return None
@@ -68,14 +68,14 @@ def _compiled(study: Study) -> Trade | None:
         if fast is None or slow is None or ratio is None:
             continue
         later = _preparation(fast) - _preparation(slow)
-        told = (
+        sentence = (
             f"at {accuracy:.0e} {fast.method} integrates {ratio:.3g} times faster than "
             f"{slow.method},\n  and is ready {abs(later) * 1e3:.0f} ms "
             f"{'later' if later > 0 else 'earlier'}"
         )
         return Trade(
             name="compiled against interpreted",
-            told=told,
+            sentence=sentence,
             numbers={"accuracy": accuracy, "faster": ratio, "later": later},
         )
     return None
@@ -101,7 +101,7 @@ def _digits(study: Study) -> Trade | None:
         return None
     return Trade(
         name="digits",
-        told=f"the hardware's numbers reach {least:.1e}; carried in software\n  the same costs "
+        sentence=f"the hardware's numbers reach {least:.1e}; carried in software\n  the same costs "
         f"{ratio:.3g} times as much to integrate, and goes on to {exact:.1e}",
         numbers={"hardware_error": least, "software_error": exact, "slower": ratio},
     )
@@ -113,13 +113,13 @@ def _proof(study: Study) -> Trade | None:
     if proved is None:
         return None
     if not proved.reached or proved.total is None or proved.accuracy is None:
-        return Trade(name="proof", told=f"none: {proved.why or 'the accuracy is not reached'}")
+        return Trade(name="proof", sentence=f"none: {proved.why or 'the accuracy is not reached'}")
     numbers = {"accuracy": proved.accuracy, "proof": proved.total}
-    told = f"at {proved.accuracy:.0e} a proof takes {proved.total:.2g} s"
+    sentence = f"at {proved.accuracy:.0e} a proof takes {proved.total:.2g} s"
     certified = [p for p in study.certified if p.accuracy == proved.accuracy and p.reached]
     for name, points in (("certificate", certified), ("plain run", study.points)):
         best = cheapest(points, proved.accuracy, COSTS["total"])
         if best is not None and best.total is not None:
             numbers[name.replace(" ", "_")] = best.total
-            told += f", a {name} {best.total:.2g} s"
-    return Trade(name="proof", told=told, numbers=numbers)
+            sentence += f", a {name} {best.total:.2g} s"
+    return Trade(name="proof", sentence=sentence, numbers=numbers)

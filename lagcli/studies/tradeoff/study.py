@@ -178,11 +178,11 @@ class _RunMaker:
         given: Given,
         known: ReferenceMotion,
         repeat: int,
-        told: tuple[Progress | None, RunPrinter | None],
+        listeners: tuple[Progress | None, RunPrinter | None],
         methods: Sequence[str],
     ) -> None:
         self.given, self.known, self.repeat = given, known, repeat
-        self.progress, self.run_printer = told
+        self.progress, self.run_printer = listeners
         self.made = 0
         self.total = len(methods) * len(_TOLERANCES) + len(ACCURACIES) * (1 + len(methods)) + 1
         self.unsuited = False

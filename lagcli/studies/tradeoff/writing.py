@@ -49,7 +49,7 @@ def to_text(study: Study) -> str:
             *(_verdict(each) for each in study.verdicts),
         ]
     )
-    lines += ["", *(f"{trade.name}: {trade.told}" for trade in trades(study))]
+    lines += ["", *(f"{trade.name}: {trade.sentence}" for trade in trades(study))]
     lines += [
         f"warning: {point.method} claims {point.accuracy:g} and errs by {point.error:.1e}"
         for point in study.broken
@@ -154,7 +154,7 @@ def to_json(study: Study) -> str:
             for each in study.verdicts
         ],
         "trades": [
-            {"name": trade.name, "told": trade.told, **trade.numbers} for trade in trades(study)
+            {"name": trade.name, "told": trade.sentence, **trade.numbers} for trade in trades(study)
         ],
         "not_suitable": dict(study.unsuited),
         "warnings": list(known.warnings),

@@ -220,8 +220,8 @@ def _with_momenta(x: Examination, what: str, place: RestPlace, motion: SteadyMot
     matrices = [x.places(what, [e for row in m for e in row]) for m in _matrices(motion)]
     if momenta is None or squares is None or None in matrices:
         return False
-    told = {*motion.at, *(motion.rates or ())}
-    gone = [j for j, name in enumerate(names) if x.reference.rows and name not in told]
+    given = {*motion.at, *(motion.rates or ())}
+    gone = [j for j, name in enumerate(names) if x.reference.rows and name not in given]
     for near in place.states():
         p = reduced_momenta(near.laws, gone)
         true = [p[names.index(name)] for name in motion.momenta]

@@ -37,8 +37,8 @@ def _command(severity: str, report: Report, span: Span, title: str, message: str
             "endColumn": str(span.end_column),
         }
     properties["title"] = title
-    told = ",".join(f"{name}={_property(value)}" for name, value in properties.items())
-    return f"::{severity} {told}::{_data(message)}\n"
+    listed = ",".join(f"{name}={_property(value)}" for name, value in properties.items())
+    return f"::{severity} {listed}::{_data(message)}\n"
 
 
 def _data(text: str) -> str:

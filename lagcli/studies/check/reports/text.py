@@ -16,6 +16,8 @@ def render(reports: Iterable[Report]) -> Iterator[str]:
         outcomes[report.outcome] += 1
         checks += report.checks
         yield f"{report}\n"
-    told = [f"{outcomes[outcome]} {outcome.value}" for outcome in CheckOutcome if outcomes[outcome]]
+    counts = [
+        f"{outcomes[outcome]} {outcome.value}" for outcome in CheckOutcome if outcomes[outcome]
+    ]
     problems = outcomes.total()
-    yield f"{problems} problem{'s' * (problems != 1)}, {checks} checks: {', '.join(told)}\n"
+    yield f"{problems} problem{'s' * (problems != 1)}, {checks} checks: {', '.join(counts)}\n"
