@@ -13,6 +13,18 @@ settings.register_profile("busy", deadline=None, suppress_health_check=[HealthCh
 settings.load_profile("busy")
 
 
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Of a family marked `first_quick` all members but the first are long."""
+    seen = set()
+    for item in items:
+        if item.get_closest_marker("first_quick"):
+            family = (item.path, item.originalname)
+            if family in seen:
+                item.add_marker("long")
+            seen.add(family)
+
+
 @pytest.fixture(autouse=True)
 def precision_of_mpmath():
     """What a test sets it to ends with the test: the judge of random systems has its own."""

@@ -77,7 +77,7 @@ class Manner:
         self._positive = frozenset(q.name for q in quantities if q.assume == "positive")
         for node in given(problem):
             for part in walk(node):
-                if isinstance(part, Sum):
+                if isinstance(part, Sum) and not _all_negative(part):
                     sign, key = signed_key(part)
                     self._signs[key] = sign if self._signs.get(key, sign) == sign else 0
         self._ordering = Ordering(order_of_names(problem))
@@ -217,7 +217,7 @@ class Manner:
             return isinstance(number, Negative)
         if (momentum := self._momenta.turned(node)) is not None:
             return momentum
-        return True if all(isinstance(t, Negative) for t in node.terms) else None
+        return True if _all_negative(node) else None
 
     def _function(self, node: Call, inner: Sum) -> Expression:
         """sin(a − b) = −sin(b − a), cos(a − b) = cos(b − a); sin((a − b)/2) for sin(a/2 − b/2)."""
@@ -365,6 +365,10 @@ def _terms(node: Expression) -> tuple[Expression, ...]:
 def negative_of(node: Sum) -> Sum:
     """The sum of the terms with their signs changed, a positive one first where there is one."""
     return Sum(tuple(positive_first([*map(opposite, node.terms)])))
+
+
+def _all_negative(node: Sum) -> bool:
+    return all(isinstance(term, Negative) for term in node.terms)
 
 
 def _determinant(node: Sum) -> bool | None:

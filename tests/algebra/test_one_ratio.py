@@ -24,6 +24,7 @@ def member(rng: Random) -> sympy.Expr:
     return quadratic(rng) + (linear * root if rng.random() < 0.6 else 0)
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(6))
 def test_the_bounds_hold_just_where_the_inequalities_do(seed):
     rng = Random(seed)

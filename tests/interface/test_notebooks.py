@@ -28,6 +28,7 @@ def cells(path):
             yield "".join(cell["source"])
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize(
     "path",
     [

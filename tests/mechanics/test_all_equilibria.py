@@ -158,6 +158,7 @@ def test_what_the_others_solve_is_quoted():
     assert [to_grammar(each) for each in section.open] == ["x*cos(x) + sin(x)"]
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(6))
 def test_a_translation_of_all_coordinates_takes_no_equilibrium_away(seed):
     """V(x, y) with x = a - r c and y = b - s c has the equilibria of V(x, y), with c free."""

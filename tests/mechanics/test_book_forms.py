@@ -119,6 +119,11 @@ BOOK = [
             "steady_motions.1": "sin(theta)",
         },
     ),
+    (
+        "[a, b]", "m l g",  # the heights of two bobs as the file has them
+        "T: m*l^2*(a'^2 + b'^2)/2\nV: m*g*(-l*cos(a) - l*cos(b))",
+        {"energy": "m*l^2*(a'^2 + b'^2)/2 - m*g*(l*cos(a) + l*cos(b))"},
+    ),
 ]  # fmt: skip
 
 

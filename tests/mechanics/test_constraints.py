@@ -236,6 +236,7 @@ def test_a_coordinate_that_nothing_determines_is_named():
     assert d.dynamics.motion is None
 
 
+@pytest.mark.long
 def test_points_on_a_triangle_of_rods_accelerate_like_each_other():
     """At a spin w about the centre of mass r'' = -w² (r - r_c), with no coordinate below."""
     rods = "".join(

@@ -191,6 +191,7 @@ def test_a_scaled_solution_has_no_factor_of_constants_left(seed: int):
     assert all(is_zero(f - v) is True for f, v in zip(found, values, strict=True))
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("inertia", ["L, M", "M, L"])
 @pytest.mark.parametrize("coupling", ["(x - y)^2/(2*C)", "x*y/C"])
 def test_like_circuits_have_both_amplitudes_of_both_modes(inertia: str, coupling: str):
@@ -207,6 +208,7 @@ def test_like_circuits_have_both_amplitudes_of_both_modes(inertia: str, coupling
     assert sum(not any(x.free_symbols & state for x in move.changes) for move in moves) == 4
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("force", ["f(t)", "1/(1 + t^2)", "sin(t^2)"])
 @pytest.mark.parametrize("spring", ["0", "w^2*x"])
 def test_a_force_without_an_antiderivative_leaves_both_linear_charges(force: str, spring: str):

@@ -46,6 +46,7 @@ def test_a_number_is_no_special_strength_of_a_plane_wave():
     assert derivation.special_cases == ()
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("L", "number"),
     [

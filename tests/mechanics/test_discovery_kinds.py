@@ -120,6 +120,7 @@ def test_charges_are_named_by_what_they_are(case):
         assert ratio.is_number or not ratio.free_symbols & {system.t, *system.q, *system.qdot}
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("letters", ["x", "xy"])
 def test_the_energy_of_a_damped_oscillator_is_named(letters):
     """Caldirola, Nuovo Cimento 18 (1941) 393: exp(a t) (x'^2 + a x x' + B x^2)."""
@@ -149,6 +150,7 @@ def test_the_energy_in_an_expanding_space_is_no_damped_one():
     assert names == ["p_x", "charge_1", "charge_2"]
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("a", "c", "b"), [(4, -1, 1), (-4, -1, 1), (3, 1, 1), (2, -3, 1), (-5, 2, 2)]
 )
@@ -161,6 +163,7 @@ def test_modes_of_numbers_are_found_stable_or_not(a, c, b):
     assert min(digits_of(derivation).values()) > 20
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("stiffness", ["k", "k + 2*n", "5*k + n"])
 def test_a_damped_frequency_has_one_root(stiffness):
     """sqrt(4 m k - c^2)/(2 m) in the transformation as in the charge: not sqrt((k - c^2/4m)/m)."""

@@ -32,6 +32,7 @@ def lowest_on_curves(V: str, weights: tuple[int, int]) -> float:
     return lowest
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(8))
 def test_a_minimum_and_what_is_none_are_told_apart(seed):
     """V of random degrees, mixed terms and higher ones, against its values close by."""
@@ -68,6 +69,7 @@ def test_a_sign_that_is_open_is_the_condition():
     assert (stable.left, stable.right) == (reversed_.right, reversed_.left)
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(4))
 def test_a_quadratic_direction_of_open_sign_decides(seed):
     """V = a x⁴ + b y⁶ + c z²/2, also with friction along x alone, which takes no stability."""

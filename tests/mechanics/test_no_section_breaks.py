@@ -116,6 +116,7 @@ def test_what_jumps_on_the_motion_is_not_called_conserved(given: str, held: int)
     assert held or not conserved
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("side", ["sign(y)", "sign(x/y)", "sign(y/(2 + sin(x)))", "sign(y)^2"])
 @pytest.mark.parametrize("given", ["k*x^2*", "k*"])
 def test_a_coordinate_that_makes_l_jump_is_not_cyclic(given: str, side: str) -> None:

@@ -57,6 +57,7 @@ def test_where_no_root_oscillates_there_are_no_modes():
     assert "real and positive" in section.reason
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_pole_has_one_verdict_at_rest_and_among_the_steady_motions(seed):
     """A charge on a sphere: inverted it is held by the magnetic field where q B² R > 4 m E."""
@@ -193,6 +194,7 @@ def test_a_pole_is_no_family(drag):
     assert "family" not in answered(text, "equilibria").split("a = 0:")[-1].split("a = π:")[0]
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(6))
 def test_a_sign_that_a_condition_gives_holds_where_the_condition_does(seed):
     """Random polynomials under a random condition, at random values that fulfil it."""

@@ -293,6 +293,7 @@ def _lowest(V, spread=6.0, steps=40001):
     return min(points, key=V)
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(8))
 def test_rest_at_a_kink_is_the_minimum_of_a_convex_potential(seed):
     """c |x - a| + d |x - b| + k x^2/2 + f x has one minimum; it is found, at a kink or between."""
@@ -453,6 +454,7 @@ def test_the_sign_of_a_number_less_a_root(seed):
     assert sign(k * a - sympy.sqrt(a**2 + b**2)) == (-1 if k == 1 else None)
 
 
+@pytest.mark.long
 def test_a_top_on_a_floor_does_not_spin_below_it():
     """z = l cos(th) >= 0: with its axis downwards, th = pi, the centre would be below the floor."""
     text = (

@@ -253,6 +253,7 @@ initial: {x': 1}
     assert 1 <= result.certificate.holds_until <= math.pi / 2
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("accuracy", [1e-3, 1e-6, 1e-9])
 @pytest.mark.parametrize("depth", [3e-9, 2e-10, 4e-11])
 def test_a_strike_that_is_almost_a_graze_is_told_from_one(accuracy, depth):
@@ -386,6 +387,7 @@ def test_no_row_lies_behind_a_strike_that_is_within_the_error(seed):
         assert abs(v - (2 - 2 * t - 4 * math.sqrt(depth) * (back > 0))) <= 4e-6
 
 
+@pytest.mark.long
 def test_two_grazes_in_turn_are_bounded():
     """The second disc is met at 3.7e-5 from its edge: errors grow 40000 times by both."""
     from mpmath import mpf, sqrt, workdps

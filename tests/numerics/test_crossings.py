@@ -283,6 +283,7 @@ def test_a_pole_is_not_passed_however_weak(force, strength):
     assert result.certificate.holds_until < 3
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(3))
 def test_a_cusp_is_passed_in_any_precision(seed):
     """V = |x|^p from x = 1: four times the quarter B(1/p, 1/2)/(p sqrt(2)) is a period."""

@@ -72,6 +72,7 @@ PULSES = {
 }
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize("text", PULSES)
 def test_a_pulse_in_time_is_not_stepped_over(text, seed):

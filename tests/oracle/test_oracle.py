@@ -75,6 +75,7 @@ def set_in(sheet: Any, keys: tuple[Any, ...], change: Callable[[Any], Any]) -> N
     sheet[last] = change(sheet[last])
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("keys", "change"),
     [

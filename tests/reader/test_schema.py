@@ -124,6 +124,7 @@ def test_names_of_any_letters_are_valid_where_words_are_ascii(name):
     assert is_valid(f"coordinates: [{name}]\nT: {name}'^2")
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("name", ["kepler", "hoop", "spherical-pendulum-cartesian", "ray-of-light"])
 def test_answers_are_valid(name, capsysbinary):
     sections = "lagrangian,equations,matrix_form,accelerations,multipliers,constraint_forces"

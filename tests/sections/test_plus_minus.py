@@ -55,6 +55,7 @@ def reading(node: Expression, upper: bool) -> Expression:
     return rebuilt(node, lambda part: reading(part, upper))
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(4))
 def test_two_frequencies_with_their_shapes_are_one_row(seed):
     """M x'' + K x = 0, against the eigenvalues of random members."""

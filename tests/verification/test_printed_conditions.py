@@ -93,6 +93,7 @@ def _is_refuted(problem: Problem, answers, section: EquilibriaSection) -> None:
     assert found.sections["equilibria"].equilibria is None
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("f", ["a + b*x^2", "1 + x^4", "exp(a*x)", "2 + cos(x)", "1 + a*x^2 + x^3"])
 def test_a_flat_effective_potential_has_steady_motions_everywhere(f: str) -> None:
     """L = x'^2 + c x' y' + y'^2/f + k f: U_eff = (p^2/4 - k) f is 0 for p^2 = 4 k."""
