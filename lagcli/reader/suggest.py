@@ -17,15 +17,10 @@ _LONGEST, _MOST = 60, 300
 #: Cyrillic letters, which look like Latin ones.
 _CYRILLIC = dict(zip("асеорхуіјкмтн", "aceopxyijkmth", strict=True))
 
-#: Dots for velocities, as others write them.
-_VELOCITY_ENDINGS = ("_dot", "dot", "_ddot", "ddot", "_d")
-
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """`did you mean 'theta'?`, or nothing when no known name is near."""
     best = closest(name, known)
-    if best.endswith("'"):
-        return f"did you mean {best}?"
     named = [unicodedata.name(letter, "") for letter in best + name if letter in _CYRILLIC]
     shown = f", with the letter {named[0].capitalize()}" if named else ""
     return f"did you mean '{best}'{shown}?" if best else ""
@@ -43,10 +38,6 @@ def closest(name: str, known: Iterable[str]) -> str:
         return usual
     if same := alike(name, names):
         return same
-    for ending in _VELOCITY_ENDINGS:
-        stem = name.removesuffix(ending)
-        if stem != name and stem in names:
-            return stem + ("''" if ending.endswith("ddot") else "'")
     from difflib import get_close_matches
 
     if len(name) > _LONGEST:

@@ -134,7 +134,7 @@ FILES = [
     (after("V: sin x\n"), "9:4", "did you mean sin(x)?"),
     (after("V: sin^2(x)\n"), "9:4", "write sin(x)^2"),
     (after("V: Diff(x, y)\n"), "9:4", "did you mean diff(…)?"),
-    (after("V: xdot\n"), "9:4", "did you mean x'?"),
+    (after("V: xdot\n"), "9:4", "write x'"),
     (after("V: x(y)\n"), "9:4", "did you mean x*(…)?"),
     (after("V: m·g\n"), "9:5", "write m*g"),
     (after("V: x²\n"), "9:4", "write x^2"),
