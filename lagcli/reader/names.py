@@ -20,7 +20,7 @@ from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
 from lagcli.reader.habits import INSTEAD, foreign_function, meanings
 from lagcli.reader.scope import CONSTANT, Role, Scope
-from lagcli.reader.suggest import alike, closest, did_you_mean
+from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.undeclared import COORDINATE, UNDECLARED
 
 if TYPE_CHECKING:
@@ -60,9 +60,8 @@ def name_mistakes(
                 and not {above.name, "dt"} & scope.kinds.keys()
             ):  # fmt: skip
                 covered |= {id(above), id(below)}
-                hint = f"the velocity of {above.name[1:]} is {above.name[1:]}': write that"
                 message = f"'{above.name}/dt' is not a velocity in {what}"
-                yield Diagnostic(message, above.span.to(below.span), hint)
+                yield Diagnostic(message, above.span.to(below.span))
             case Name() if id(node) in covered:
                 pass
             case Name():
@@ -205,8 +204,6 @@ def _other_name(node: Name, scope: Scope, role: Role, what: str) -> Iterator[Dia
 
 def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     coordinates = list(scope.of_kind("coordinate"))
-    if name == "dt" and coordinates:
-        return f"a time derivative is a prime: d{coordinates[0]}/dt is {coordinates[0]}'"
     if role.momenta and name in {"p", "P"} and coordinates:
         return "momenta are named p_" + ", p_".join(coordinates)
     if name in {"p", "P"} and role.order > 0:
@@ -215,9 +212,6 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return "there is no infinity"
     if not role.parameters and not role.definitions and role.order < 0:
         return role.why
-    for function in FUNCTIONS:
-        if inner := name.startswith(function) and alike(name[len(function) :], scope.usable(role)):
-            return f"write {function}({inner})"
     if what.startswith("the symmetry") and name in {"eps", "epsilon", "ε", "s", "a", "delta"}:
         return "the value is the change by itself: write x: 1 for x → x + ε"
     if what.startswith("the constraint") and name in {"lambda", "λ", "lam"}:
@@ -230,9 +224,7 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     if (not hint or name == "T") and name in {"T", "V", "L", "H"}:  # t is near to T
         return f"{name} is a key and not a name: write its formula"
     if not hint and name in {"v", "velocity", "speed", "d"} and role.order > 0 and coordinates:
-        velocities = " and ".join(f"{each}'" for each in coordinates)
-        one = f"the velocity of {coordinates[0]} is {velocities}"
-        return f"the velocities are {velocities}" if coordinates[1:] else one
+        return "the velocities are " + "' and ".join(coordinates) + "'"
     if not hint and primes and role.order > 0:
         return COORDINATE
     if not hint and what.startswith("the value of") and name in _NO_VALUE:
