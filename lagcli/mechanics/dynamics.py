@@ -21,6 +21,7 @@ from lagcli.algebra import Shapes, dot, is_zero, left_nullspace, nullspace, simp
 from lagcli.algebra.build import free_of
 from lagcli.algebra.row_rank import independent_rows
 from lagcli.diagnostics import Diagnostic, ProblemError
+from lagcli.expression import ZERO
 from lagcli.mechanics.by_multipliers import by_multipliers
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.euler_lagrange import EulerLagrange
@@ -93,6 +94,8 @@ class Dynamics:
         with_what = " with " + ", ".join(f"'{name}'" for name in others) if others else ""
         message = f"constraint '{constraint.name}' cannot be satisfied{with_what}"
         hint = "no state was found at which all constraints hold"
+        if constraint.equation.right == ZERO and not constraint.equation.right.span.line:
+            hint += ": without '=' it means = 0"
         if self._contradict:
             hint += ": they contradict each other"
         above = sympy.numer(sympy.together(self.constraints.equations[max(index, 0)].f))

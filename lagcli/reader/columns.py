@@ -10,7 +10,7 @@ from lagcli.expression import Diff, Expression, Name, Negative, Product, Sum, wa
 from lagcli.problem_data import JACOBI_FUNCTION, charge_of
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.names import depends_on_time, derivative_order, name_mistakes
-from lagcli.reader.number_units import unit_mistake
+from lagcli.reader.number_units import run_mistake
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.scope import ALONG, NUMBERS, Definition, Role, Scope
 from lagcli.reader.suggest import did_you_mean
@@ -78,7 +78,7 @@ def read_along(problem: Problem, text: str, option: str) -> Expression:
 
 def read_number(text: str, option: str) -> Expression:
     """An expression without names, such as `2*pi`."""
-    if mistake := unit_mistake(text):
+    if mistake := run_mistake(text, option):
         raise ProblemError(Source(option, ""), (Diagnostic(mistake[0], hint=mistake[1]),))
     return _read(text, option, Scope(), NUMBERS)
 

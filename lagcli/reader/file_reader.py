@@ -22,11 +22,19 @@ from lagcli.reader.habits import (
     unit_behind,
 )
 from lagcli.reader.limits import MISTAKES
-from lagcli.reader.misshapen import as_list, as_map, as_text, by_its_name, one_sum
+from lagcli.reader.misshapen import (
+    WITHOUT_HYPHENS,
+    as_list,
+    as_map,
+    as_text,
+    by_its_name,
+    key_by_shape,
+    one_sum,
+)
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import unit_mistake
-from lagcli.reader.scope import NUMBERS, VALUES, Kind, Role, Scope, name_mistake
+from lagcli.reader.scope import VALUES, Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.text import Mistake
 
@@ -34,20 +42,21 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
     from lagcli.problem_data import Inequality
-from lagcli.reader.positions import Excerpt
+    from lagcli.reader.positions import Excerpt
 
 _T = TypeVar("_T")
 
 #: What stands for an expression that could not be read; the file is refused anyway.
 UNREADABLE = ZERO
 #: Places where a number stands, without its unit.
-_NUMERIC = (VALUES, NUMBERS)
+_NUMERIC = (VALUES,)
 #: The words for it, and what they mean.
 YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
 _NAME = re.compile(r"[^\W\d]\w*")
 #: `x' = 0` and `x(0): 1`, several of them.
 _GIVEN = re.compile(
-    r"([^\W\d]\w*'*)(?:\(0\))?\s*[=:]\s*([^,;=:]+?)(?=\s*(?:$|[,;]|[^\W\d]\w*'*(?:\(0\))?\s*[=:]))"
+    r"([^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]>|[=:→])\s*([^,;=:→]+?)"
+    r"(?=\s*(?:$|[,;]|[^\W\d]\w*'*(?:\(0\))?\s*(?:[-=]>|[=:→])))"
 )
 #: A quantity within a formula: the 9.81 m/s² of `m*9.81 m/s²*x`.
 _UNIT_WITHIN = re.compile(r"([\d.]+)\s+([A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+)(?![\w(])")
@@ -105,6 +114,9 @@ class FileReader:
                 hint = "leave out the key"
             if isinstance(node, Sequence) and (named := by_its_name(node)):
                 hint = f"write {named}, without '-'"
+            elif isinstance(node, Sequence) and all(isinstance(x, Mapping) for x in node.items):
+                flow = node.text.source.text[node.start : node.end].strip()
+                hint = f"write {{{flow[1:-1]}}}" if flow[:1] == "[" else WITHOUT_HYPHENS
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
 
     def by_name(self, node: DocumentNode) -> str:
@@ -114,6 +126,8 @@ class FileReader:
         names = list(self.scope.of_kind("coordinate")) or ["x"]
         written = node.text.source.text[node.start : node.end].strip("[] \n")
         stated = [(self._meant(name), value) for name, value in _GIVEN.findall(written)]
+        if len(stated) == 1 and isinstance(node, Scalar) and stated[0][0] in names:
+            return "write {}: {}".format(*stated[0])
         if len(stated) > 1 or (stated and isinstance(node, Sequence)):
             return "write {" + ", ".join(f"{name}: {value}" for name, value in stated) + "}"
         given = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
@@ -202,13 +216,14 @@ class FileReader:
                     self.error(message, key.span, "begin the line with blanks")
                 self.scope.refused.append(key.label)
             else:
-                meant = self._unknown_key(key, value, what, names)
+                assert isinstance(node, Mapping)
+                meant = self._unknown_key(key, value, what, names, node)
                 if meant and meant not in given:
                     found[meant] = (key, value)  # what is in it is read on
         return found
 
     def _unknown_key(
-        self, key: Scalar, value: DocumentNode, what: str, names: tuple[str, ...]
+        self, key: Scalar, value: DocumentNode, what: str, names: tuple[str, ...], around: Mapping
     ) -> str | None:
         """A mistake at a key; the one that was meant, where that is clear."""
         written = value.value if isinstance(value, Scalar) else ""
@@ -220,6 +235,13 @@ class FileReader:
         stem = None if advice else key_of_stem(key.label, names)
         if stem and stem != closest(key.label, names):
             meant, hint = stem, f"the key is {stem}"
+        shape = key_by_shape(value, around) if what == "the problem" else None
+        near = meant or closest(key.label, names)
+        if shape and (not hint or (near in MAPS - {shape} and isinstance(value, Sequence))):
+            meant, hint = shape, f"the key is {shape}"
+        if not hint and isinstance(value, Mapping) and value.entries:
+            inner = [each.label for each, _ in value.entries]
+            hint = f"leave it out: {inner[0]} begins a line" if {*inner} <= {*names} else ""
         hint = hint or f"known are {', '.join(names)}"
         if "=" in key.label:
             hint = f"write {name_meant(key.label)}"
@@ -345,7 +367,11 @@ class FileReader:
             taken = self.scope.kinds[name]
             related = ((self.scope.spans[name], f"first declared here, as a {taken}"),)
             hint = "leave out one of them" if taken == kind else "give one of them another name"
-            self.error(f"'{name}' is declared twice", span, hint, related)
+            message = f"'{name}' is declared twice"
+            if kind in ("multiplier", "contact force"):
+                message = f"'{name}', its {kind}, is declared twice"
+                hint += ", this one by the key multiplier"
+            self.error(message, span, hint, related)
             return False
         self.scope.kinds[name] = kind
         self.scope.spans[name] = span

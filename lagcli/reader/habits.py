@@ -169,6 +169,8 @@ def name_meant(name: str, *, one: bool = False) -> str:
 
     With `one`, words with blanks between them are no list of names.
     """
+    if counted := names_among(name):
+        return ", ".join(counted)
     if made := re.fullmatch(r"(?:\w+\.)?[a-zA-Z]+\(\s*['\"](\w+)['\"].*\)(?:\(t\))?", name):
         return made[1]
     if declared := re.fullmatch(r"\s*(\w+)\s*=\s*[\w.]+\(.*", name):
@@ -229,6 +231,13 @@ def superscript(text: str) -> str:
 def fraction(character: str) -> str:
     """`1/2` for ½; nothing for other characters."""
     return _VULGAR.get(character, "")
+
+
+def names_among(text: str) -> list[str]:
+    """`x_1`, `x_2`, `x_3` for `x_1..x_3`; nothing for other texts."""
+    among = re.fullmatch(r"(\D+)(\d)\s*(?:\.{2,}|…|-|to)\s*\1(\d)", text.strip())
+    places = range(int(among[2]), int(among[3]) + 1) if among else ()
+    return [f"{among[1]}{k}" for k in places] if among else []
 
 
 def is_angle(name: str) -> bool:

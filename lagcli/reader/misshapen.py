@@ -14,6 +14,8 @@ _FOUND = frozenset(
     "frequency frequencies period equilibrium equilibria modes energy momentum charges".split()
 )
 
+WITHOUT_HYPHENS = "leave out the '-' before each key"
+
 
 def as_list(written: str) -> str:
     """`[x, y]` for `x, y` and for `(x, y)`."""
@@ -93,16 +95,42 @@ def as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
         return f"write {{position: [{written[1:-1]}]}}"
     if (words := written.split(None, 1)) and words[0] in names and words[1:]:
         return f"write {{{words[0]}: {words[1]}}}"
-    if "accelerations" in names and (known := re.fullmatch(r"(\w+)''\s*=\s*(.+)", written)):
-        return f"write {{accelerations: {{{known[1]}: {known[2]}}}}}"
+    if "accelerations" in names and (
+        known := re.fullmatch(r"([^\W\d]\w*)(''|\(t\)|)\s*=\s*(.+)", written)
+    ):
+        key = "accelerations" if known[2] == "''" else "trajectory"
+        return f"write {{{key}: {{{known[1]}: {known[3]}}}}}"
     if names[0] == "until" and (known := re.match(r"(\d[\d.]*)\s*(?:s|sec|seconds?)\b", written)):
         return f"write {{until: {known[1]}}}"
     if isinstance(node, Sequence) and all(isinstance(each, Mapping) for each in node.items):
-        return "leave out the '-' before each key"
+        return WITHOUT_HYPHENS
     fits = {"until": Scalar, "position": Sequence}.get(names[0])
     if fits and isinstance(node, fits) and written:
         return f"write {{{names[0]}: {written}}}"
     return f"it has the keys {', '.join(names)}"
+
+
+def key_by_shape(value: DocumentNode, problem: Mapping) -> str | None:
+    """The key of a problem whose value this can be alone, whatever the word for it.
+
+    A list of names is that of the coordinates, or else of the parameters; numbers by name are
+    the initial state where the names are those of coordinates, and values of parameters else.
+    """
+    given = {key.label: node for key, node in problem.entries}
+    if isinstance(value, Sequence) and value.items:
+        names = [each.value for each in value.items if isinstance(each, Scalar)]
+        if len(names) == len(value.items) and all(map(str.isidentifier, names)):
+            return next((key for key in ("coordinates", "parameters") if key not in given), None)
+    if isinstance(value, Mapping) and value.entries:
+        numbers = [isinstance(v, Scalar) and is_constant("x", v.value) for _, v in value.entries]
+        if all(numbers):
+            listed = given.get("coordinates")
+            known = [each.value for each in getattr(listed, "items", ())]
+            known += [key.label for key, _ in getattr(listed, "entries", ())]
+            stated = all(key.label.rstrip("'") in known for key, _ in value.entries)
+            key = "initial" if stated else "parameters"
+            return None if key in given else key
+    return None
 
 
 def as_text(node: DocumentNode) -> str:

@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import re
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lagcli.reader.habits import unit_behind
+from lagcli.units.table import meaning
 
 if TYPE_CHECKING:
     from collections.abc import Container
+
+_COUNT = re.compile(r"([\d.]+(?:[eE][-+]?\d+)?)\s*([^\W\d]\w*)")
+_TIME = (("s", Fraction(1)),)
 
 
 def unit_mistake(
@@ -33,3 +39,18 @@ def unit_mistake(
     if unit in names:
         hint += f"; the product is {number}*{unit}"
     return f"the unit '{unit}' cannot stand behind a number", hint
+
+
+def run_mistake(text: str, option: str) -> tuple[str, str] | None:
+    """What is wrong with `3 T`, an end of a run, or with `8 digits`, an accuracy."""
+    found = _COUNT.fullmatch(text.strip())
+    if found is None or found[2] in {"pi", "π"} or found[2] in {"min", "h", "deg"}:
+        return unit_mistake(text)
+    number, word = found.groups()
+    unit = meaning(word)
+    if unit is not None and unit.powers == _TIME:
+        return unit_mistake(text)
+    hint = f"write the number that {number} {word} is"
+    if "accuracy" in option and number.isdigit():
+        hint = f"write 1e-{number}"
+    return f"'{word}' cannot stand behind a number", hint

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, TypedDict, cast, get_args
 
 from lagcli.expression import Expression, Name, walk
 from lagcli.problem_data import Assumption, Coordinate, Parameter
-from lagcli.reader.habits import SIGNS, unit_behind
+from lagcli.reader.habits import SIGNS, names_among, unit_behind
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
 from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.suggest import did_you_mean
@@ -176,9 +176,8 @@ def _list_advice(text: str) -> str:
         return f"write {{{listed}}}" if "," in text else f"write {listed.split(', ')[0]}"
     if text.strip().casefold() in {"none", "null", "no", "~"}:
         return "leave out the key, or write such as [x, y]"
-    if among := re.fullmatch(r"(\D+)(\d)\s*(?:\.{2,}|…|-|to)\s*\1(\d)", text.strip()):
-        places = range(int(among[2]), int(among[3]) + 1)
-        return f"write [{', '.join(f'{among[1]}{k}' for k in places)}]"
+    if counted := names_among(text):
+        return f"write [{', '.join(counted)}]"
     names = [
         name
         for name in re.findall(r"[^\W\d]\w*", re.sub(r"[(\[]t[)\]]", "", text))

@@ -19,6 +19,7 @@ from lagcli.reader.habits import name_meant
 from lagcli.reader.misshapen import range_end
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar
+from lagcli.reader.number_units import run_mistake
 from lagcli.reader.quantities import is_decimal_part
 from lagcli.reader.scope import NUMBERS, POSITION, QUESTION, VALUES, Role
 from lagcli.reader.suggest import did_you_mean
@@ -223,5 +224,8 @@ def _number(file: FileReader, node: DocumentNode, what: str) -> Expression:
     if what == "'until'" and isinstance(node, Scalar) and (end := range_end(node.value)):
         hint = f"a motion begins at t = 0: write {end}"
         file.error("'until' is one time, no range", node.span, hint)
+        return ZERO
+    if isinstance(node, Scalar) and (mistake := run_mistake(node.value, what)):
+        file.error(mistake[0], node.span, mistake[1])
         return ZERO
     return file.expression(node, what, NUMBERS)

@@ -75,7 +75,7 @@ def with_whole(
         if len(whole) > _LONGEST or not all(_is_undeclared(each, role, words) for each in wrong):
             return found
         proposed = re.search(rf"(?:write|mean) {re.escape(whole)}(?:[?;,]|$)", found[0].hint)
-        if whole == node.value.strip() or (proposed and not found[1:]):
+        if "".join(whole.split()) == "".join(node.value.split()) or (proposed and not found[1:]):
             return found
         guess = found[0].hint.endswith("?")
         hint = f"did you mean {whole}?" if guess else f"write {whole}"

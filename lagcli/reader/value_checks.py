@@ -153,6 +153,8 @@ def run_mistake(name: str, value: float) -> str:
     )
     if 0 < value < below:
         return ""
+    if name == "accuracy" and value >= 1 and value == int(value) < 300:
+        return f"{sentence}, not {value:g}: write 1e-{value:g} for {value:g} digits"
     return sentence + (f", not {value:g}" if math.isfinite(value) else ", and a double")
 
 

@@ -137,6 +137,12 @@ def test_contradictory_constraints_are_an_error_that_names_one(constraints: str)
     assert diagnostic.span.line == 4
 
 
+def test_a_constraint_without_an_equation_says_what_it_means():
+    text = "coordinates: [x, y]\nT: (x'^2 + y'^2)/2\nconstraints: {rod: 1 + x^2 + y^2}"
+    with pytest.raises(ProblemError, match="without '=' it means = 0"):
+        _ = derive(text).dynamics.independent_constraints
+
+
 @pytest.mark.parametrize("constraint", ["x'^2 + y'^2 = 1", "x'*y' = 0", "sqrt(1 + x'^2) = 2"])
 def test_a_constraint_that_is_not_linear_in_the_velocities_is_refused(constraint: str):
     text = f"coordinates: [x, y]\nT: (x'^2+y'^2)/2\nconstraints: {{c: \"{constraint}\"}}"

@@ -370,6 +370,20 @@ HABITS = [
         text(coordinates="[x, y]", T="m*(x'^2 + y'^2)/2", V="k*m/r"),
         "its formula under 'definitions'",
     ),
+    ("Freiheitsgrade: [x]\nT: x'^2/2\n", "the key is coordinates"),
+    ("coordinates: [x]\nmasses: [m]\nT: m*x'^2/2\n", "the key is parameters"),
+    ("coordinates: [x]\nconsts: [m]\nT: m*x'^2/2\n", "the key is parameters"),
+    ("coordinates: [x]\nKonstanten: {m: 1}\nT: m*x'^2/2\n", "the key is parameters"),
+    (text(Anfang="{x: 1, x': 0}"), "the key is initial"),
+    ("coordinates: [x]\nenergies:\n  T: x'^2/2\n  V: x\n", "leave it out: T begins a line"),
+    (text(forces="x -> m*g"), "write x: m*g"),
+    (text(simulation="{until: 3 T}"), "write the number that 3 T is"),
+    (text(simulation="{until: 3, accuracy: 8 digits}"), "write 1e-8"),
+    (text(simulation="{until: 3, accuracy: 8}"), "write 1e-8"),
+    (text(points="[bob: [x, 0]]"), "write {bob: [x, 0]}"),
+    ("coordinates: [x_1..x_3]\nT: x_1'^2 + x_2'^2 + x_3'^2\n", "write x_1, x_2, x_3"),
+    (text(expect="x = cos(t)"), "write {trajectory: {x: cos(t)}}"),
+    (text(V="k*(x-a)^2/2"), "declare it under 'parameters'"),
 ]
 
 
