@@ -63,6 +63,8 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
             for other in mode.more_shapes:
                 yield Paragraph(("Also of this frequency, as is every combination:",))
                 yield Equations(tuple(_shape(other)))
+    if section.modes and not section.complete:
+        yield Paragraph(("There may be other equilibria, with modes of their own.",))
 
 
 def _by_state(

@@ -288,10 +288,14 @@ class ModesOfFrequency:
 
 @record(kw_only=True)
 class ModesSection:
-    """The normal modes; None where none was found, `reason` why there is none in either case."""
+    """The normal modes; None where none was found, `reason` why there is none in either case.
+
+    `complete`: they are those about all equilibria that are not unstable.
+    """
 
     modes: tuple[ModesOfFrequency, ...] | None
     reason: str = ""
+    complete: bool = True
 
 
 @record(kw_only=True)

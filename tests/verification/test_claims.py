@@ -13,6 +13,7 @@ from lagcli.expression import Expression, Name, Product, opposite
 from lagcli.formatters.built_in.json import to_object
 from lagcli.formatters.options import Options
 from lagcli.pipeline import Request, derive, render, state
+from lagcli.pipeline import _statements as statements
 from lagcli.reader import parse_text, read_problem
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt, rewritten
@@ -229,6 +230,28 @@ def test_an_equilibrium_that_is_left_out_is_found(name: str) -> None:
     assert not found.sections["equilibria"].complete
     assert not found.complete
     assert "completeness of the equilibria could not be confirmed" in found.warnings[-1]
+
+
+def test_modes_about_an_equilibrium_that_are_left_out_are_missed() -> None:
+    """V has minima at 0 and at pi; those of a maximum are not missed, in a turning frame, too."""
+    text = """
+coordinates: [theta]
+parameters: {a: {assume: positive}, b: {assume: positive}, w: {assume: positive}}
+points: {bob: {position: [a*cos(w*t) + b*cos(w*t + theta), a*sin(w*t) + b*sin(w*t + theta)], mass: 1}}
+V: POTENTIAL
+"""
+    for potential, count in (("0", 1), ("-w^2*a*b*cos(theta)^2", 2)):
+        problem = read_problem("m", text.replace("POTENTIAL", potential).encode()).checked()
+        answers = statements(derive(problem)).answers(("modes",))
+        assert verified(problem, answers) is answers
+        section = answers.sections["modes"]
+        assert len({str(mode.at) for mode in section.modes}) == count
+        if count == 1:
+            continue
+        kept = replace(section, modes=section.modes[1:])
+        found = verified(problem, replace(answers, sections={"modes": kept}))
+        assert not found.sections["modes"].complete
+        assert "all stable equilibria" in found.warnings[-1]
 
 
 @pytest.mark.parametrize("assume", ["positive", "negative", "nonzero"])

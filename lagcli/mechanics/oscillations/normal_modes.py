@@ -180,7 +180,7 @@ def _shapes(
     matrix = [
         [simplify(linear.K[i][j] - square * linear.M[i][j]) for j in range(n)] for i in range(n)
     ]
-    vectors = nullspace(matrix)
+    vectors = nullspace(matrix) if n > 1 else [[S.One]]
     shapes = [
         _displacement(linear, vector) if _annihilates(matrix, vector, values) else None
         for vector in vectors

@@ -107,7 +107,7 @@ def modes(dynamics: Dynamics) -> ModesSection:
     if not found:
         reason = _why_none(chosen)
         return ModesSection(modes=() if reason == _NO_OSCILLATION else None, reason=reason)
-    return ModesSection(modes=tuple(found))
+    return ModesSection(modes=tuple(found), complete=oscillations.complete)
 
 
 def _why_none(places: Sequence[Place]) -> str:

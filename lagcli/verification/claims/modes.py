@@ -42,8 +42,8 @@ def modes(x: Examination, section: ModesSection) -> ModesSection:
         places = [_all_modes(x, about) for about in groups.values()]
         if None in places:
             return replace(section, modes=None, reason=not_confirmed("the number of normal modes"))
-        _of_other_equilibria(x, [place for place in places if place is not None])
-    return section
+        complete = section.complete and _are_all(x, [place for place in places if place])
+    return replace(section, complete=complete)
 
 
 def _all_modes(x: Examination, about: Sequence[ModesOfFrequency]) -> RestPlace | None:
@@ -67,17 +67,18 @@ def _all_modes(x: Examination, about: Sequence[ModesOfFrequency]) -> RestPlace |
     return place
 
 
-def _of_other_equilibria(x: Examination, places: Sequence[RestPlace]) -> None:
-    """Note a stable equilibrium about which no modes are listed."""
+def _are_all(x: Examination, places: Sequence[RestPlace]) -> bool:
+    """Whether no stable equilibrium is known about which no modes are listed."""
     if not places or x.reference.large or x.problem.contacts:
-        return
+        return True
     if any(not row.holonomic for row in x.reference.rows):
-        return
+        return True
     for near in unlisted(Balance(x), places):
         if near.is_bowl:
             why = f"there is a stable equilibrium at {shown(near)}"
             x.refute("that the normal modes about all stable equilibria are listed", why)
-            return
+            return False
+    return True
 
 
 def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:

@@ -81,14 +81,18 @@ class Balance:
         self.symbols = [program.symbol(*key) for key in self.sought]
 
     def found(self) -> Iterator[LinearMotion]:
-        """Regular places where it stays, from random starts."""
-        with ctx.workprec(PRECISIONS[0]):
-            random = Random(5)
-            for state in self.x.states(_STATES):
-                for _ in range(_STARTS):
+        """Regular places where it stays, from random starts.
+
+        The search needs fewer bits than the derivatives at what is found: each is a new value.
+        """
+        random = Random(5)
+        for state in self.x.states(_STATES):
+            for _ in range(_STARTS):
+                with ctx.workprec(PRECISIONS[0]):
                     near = self._from(self._start(state, random))
-                    if near is not None and self._counts(near):
-                        yield near
+                    counts = near is not None and self._counts(near)
+                if near is not None and counts:
+                    yield LinearMotion(self.x, near.environment)
 
     def _start(self, state: State, random: Random) -> Environment:
         environment = dict(state.environment)
