@@ -187,7 +187,7 @@ def _known_factors(field: Field, given: Sequence[Poly]) -> list[Poly]:
 def _with_signed(
     expression: Expr, positive: Sequence[Expr], kinds: type | tuple[type, ...]
 ) -> tuple[Expr, Sequence[Expr]]:
-    """Both with -k' for k where -k is positive: k' is a symbol that is."""
+    """Both with -k' for k where -k is positive: k' is a symbol that is; not 0 where k² is."""
     signs: dict[Expr, Expr] = {}
     for each in positive:
         others = [f for f in sympy.Mul.make_args(each) if f.is_positive is not True]
@@ -195,6 +195,10 @@ def _with_signed(
         if len(open_) == 1 and isinstance(open_[0], kinds):
             s, value = open_[0], 1 - 2 * (len(others) % 2 == 0)
             signs[s] = value * sympy.Symbol(f"#{s}", positive=True)
+    for square in positive:
+        s = square.base if square.is_Pow and square.exp.is_even else None
+        if isinstance(s, sympy.Symbol) and not s.is_nonzero and s not in signs:
+            signs[s] = sympy.Symbol(f"#{s}", real=True, nonzero=True)
     if not signs:
         return expression, positive
     return expression.xreplace(signs), [each.xreplace(signs) for each in positive]

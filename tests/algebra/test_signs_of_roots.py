@@ -174,3 +174,13 @@ def test_a_root_outweighs_a_difference_of_either_sign(seed):
     assert known in (None, side)
     assert known is None or found == {known}
     assert known is not None or (side == -1 and n < i**2)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_sum_of_squares_is_positive_where_one_is_not_zero(seed):
+    rng = Random(seed)
+    v, c, x = sympy.symbols("v c x", real=True)
+    whole = rng.randint(1, 5) * v ** rng.choice([2, 4]) + rng.randint(1, 5) * c**2
+    assert sign(whole, [v**2]) == sign(-whole, [v**2, x]) * -1 == 1
+    assert sign(whole, [x**2]) is None
+    assert sign(whole - 7 * c * v, [v**2]) is None

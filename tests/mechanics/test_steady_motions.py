@@ -7,6 +7,7 @@ import pytest
 from sympy import Matrix, Symbol, symbols
 
 from lagcli.algebra.signs import sign
+from lagcli.evaluation import FUNCTIONS, evaluated
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.statements.motions import SteadyMotion
@@ -40,6 +41,15 @@ def test_the_sleeping_top():
     upright = next(m for m in motions(TOP) if m.rates is None and to_grammar(m.at["theta"]) == "0")
     assert upright.verdict.stable is None
     assert conditions(upright.verdict.minimum or ()) == ["p_psi^2 > 4*I1*k"]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("k", ["POSITIVE", ""])
+def test_every_regular_precession_is_stable(k):
+    """Whittaker, section 71: A² Ω⁴ - 2 A k Ω² cos + k² > 0 for k of either sign, as sin is not 0."""
+    precession = motions(TOP.replace("k: POSITIVE", f"k: {k}"))[0]
+    assert precession.free == ("theta", "phi'")
+    assert precession.verdict.stable is True
 
 
 @pytest.mark.long
@@ -404,3 +414,24 @@ def test_no_motion_is_called_steady_that_a_moving_contact_may_reach(gap):
     section, missing = steady_motions(derive(text.replace("G", gap)))
     assert section.motions is None
     assert "a contact moves" in str(missing)
+
+
+CONICAL = """
+coordinates: {r: POSITIVE, phi: , z: }
+parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE}
+T: m*(r'^2 + r^2*phi'^2 + z'^2)/2
+V: m*g*z
+"""
+
+
+@pytest.mark.parametrize("string", ["sqrt(r^2 + z^2) = l", "r^2 + z^2 = l^2", "l - z^2/l = r^2/l"])
+def test_a_conical_pendulum_on_a_constraint(string):
+    """Landau and Lifshitz, section 14, problem 1: about theta, omega^2 = (g/l)(1/cos + 3 cos)."""
+    [conical] = motions(CONICAL + f"constraints: {{string: {string}}}")
+    assert conical.verdict.stable is True
+    assert conical.rates is not None
+    values = {"g": 9.1, "l": 0.7, "m": 2.0, "z": -0.7 * 0.6}
+    rate = evaluated(conical.rates["phi"], values, FUNCTIONS)
+    assert rate**2 == pytest.approx(9.1 / (0.7 * 0.6))
+    [square] = (evaluated(e, values, FUNCTIONS) for e in conical.frequencies_squared)
+    assert square == pytest.approx(9.1 / 0.7 * (1 / 0.6 + 3 * 0.6))

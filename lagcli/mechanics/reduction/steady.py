@@ -69,7 +69,8 @@ class SteadyMotions:
             self.reason = NO_VALUE_AT_REST
             return None
         given = self._given()
-        found = self._families() if self.routh.cyclic and self._free else self._by_momenta()
+        by_rates = self.routh.cyclic and self._without_forces and not self.only_rest_is_sought
+        found = self._families() if by_rates else self._by_momenta()
         if given is not None and not any(given.member_of(each, self.system.q) for each in found):
             found.insert(0, given)
         standing = map(self.contacts.standing, found)
@@ -96,11 +97,10 @@ class SteadyMotions:
         return any(kind != "holonomic" for kind in self.dynamics.constraints.kinds.values())
 
     @property
-    def _free(self) -> bool:
-        """Without constraints, forces that have no potential, and roots in the velocities."""
+    def _without_forces(self) -> bool:
+        """Without forces that have no potential, and roots in the velocities."""
         return (
-            not self.dynamics.constraints.equations
-            and self.routh.quadratic
+            self.routh.quadratic
             and not self._fed_by_time
             and all(is_zero(f) is True for f in self.system.applied_forces)
         )
@@ -116,10 +116,10 @@ class SteadyMotions:
         """What vanishes, with all that acts: dU_eff/dq less the forces, along the constraints."""
         if self.rest.depends_on_time or self._sticks or self.rest.has_no_value:
             return []
-        if self._free:
-            return list(self.routh.balance)
         if self.dynamics.constraints.equations:
             return self.rest.equations
+        if self._without_forces:
+            return list(self.routh.balance)
         return [simplify(-force) for force in self.rest.forces_at_rest]
 
     @property
@@ -145,11 +145,13 @@ class SteadyMotions:
 
     def _families(self) -> list[Steady]:
         """Those at given places or rates, and where the coordinates are singular."""
-        families = SteadyFamilies(self.routh)
+        families = SteadyFamilies(self.routh, self.balance)
         found = families.motions()
         self.complete = families.complete
         if found is None:
             found = self._by_momenta()
+        if self.dynamics.constraints.equations:
+            return found
         rest = [each for each in found if each.rates and not any(each.rates.values())]
         axes = CoincidingAxes(self.routh)
         found += [
@@ -198,4 +200,4 @@ class SteadyMotions:
     def point(self, steady: Steady) -> RestPoint:
         """The same as an equilibrium of the reduced system."""
         free = tuple(q for q in self.system.q if q not in steady.values)
-        return RestPoint(steady.values, free, steady.positive, steady.family)
+        return RestPoint(steady.values, free, steady.known_positive, steady.family)

@@ -34,7 +34,14 @@ _ROOT_COST = 6  # operations that a root is worth
 
 
 class SteadyFamilies:
-    """The steady motions of a reduced system on which nothing acts beside U_eff.
+    """The steady motions of a reduced system.
+
+    Parameters
+    ----------
+    routh
+        The reduced system, on which no force acts that has no potential.
+    conditions
+        What vanishes on a steady motion: dU_eff/dq, or its part along the constraints, and these.
 
     Attributes
     ----------
@@ -42,11 +49,11 @@ class SteadyFamilies:
         Whether each that was found holds by substitution.
     """
 
-    def __init__(self, routh: Routh) -> None:
+    def __init__(self, routh: Routh, conditions: Sequence[Expr]) -> None:
         assert routh.reduced is not None
         self.routh = routh
         self.full, self.system = routh.system, routh.reduced.system
-        self.conditions = routh.balance
+        self.conditions = conditions
         self.complete = True
 
     def motions(self) -> list[Steady] | None:
@@ -169,7 +176,7 @@ class SteadyFamilies:
         *,
         mirrored: bool = False,
     ) -> list[Steady]:
-        """The motion with its momenta and rates, put back into dU_eff/dq and q' = dU_eff/dp."""
+        """The motion with its momenta and rates, put into the conditions and q' = dU_eff/dp."""
         state = {q: values[q] for q in self.system.q if q in values}
         rates_given = {v: values[v] for v in self.full.qdot if v in values}
         momenta = {p: values[p] for p in self.routh.momenta if p in values}

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from sympy import Expr, Symbol
+from sympy import Add, Expr, Symbol, default_sort_key
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.place import at
+from lagcli.algebra.systems import divisors
 from lagcli.mechanics.rest.family import Family
 from lagcli.record import record
 
@@ -43,6 +44,14 @@ class Steady:
     def free_rates(self) -> set[Expr]:
         """Rates that are given as themselves: any value will do."""
         return {rate for rate in (self.rates or {}).values() if rate.is_Symbol}
+
+    @property
+    def known_positive(self) -> tuple[Expr, ...]:
+        """What is positive there: `positive`, and the squares of what is divided by."""
+        values = (*self.values.values(), *(self.rates or {}).values())
+        below = {d for value in values for term in Add.make_args(value) for d in divisors(term)}
+        squares = (d**2 for d in sorted(below, key=default_sort_key) if d.free_symbols)
+        return tuple(dict.fromkeys((*self.positive, *squares)))
 
     def within(self, family: Steady, q: Sequence[Symbol]) -> bool:
         """Whether it is one of a family in which more coordinates are free."""

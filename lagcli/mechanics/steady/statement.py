@@ -214,7 +214,7 @@ class _SteadyStatement:
         return stated(
             by_routh(judged) if cyclic else judged,
             self.order,
-            motion.positive,
+            motion.known_positive,
             potential=potential,
             gyroscopic=turning,
             given=[v**2 for v in self.steady.full.qdot if v in motion.free_rates],
