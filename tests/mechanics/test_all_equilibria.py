@@ -340,3 +340,25 @@ def test_forces_with_open_exponents_balance_at_a_power_of_their_ratio(V):
     real = [float(x) for x in found if x.is_real]
     assert all(abs(slope(x)) < 1e-9 for x in real)
     assert len(real) == len(changes) or not rest.complete
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_body_that_rolls_rests_where_its_height_does(seed):
+    """The heading is no condition: the constraints are solved for x' and y', whatever it is."""
+    source = random.Random(seed)
+    turn, power, radius = source.choice(["phi", "2*phi", "phi + 1"]), source.choice([1, 2]), "R"
+    blade = [f"x'*cos({turn}) + y'*sin({turn})", f"-x'*sin({turn}) + y'*cos({turn})"]
+    rolls = [f"{radius}*psi' + {radius}*phi'*cos(theta)", f"{radius}*theta'*sin(theta)^{power}"]
+    source.shuffle(rolls)
+    d = derive(
+        "coordinates: [x, y, theta, phi, psi]\n"
+        "parameters: {m: {assume: positive}, g: {assume: positive}, R: {assume: positive}}\n"
+        "T: m*(x'^2 + y'^2 + R^2*(theta'^2 + phi'^2 + psi'^2))/2\nV: m*g*R*sin(theta)\n"
+        f'constraints: {{a: "{blade[0]} + {rolls[0]}", b: "{blade[1]} + {rolls[1]}"}}'
+    )
+    rest = RestPoints(d.dynamics)
+    assert rest.complete or not rest.points
+    places = {str(value) for p in rest.points or () for value in p.values.values()}
+    assert rest.complete
+    assert places == {"pi/2", "-pi/2"}
+    assert all(len(p.values) == 1 for p in rest.points or ())

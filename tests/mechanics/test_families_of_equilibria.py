@@ -8,6 +8,7 @@ x^2 omega is an adiabatic invariant (Landau, Lifshitz, Mechanics, section 49).
 from __future__ import annotations
 
 import random
+from math import cos, sin
 
 import pytest
 
@@ -205,3 +206,36 @@ def test_an_equilibrium_in_decimals_is_kept_where_one_is_worked_out_of_another()
         "dissipation: 3*((u' + v*v' - v/4)^2 + (v' + (u + v^2/2)/4)^2)/4\n"
     )
     assert [stable for _, _, _, stable in found] == [False, True, True]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(2))
+def test_a_spring_between_free_bodies_is_at_rest_at_its_length(seed):
+    """The family is compact up to translations; the modes are those in relative coordinates."""
+    names = ["x", "y"] if seed else ["y", "x"]
+    a, b = ([f"{name}{body}" for name in names] for body in "12")
+    square = " + ".join(f"({p} - {q})^2" for p, q in zip(a, b, strict=True))
+    text = (
+        (
+            f"coordinates: [{', '.join(a + b)}]\n"
+            "parameters: {m1: P, m2: P, k: P, l: P}\n"
+            f"points: {{a: {{position: [{', '.join(a)}], mass: m1}}, "
+            f"b: {{position: [{', '.join(b)}], mass: m2}}}}\n"
+            f"V: k*(sqrt({square}) - l)^2/2\n"
+        )
+        .replace("P,", "{assume: positive},")
+        .replace("P}", "{assume: positive}}")
+    )
+    [state] = states(text)
+    assert state[3] is True
+    found = modes(derivation(text).dynamics).modes
+    assert found is not None
+    assert [(mode.multiplicity, len(mode.more_shapes)) for mode in found] == [(3, 2), (1, 0)]
+    source = random.Random(seed)
+    angle, m1, m2 = source.uniform(0, 6), source.uniform(1, 2), source.uniform(1, 2)
+    values = {"k": 1.3, "l": 0.8, "m1": m1, "m2": m2, a[0]: 0.8 * cos(angle) + 2.0,
+              a[1]: 0.8 * sin(angle) - 1.0, b[0]: 2.0, b[1]: -1.0}  # fmt: skip
+    shape = {n: evaluated(e, values, FUNCTIONS) for n, e in (found[1].shape or {}).items()}
+    for one, other, way in zip(a, b, (cos(angle), sin(angle)), strict=True):
+        assert m1 * shape[one] == pytest.approx(-m2 * shape[other])
+        assert shape[one] * way == pytest.approx(shape[a[0]] / cos(angle) * way**2)

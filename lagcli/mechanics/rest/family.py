@@ -56,7 +56,7 @@ class Family:
 
     def written_back(self, expression: Expr) -> Expr | None:
         """The formula on the branch as one on the whole family; None where that was not found."""
-        [power, factor] = _root_of(self.root)
+        power, factor, shift = _root_of(self.root)
         if power is None:
             return expression
 
@@ -66,7 +66,7 @@ class Family:
             ratio = simplify(node.base / power.base)
             if ratio.free_symbols & coordinates:
                 return node
-            return ratio**node.exp * (self.unknown / factor) ** (node.exp / power.exp)
+            return ratio**node.exp * ((self.unknown - shift) / factor) ** (node.exp / power.exp)
 
         def is_root(node: Expr) -> bool:
             found = node.is_Pow and not node.exp.is_Integer
@@ -105,12 +105,16 @@ def exists_where(relation: Expr, q: Sequence[Symbol]) -> tuple[Expr, ...] | None
     return None if known in (0, -1) else () if known == 1 else (room,)
 
 
-def _root_of(root: Expr) -> tuple[Expr | None, Expr]:
-    """The power in root = factor * power."""
-    factor, rest = S.One, None
-    for part in sympy.Mul.make_args(root):
-        if part.is_Pow and not part.exp.is_Integer and rest is None:
-            rest = part
-        else:
-            factor *= part
-    return rest, factor
+def _root_of(root: Expr) -> tuple[Expr | None, Expr, Expr]:
+    """The power, factor and shift in root = shift + factor * power."""
+    shift, term = S.Zero, root
+    if root.is_Add:
+        term = next((each for each in root.args if _powers(each)), root)
+        shift = root - term
+    powers = _powers(term)
+    return (powers[0], term / powers[0], shift) if powers else (None, term, shift)
+
+
+def _powers(term: Expr) -> list[Expr]:
+    parts = sympy.Mul.make_args(term)
+    return [part for part in parts if part.is_Pow and not part.exp.is_Integer]

@@ -14,13 +14,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from itertools import chain, combinations
+from itertools import chain, combinations, islice
 from typing import TYPE_CHECKING
 
 import sympy
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import Field, dot, is_zero, nullspace, simplify
+from lagcli.algebra import Field, dot, is_zero, nullspace, simplify, solve_linear
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.equations import is_decimal
 from lagcli.algebra.factors import factors_of
@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.rest.family import Family
 
 _LONGEST = 60  # operations of conditions that are quoted
+_MOST_MINORS = 40
 
 
 @record
@@ -166,15 +167,24 @@ class RestConditions:
 
     @property
     def _displacements(self) -> list[list[Expr]]:
-        """A basis of the v with A v = 0, solved for coordinates whose factors vanish nowhere."""
-        rows, q = self.dynamics.constraints.jacobian, self.system.q
+        """A basis of the v with A v = 0, solved for coordinates whose minor vanishes nowhere."""
+        rows, size = self.dynamics.constraints.jacobian, len(self.system.q)
 
         def may_vanish(j: int) -> bool:
-            return not any(free_of(row[j], q) and is_zero(row[j]) is False for row in rows)
+            return not any(free_of(r[j], self.system.q) and is_zero(r[j]) is False for r in rows)
 
-        order = sorted(range(len(q)), key=may_vanish)
-        back = [order.index(j) for j in range(len(q))]
-        return [[v[k] for k in back] for v in nullspace([[row[j] for j in order] for row in rows])]
+        order = sorted(range(size), key=may_vanish)
+        for bound in islice(combinations(order, len(rows)), _MOST_MINORS):
+            free = [j for j in range(size) if j not in bound]
+            columns = [[-row[j] for j in free] for row in rows]
+            solved = solve_linear([[row[j] for j in bound] for row in rows], columns)
+            if solved is not None and solved.determinant and sign(solved.determinant**2) == 1:
+                by_free = dict(zip(bound, solved.values, strict=True))
+                return [
+                    [by_free[j][k] if j in bound else S(int(j == other)) for j in range(size)]
+                    for k, other in enumerate(free)
+                ]
+        return nullspace(rows)
 
     @property
     def _one_gradient(self) -> bool:

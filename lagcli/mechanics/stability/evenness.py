@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 import sympy
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import dot, is_zero, simplify
+from lagcli.algebra import dot, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant
 from lagcli.algebra.signs import sign
@@ -34,7 +34,7 @@ def even(
     """
     if relation is not None:
         free = [s for s in free if s not in relation.free_symbols]
-        if not _bounded(relation, q):
+        if not _bounded(relation, forces, surface, q):
             return False
     return all(
         _turns(s, values, forces, surface) or _translates(s, values, forces, surface, q)
@@ -42,15 +42,28 @@ def even(
     )
 
 
-def _bounded(relation: Expr, q: Sequence[Symbol]) -> bool:
-    """A quadratic relation whose form of second degree is definite."""
-    tied = [s for s in q if s in relation.free_symbols]
-    second = [[simplify(relation.diff(a, b)) for b in tied] for a in tied]
+def _bounded(
+    relation: Expr, forces: Sequence[Expr], surface: Sequence[Expr], q: Sequence[Symbol]
+) -> bool:
+    """A quadratic relation whose form is definite, up to translations by which V stays."""
+    second = [[simplify(relation.diff(a, b)) for b in q] for a in q]
     if any(not free_of(entry, q) for row in second for entry in row):
         return False
-    minors = [determinant([row[:k] for row in second[:k]]) for k in range(1, len(tied) + 1)]
+    flat = [v for v in nullspace(second) if not free_of(relation, _moved(v, q))]
+    if not all(_stays(v, forces, surface, q) for v in flat):
+        return False
+    across = [k for k, s in enumerate(q) if s in relation.free_symbols]
+    for v in flat:  # a complement of them: one coordinate less for each
+        across.remove(next(k for k in reversed(across) if v[k] != 0))
+    minors = [determinant([[second[i][j] for j in across[:k]] for i in across[:k]])
+              for k in range(1, len(across) + 1)]  # fmt: skip
     signs = [None if minor is None else sign(minor) for minor in minors]
-    return signs == [1] * len(tied) or signs == [-1, 1] * (len(tied) // 2) + [-1] * (len(tied) % 2)
+    n = len(across)
+    return signs in ([1] * n, [-1, 1] * (n // 2) + [-1] * (n % 2))
+
+
+def _moved(step: Sequence[Expr], q: Sequence[Symbol]) -> list[Symbol]:
+    return [s for s, each in zip(q, step, strict=True) if each != 0]
 
 
 def _turns(
@@ -80,8 +93,13 @@ def _translates(
     """Whether V does not change by constant displacements along the family, anywhere."""
     shift = {s: value.diff(along) for s, value in values.items()}
     steps = [S.One if s == along else shift.get(s, S.Zero) for s in q]
-    if any(not free_of(step, q) for step in steps):
-        return False
+    return all(free_of(step, q) for step in steps) and _stays(steps, forces, surface, q)
+
+
+def _stays(
+    steps: Sequence[Expr], forces: Sequence[Expr], surface: Sequence[Expr], q: Sequence[Symbol]
+) -> bool:
+    """Whether this displacement does no work, nor leaves the constraints, anywhere."""
     work = dot(steps, forces)
     moved = [dot(steps, map(f.diff, q)) for f in surface]
     return all(is_zero(each) is True for each in (work, *moved))
