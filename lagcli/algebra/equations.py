@@ -153,15 +153,18 @@ def factor_roots(
     field: Field, poly: Poly, generator: int
 ) -> list[tuple[list[Expr] | None, int, int]]:
     """By irreducible factor: roots (None without closed form), multiplicity, degree."""
-    ring = field.ring
-    _, factors = factorization(ring.lift(poly))
+    factors = irreducible_factors(field, poly, generator)
+    return [(_roots(field, parts), many, len(parts) - 1) for parts, many in factors]
+
+
+def irreducible_factors(
+    field: Field, poly: Poly, generator: int
+) -> list[tuple[list[Element], int]]:
+    """Those with the generator: the coefficients a_0, a_1, … and the multiplicity of each."""
+    _, factors = factorization(field.ring.lift(poly))
     factors.sort(key=lambda pair: (pair[0].total_degree(), str(pair[0])))
-    found = []
-    for factor, multiplicity in factors:
-        parts = coefficients(field, factor, generator)
-        if len(parts) > 1:
-            found.append((_roots(field, parts), multiplicity, len(parts) - 1))
-    return found
+    parted = ((coefficients(field, factor, generator), many) for factor, many in factors)
+    return [(parts, many) for parts, many in parted if len(parts) > 1]
 
 
 def _roots(field: Field, a: Sequence[Element]) -> list[Expr] | None:

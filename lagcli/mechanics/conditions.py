@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import combinations
 
 import sympy
 from sympy import Expr, S
@@ -16,14 +17,17 @@ from lagcli.expression import ZERO, added_and_subtracted, operation_count
 from lagcli.mechanics.inequalities import shorter_sums
 from lagcli.statements.motions import Above
 
+_MOST_KNOWN = 6
+
 
 def conditions(
     expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
 ) -> tuple[Above, ...]:
     """What must be positive, without what the others imply."""
     positive = _with_numerators(positive)
-    solved = _in_ratios(expressions, positive)
+    solved = _in_ratios([_times_known(e, positive) for e in expressions], positive)
     split = [part for expression in solved for part in _without_squares(expression)]
+    split = [part for e in split for part in _of_one_sign(e, split, positive)]
     kept = _without_implied(sorted(split, key=_is_square), order, positive)
     return tuple(dict.fromkeys(each for each, _ in kept))
 
@@ -33,7 +37,8 @@ def opposites(
 ) -> tuple[Above, ...]:
     """The opposite inequalities of `conditions`, those that can hold."""
     positive = _with_numerators(positive)
-    solved = _in_ratios(expressions, positive)
+    solved = _in_ratios([_times_known(e, positive) for e in expressions], positive)
+    solved = [e for each in solved for e in _of_one_sign(each, solved, positive, zeros=True)]
     plain = [_without_zeros(each, solved) for each in solved]
     kept = _without_implied(plain, order, positive, squares=True)
     possible = [each for each, rest in kept if not _never_negative(rest, positive)]
@@ -43,6 +48,16 @@ def opposites(
 def _with_numerators(positive: Sequence[Expr]) -> list[Expr]:
     """Where a/b > 0, a b > 0 is known too."""
     return list(dict.fromkeys(part for e in positive for part in (e, deciding(e))))
+
+
+def _times_known(expression: Expr, positive: Sequence[Expr]) -> Expr:
+    """The same sign, shorter: where k (k - a) > 0 and k (k + a) > 0, k² - a² > 0 always."""
+    known = list(dict.fromkeys(map(deciding, positive)))[:_MOST_KNOWN]
+    nonzero = [*positive, *(f**2 for p in known for f, _ in factors_of(p))]
+    products = (sympy.Mul(*some) for n in range(3) for some in combinations(known, n))
+    same = [deciding(expression * product, nonzero) for product in products]
+    shortest = min(same, key=lambda e: int(e.count_ops()))
+    return shortest if shortest.count_ops() < deciding(expression).count_ops() else expression
 
 
 def _in_ratios(expressions: Sequence[Expr], positive: Sequence[Expr]) -> list[Expr]:
@@ -98,6 +113,27 @@ def _without_squares(expression: Expr) -> list[Expr]:
     squares = [f**p for f, p in with_sines(rest) if p % 2 == 0 and p > 0]
     other = simplify(rest / sympy.Mul(*squares))
     return [*([] if other == 1 else [other]), *squares] if squares else [expression]
+
+
+def _of_one_sign(
+    expression: Expr, all_: Sequence[Expr], positive: Sequence[Expr], *, zeros: bool = False
+) -> tuple[Expr, ...]:
+    """a b > 0 is a > 0 and b > 0 where another condition excludes that both are negative.
+
+    With `zeros` it excludes, too, that one is negative and the other 0.
+    """
+    factors = [f for f, _ in factors_of(deciding(expression, positive))]
+    if len(factors) != 2 or (zeros and not all(f.is_Symbol for f in factors)):
+        return (expression,)
+    a, b = factors
+    cases: list[tuple[dict[Expr, Expr], tuple[Expr, ...]]] = [({}, (-a, -b))]
+    cases += [({a: S.Zero}, (-b,)), ({b: S.Zero}, (-a,))] * zeros
+    excluded = any(
+        all(sign_of(e.xreplace(put_in), [*positive, *less]) == -1 for put_in, less in cases)
+        for e in all_
+        if e is not expression
+    )
+    return (a, b) if excluded else (expression,)
 
 
 def _never_negative(expression: Expr, positive: Sequence[Expr]) -> bool:

@@ -29,7 +29,8 @@ class Verdict:
     where it is stable `across` one.  `gyroscopic`: the spectrum is that of terms that damping
     would outdo.  `rapid` is the frequency of a drive over whose period the motion is averaged.
     `theorem` is the name of the one that decides.  `critical` is the order of the minimum at
-    equality in the one condition of `minimum`: 0, it is unstable; None, not known.
+    equality in the one condition of `minimum`, or minus that of the first derivative that is not
+    0 where there is none, and it is unstable; None, not known.
     """
 
     stable: bool | None

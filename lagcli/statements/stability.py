@@ -101,8 +101,10 @@ def _critical(verdict: Verdict) -> list[Part]:
         return []
     [condition], potential = verdict.minimum, _potential(verdict.potential)
     equality: list[Part] = ["For ", condition.left, " = ", condition.right, " it is "]
-    if verdict.critical == 0:
-        return [*equality, "unstable: ", potential, " then decreases to one side at least. "]
+    if verdict.critical < 0:
+        there = f"has a maximum of order {-verdict.critical}"
+        there = "decreases to one side" if verdict.critical % 2 else there
+        return [*equality, "unstable: ", potential, f" then {there}. "]
     stable = "asymptotically stable: " if verdict.asymptotic else "stable: "
     return [*equality, stable, potential, f" then has a minimum of order {verdict.critical}. "]
 

@@ -160,3 +160,46 @@ def test_a_plumb_line_is_stable_where_its_cosine_is_positive(p, q):
             values = {x: source.uniform(0.2, 3) for x in "kb"} | {"a": source.uniform(-3, 3)}
             known = second.subs("y", place.subs(values)).subs(values)
             assert bool(formula.subs(values) > 0) == bool(known > 0)
+
+
+def by_numbers(stated, known: dict[str, float]) -> list[bool]:
+    return [evaluated(c.left, known, {}) > evaluated(c.right, known, {}) for c in stated]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_symmetric_chain_is_stable_where_both_springs_are(seed):
+    """(k x² + c (x - y)²) on both sides of y: definite just for k > 0 and c > 0."""
+    source = random.Random(f"chain {seed}")
+    i, j = source.randint(1, 4), source.randint(1, 4)
+    text = (
+        "coordinates: [x, y, z]\nparameters: {m: {assume: positive}, k: , c: }\n"
+        "T: m*(x'^2 + y'^2 + z'^2)/2\n"
+        f"V: {i}*k*(x^2 + z^2)/2 + {j}*c*((x - y)^2 + (y - z)^2)/2\n"
+    )
+    [rest] = equilibria(derive(text).dynamics).equilibria
+    assert len(rest.verdict.minimum) == len(rest.verdict.unstable) == 2
+    for _ in range(40):
+        known = {"k": source.uniform(-1, 1), "c": source.uniform(-1, 1), "m": 1.1}
+        both = known["k"] > 0 and known["c"] > 0
+        assert all(by_numbers(rest.verdict.minimum, known)) == both
+        assert any(by_numbers(rest.verdict.unstable, known)) == (not both)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_condition_is_short_where_existence_knows_the_rest(seed):
+    """V = b cos + k sin²/2 has minima aside just for k < 0, where they exist."""
+    source = random.Random(f"aside {seed}")
+    i, wave = source.randint(1, 4), source.choice(["cos(theta)", "-cos(theta)"])
+    text = (
+        "coordinates: [theta]\nparameters: {m: {assume: positive}, b: {assume: positive}, k: }\n"
+        f"T: m*theta'^2/2\nV: {i}*b*{wave} + k*sin(theta)^2/2\n"
+    )
+    aside = next(e for e in equilibria(derive(text).dynamics).equilibria if e.where)
+    assert conditions_of(aside.verdict.minimum) == ["k < 0"]
+    assert conditions_of(aside.verdict.unstable) == ["k > 0"]
+
+
+def conditions_of(stated) -> list[str]:
+    return [
+        f"{to_grammar(c.left)} > {to_grammar(c.right)}".replace("0 > k", "k < 0") for c in stated
+    ]

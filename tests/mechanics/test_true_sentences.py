@@ -113,7 +113,7 @@ def test_at_a_critical_value_the_next_derivative_decides(seed):
     [state] = [
         e for e in equilibria(derive(text).dynamics).equilibria if to_grammar(e.at["x"]) == "0"
     ]
-    assert state.verdict.critical == (order if order % 2 == 0 and factor > 0 else 0)
+    assert state.verdict.critical == (order if order % 2 == 0 and factor > 0 else -order)
 
 
 @pytest.mark.parametrize(

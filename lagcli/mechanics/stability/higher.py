@@ -52,16 +52,17 @@ def bent_there(linear: Linearization) -> bool:
 
 
 def order_of_minimum(derivatives: Sequence[Expr], positive: Sequence[Expr]) -> int | None:
-    """The order of the first derivative that is not 0, 0 where there is no minimum.
+    """The order of the first derivative that is not 0, negative where there is no minimum.
 
-    The first of the derivatives is the second one.  None where it is not known.
+    An even one is that of a maximum then.  The first of the derivatives is the second one.  None
+    where it is not known.
     """
     for order, derivative in enumerate(derivatives, 2):
         sign = sign_of(derivative, positive)
         if sign is None:
             return None
         if sign:
-            return order if sign == 1 and order % 2 == 0 else 0
+            return order if sign == 1 and order % 2 == 0 else -order
     return None
 
 

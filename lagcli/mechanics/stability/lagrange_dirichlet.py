@@ -117,8 +117,9 @@ def by_derivatives(
     if hypotheses.lacking:
         return undecided(hypotheses.lacking)
     order, curvature = order_of_minimum(derivatives, positive), derivatives[0]
-    if order == 0:
-        return unstable(FALLING if sign_of(curvature, positive) == -1 else DECREASES)
+    if order is not None and order < 0:
+        higher = DECREASES if order % 2 else f"{{V}} has a maximum of order {-order} there"
+        return unstable(FALLING if order == -2 else higher)
     if order is not None:
         return _stable(_STRICT + f" of order {order}" * (order > 2) + " there")
     if sign_of(curvature, positive) == 0 or weak_sign(curvature, positive) == -1:

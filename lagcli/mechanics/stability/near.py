@@ -8,9 +8,10 @@ from functools import cached_property
 import sympy
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import dot, nullspace, rank, simplify
+from lagcli.algebra import Field, dot, nullspace, rank, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant, determinant_in
+from lagcli.algebra.equations import irreducible_factors
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import is_positive, sign_of, weak_sign
 from lagcli.mechanics.rest.characteristic import Characteristic
@@ -197,8 +198,8 @@ class Near:
     def curvatures(self) -> list[list[Expr]]:
         """Lists of what is positive just where V has a minimum of second order.
 
-        The W of det(K - W M) where they have a closed form, their symmetric functions e_1, …, e_n,
-        det(K + W M) = det M (W + W_1) … (W + W_n), and a K that is diagonal.
+        The W of det(K - W M) where they have a closed form, their symmetric functions e_1, …, e_n
+        by factors of det(K + W M) = det M (W + W_1) … (W + W_n), and a K that is diagonal.
         """
         linear = self.restoring
         found: list[list[Expr]] = []
@@ -209,6 +210,7 @@ class Near:
         powers = determinant_in(W, [[W * M[i][j] + K[i][j] for j in range(n)] for i in range(n)])
         if powers is not None:
             found.append([simplify(power / powers[-1]) for power in powers[-2::-1]])
+            found.append(_symmetric_functions(powers, W))
         return [*found, self.diagonal] if self.diagonal else found
 
     @cached_property
@@ -355,6 +357,20 @@ class Near:
         real = [[*block[i], *(-x for x in turned[i])] for i in range(n)]
         real += [[*turned[i], *block[i]] for i in range(n)]
         return len(nullspace(real)) == 2 * multiplicity
+
+
+def _symmetric_functions(powers: Sequence[Expr], W: Symbol) -> list[Expr]:
+    """e_1, e_2, … of the W_i of each factor of (W + W_1) (W + W_2) …, those that vanish last."""
+    whole = sympy.Add(*(c * W**k for k, c in enumerate(powers)))
+    field = Field([whole])
+    number = field.number_of(W)
+    assert number is not None
+    factors = irreducible_factors(field, field(whole).numerator, number)
+    factors.sort(key=lambda factor: factor[0][0].is_zero())  # W itself, of what is neutral
+    return [
+        simplify(field.to_sympy(c / a[-1])) for a, many in factors for _ in range(many)
+        for c in a[-2::-1]
+    ]  # fmt: skip
 
 
 def positive_definite(

@@ -35,8 +35,9 @@ class Stability:
     rapid
         The frequency of a drive: the verdict is on the averaged motion where that is large.
     critical
-        The order of the minimum where the one condition of `minimum` is an equality; 0: it is no
-        minimum, and unstable.  None: not known.
+        Where the one condition of `minimum` is an equality, the order of the first derivative
+        that is not 0: of the minimum, or negative where there is none, so that it is unstable.
+        None: not known.
     """
 
     stable: bool | None = None
