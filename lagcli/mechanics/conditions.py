@@ -27,7 +27,10 @@ def conditions(
     positive = _with_numerators(positive)
     solved = _in_ratios([_times_known(e, positive) for e in expressions], positive)
     split = [part for expression in solved for part in _without_squares(expression)]
-    split = [part for e in split for part in _of_one_sign(e, split, positive)]
+    pairs = _in_pairs(split)
+    for k, each in enumerate(pairs):
+        pairs[k] = _times_known(each, [*positive, *pairs[:k], *pairs[k + 1 :]])
+    split = [part for e in pairs for part in _of_one_sign(e, split, positive)]
     kept = _without_implied(sorted(split, key=_is_square), order, positive)
     return tuple(dict.fromkeys(each for each, _ in kept))
 
@@ -113,6 +116,19 @@ def _without_squares(expression: Expr) -> list[Expr]:
     squares = [f**p for f, p in with_sines(rest) if p % 2 == 0 and p > 0]
     other = simplify(rest / sympy.Mul(*squares))
     return [*([] if other == 1 else [other]), *squares] if squares else [expression]
+
+
+def _in_pairs(expressions: Sequence[Expr]) -> list[Expr]:
+    """k (k - a) > 0 and k (k + a) > 0 are k² > a²: k times the sum of both is never negative."""
+    left = list(expressions)
+    for pair in combinations(expressions, 2):
+        first, second = ({f: n for f, n in factors_of(deciding(e)) if n == 1} for e in pair)
+        for shared in (f for f in first if f.is_Symbol and f in second):
+            others = [simplify(deciding(e) / shared) for e in pair]
+            never_below = weak_sign(simplify(shared * sympy.Add(*others))) == 1
+            if never_below and all(e in left for e in pair):
+                left = [e for e in left if e not in pair] + [simplify(sympy.Mul(*others))]
+    return left
 
 
 def _of_one_sign(

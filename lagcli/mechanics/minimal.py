@@ -29,14 +29,18 @@ from lagcli.problem_data import Constraint, Parameter, Problem
 def minimal(derivation: Derivation, *, rolling: bool = False) -> Derivation:
     """The derivation itself, or that of the problem without the coordinates that are solved.
 
-    Under velocity constraints it is left alone, or with `rolling` these are kept.
+    Velocity constraints that are `integrated` are put in, too; under others it is left alone, or
+    with `rolling` all of them are kept.
     """
     system, constraints = derivation.system, derivation.dynamics.constraints
-    relations = constraints.relations
-    if relations is None or relations.remaining:
-        return derivation
     kept_constraints = [e for e in constraints.equations if not e.holonomic]
     if kept_constraints and not rolling:
+        problem = derivation.problem
+        if problem.contacts or any(c.holds_while is not None for c in problem.constraints):
+            return derivation
+        return integrated(minimal(derivation, rolling=True)) or derivation
+    relations = constraints.relations
+    if relations is None or relations.remaining:
         return derivation
     solved = {q: relations.solved[q] for q in system.q if q in relations.solved}
     independent = derivation.dynamics.independent_constraints

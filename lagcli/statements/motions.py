@@ -30,7 +30,7 @@ class Verdict:
     would outdo.  `rapid` is the frequency of a drive over whose period the motion is averaged.
     `theorem` is the name of the one that decides.  `critical` is the order of the minimum at
     equality in the one condition of `minimum`, or minus that of the first derivative that is not
-    0 where there is none, and it is unstable; None, not known.
+    0 where there is none, and it is unstable; 0, the potential is constant; None, not known.
     """
 
     stable: bool | None

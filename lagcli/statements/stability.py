@@ -100,7 +100,10 @@ def _critical(verdict: Verdict) -> list[Part]:
     if verdict.critical is None or verdict.minimum is None or len(verdict.minimum) != 1:
         return []
     [condition], potential = verdict.minimum, _potential(verdict.potential)
-    equality: list[Part] = ["For ", condition.left, " = ", condition.right, " it is "]
+    equality: list[Part] = ["For ", condition.left, " = ", condition.right]
+    if verdict.critical == 0:
+        return [*equality, " every position is an equilibrium: ", potential, " is constant then. "]
+    equality.append(" it is ")
     if verdict.critical < 0:
         there = f"has a maximum of order {-verdict.critical}"
         there = "decreases to one side" if verdict.critical % 2 else there

@@ -362,3 +362,26 @@ def test_a_body_that_rolls_rests_where_its_height_does(seed):
     assert rest.complete
     assert places == {"pi/2", "-pi/2"}
     assert all(len(p.values) == 1 for p in rest.points or ())
+
+
+@pytest.mark.parametrize("inertia", ["1 + q^2", "1 + p^2*sin(q)^2", "2 + sin(q)", "1 + p^2"])
+def test_one_turn_is_not_all_where_the_inertia_counts_the_turns(inertia):
+    """V = -cos(q) is stationary at q = n pi, which are two places where M is the same after a turn."""
+    d = derive(f"coordinates: [q, p]\nL: ({inertia})*q'^2/2 + p'^2/2 + cos(q) - p^2/2")
+    rest = RestPoints(d.dynamics)
+    assert len(rest.points or ()) == 2
+    assert rest.complete == (inertia != "1 + q^2")
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_two_pendulums_on_a_spring_rest_upright_too(seed):
+    source = random.Random(seed)
+    m, M, k = (source.randint(1, 5) for _ in range(3))
+    d = derive(
+        "coordinates: [a, b]\n"
+        f"L: {m}*a'^2/2 + {M}*b'^2/2 + {m}*cos(a) + {M}*cos(b) - {k}*(b - a)^2/2"
+    )
+    rest = RestPoints(d.dynamics)
+    places = {tuple(map(str, p.values.values())) for p in rest.points or ()}
+    assert places == {("0", "0"), ("pi", "pi")}
+    assert not rest.complete

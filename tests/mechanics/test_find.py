@@ -422,3 +422,18 @@ initial: {r: R, a: 0, a': v0/R}
 find: {leaves: {where: N = 0, for: a}}
 """
     assert "real for v0^2 ≤ " in answers(text)["leaves"].note
+
+
+@pytest.mark.parametrize("order", ["r, phi", "phi, r"])
+def test_the_other_turning_point_has_its_condition(order):
+    """Kepler: from r0 with v0 across, r = m r0² v0²/(2 k - m r0 v0²) is there for v0 below escape."""
+    text = f"""
+coordinates: {{{order.replace("r", "r: POSITIVE").replace("phi", "phi: ")}}}
+parameters: {{m: POSITIVE, k: POSITIVE, r0: POSITIVE, v0: POSITIVE}}
+T: m*(r'^2 + r^2*phi'^2)/2
+V: -k/r
+initial: {{r: r0, phi: 0, phi': v0/r0}}
+find: {{asked: {{where: r' = 0, for: r}}}}
+"""
+    assert set(roots(text)) == {formula("r0"), formula("m*r0^2*v0^2/(2*k - m*r0*v0^2)")}
+    assert answers(text)["asked"].note == "positive for m*r0*v0^2 < 2*k"

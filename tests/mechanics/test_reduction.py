@@ -113,6 +113,29 @@ constraints: {{floor: z = R - {eccentricity}*R*cos(theta)}}
     assert (section.one_freedom is not None) is put_in
 
 
+@pytest.mark.parametrize("order", ["phi, psi", "psi, phi"])
+@pytest.mark.parametrize("sign", ["", "-"])
+def test_a_rolling_constraint_is_put_in_by_its_velocities(order, sign):
+    """A disc in a cylinder, as with φ = n ψ: Landau and Lifshitz, section 32, problem 5."""
+    text = f"""
+coordinates: [{order}]
+parameters: {{m: POSITIVE, g: POSITIVE, d: POSITIVE, r: POSITIVE}}
+T: m*d^2*phi'^2/2 + m*r^2*psi'^2/4
+V: -m*g*d*cos(phi)
+constraints: {{rolling: "d*phi' = {sign}r*psi'"}}
+"""
+    section, missing = reduced(text)
+    assert not missing
+    assert section.eliminated == ("psi",)
+    assert same(section.routhian, "3*m*d^2*phi'^2/4 + m*g*d*cos(phi)")
+    assert section.one_freedom is not None
+    [period] = section.one_freedom.periods
+    assert same(period.period, "2*pi*sqrt(3*d/(2*g))*(1 + a^2/16 + 11*a^4/3072)")
+    turned, _ = reduced(text.replace("V:", "forces: {psi: m*g*r*psi'}\nV:"))
+    assert turned.eliminated == ("psi",)
+    assert turned.one_freedom is None
+
+
 def test_a_constraint_that_does_not_touch_the_cyclic_coordinate_stays():
     section, _ = reduced("""
 coordinates: [x, y, z]

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from sympy import Add, Expr
 
 from lagcli.algebra import simplify
-from lagcli.algebra.positivity import deciding
+from lagcli.algebra.positivity import deciding, weak_sign
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign_beside_zero
 from lagcli.expression import Expression
@@ -36,10 +36,22 @@ def real_where(roots: Iterable[Expr]) -> Iterator[Remark]:
     bounds = (simplify(bound) for root in roots for bound in not_negative_where_real(root))
     open_ = (deciding(bound) for bound in bounds if sign_beside_zero(bound) is None)
     for bound in dict.fromkeys(each for each in open_ if each != 1):
-        terms = Add.make_args(bound.expand())
-        negative = [-term for term in terms if term.could_extract_minus_sign()]
-        rest = [term for term in terms if not term.could_extract_minus_sign()]
-        yield ("real for ", Add(*negative), " ≤ ", Add(*rest))
+        less, more = _sides(bound)
+        yield ("real for ", less, " ≤ ", more)
+
+
+def positive_where(roots: Iterable[Expr]) -> Iterator[Remark]:
+    """What roots ask for that are to be positive, where they may be negative."""
+    open_ = [deciding(root) for root in roots if weak_sign(root) is None]
+    for bound in dict.fromkeys(each for each in open_ if each != 1):
+        less, more = _sides(bound)
+        yield ("positive for ", less, " < ", more)
+
+
+def _sides(difference: Expr) -> tuple[Expr, Expr]:
+    terms = Add.make_args(difference.expand())
+    negative = [term for term in terms if term.could_extract_minus_sign()]
+    return -Add(*negative), Add(*(term for term in terms if term not in negative))
 
 
 def _plain(remark: Remark) -> str:

@@ -16,7 +16,7 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.finding.passing import Passage, Passing, admissible
 from lagcli.mechanics.finding.passings import Passings
 from lagcli.mechanics.finding.reach import real_value
-from lagcli.mechanics.finding.remarks import Remark, as_parts, in_words, real_where
+from lagcli.mechanics.finding.remarks import Remark, as_parts, in_words, positive_where, real_where
 from lagcli.mechanics.parameter_values import admissible_values, exact_values
 from lagcli.problem_data import Where as WhereQuestion
 from lagcli.statements.questions import Solutions
@@ -48,7 +48,10 @@ class WhereSearch:
             roots = self._parameter()
         if roots is None:
             return self._answer(None, [self.along.why_not])
-        return self._answer(roots, [*real_where(roots), *self.notes, *self.along.notes])
+        bounds = [*real_where(roots)]
+        if self.unknown.is_nonnegative:
+            bounds += positive_where(roots)
+        return self._answer(roots, [*bounds, *self.notes, *self.along.notes])
 
     def _answer(self, roots: Sequence[Expr] | None, notes: Sequence[Remark]) -> Solutions:
         trees = None if roots is None else tuple(map(self.along.tree, roots))

@@ -95,7 +95,7 @@ class RestPoints(RestConditions):
             at_kinks(self.forces_at_rest, equations, self.system.q, places)
             or at_cusps(-self.system.L.xreplace(still), self.system.q)
         )
-        self.complete &= not lost and not kinks
+        self.complete &= not (lost or kinks or (found and self.goes_beyond_one_turn))
         if not self.complete:
             known = {tuple(p.values.get(q, q) for q in self.system.q) for p in found}
             found += [p for p in self._evident() if tuple(p.values.values()) not in known]

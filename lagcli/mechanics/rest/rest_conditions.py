@@ -277,10 +277,16 @@ class RestConditions:
         return {q[max(k for k in own if c[k] == 1)]: c for c in basis}
 
     def is_angle(self, q: Symbol) -> bool:
-        """Whether the coordinate occurs inside sin and cos only."""
-        there = [e for e in self.equations if not free_of(e, [q])]
-        outside = (e.xreplace(dict.fromkeys(e.atoms(*CIRCULAR), sympy.Dummy())) for e in there)
-        return bool(there) and all(free_of(e, [q]) for e in outside)
+        """Whether the coordinate occurs inside sin and cos."""
+        return any(not free_of(f, [q]) for e in self.equations for f in e.atoms(*CIRCULAR))
+
+    @cached_property
+    def goes_beyond_one_turn(self) -> bool:
+        """Whether an angle of the conditions counts its turns in the inertia: M = 1 + q²."""
+        entries = [x for x in (*chain(*self.mass_matrix), *self.forcing) if x != 0]
+        outside = [e.xreplace(dict.fromkeys(e.atoms(*CIRCULAR), sympy.Dummy())) for e in entries]
+        return any(self.is_angle(q) and not all(free_of(e, [q]) for e in outside)
+                   for q in self.system.q)  # fmt: skip
 
     def loses_rank(self, values: Mapping[Symbol, Expr]) -> bool:
         """Whether the gradients of the constraints are independent, but not there."""

@@ -66,8 +66,13 @@ def order_of_minimum(derivatives: Sequence[Expr], positive: Sequence[Expr]) -> i
     return None
 
 
-def order_at_critical_values(derivatives: Sequence[Expr], positive: Sequence[Expr]) -> int | None:
-    """The same where a condition makes the second derivative vanish: one symbol is solved for."""
+def order_at_critical_values(
+    derivatives: Sequence[Expr], positive: Sequence[Expr], force: Expr | None = None
+) -> int | None:
+    """The same where a condition makes the second derivative vanish: one symbol is solved for.
+
+    0 where the `force` vanishes everywhere then.
+    """
     curvature = derivatives[0] if derivatives else None
     for symbol in sorted(curvature.free_symbols, key=str) if curvature is not None else ():
         roots = solve_for(curvature, symbol)
@@ -76,6 +81,8 @@ def order_at_critical_values(derivatives: Sequence[Expr], positive: Sequence[Exp
         [root] = roots.values
         if symbol.is_positive and sign_of(root, positive) in (0, -1):
             continue
+        if force is not None and is_zero(force.xreplace({symbol: root})) is True:
+            return 0
         others = [simplify(each.xreplace({symbol: root})) for each in derivatives]
         return order_of_minimum(others, [p.xreplace({symbol: root}) for p in positive])
     return None

@@ -70,13 +70,14 @@ def by_minimum(near: Near) -> Stability | None:
         return by_lowest_form(near) if near.zeros > 2 * near.dimension_released else None
     shortest = min(open_, key=lambda left: sum(int(count_ops(e)) for e in left))
     derivatives = potential_derivatives(near.linear) if len(shortest) == 1 else []
+    force = near.linear.forces_at_rest[0] if derivatives else None
     return Stability(
         by=_theorem(near),
         asymptotic=near.decays,
         minimum=shortest,
         reverses=near.potential_decides,
         across=near.dimension_released > 0,
-        critical=order_at_critical_values(derivatives, near.positive),
+        critical=order_at_critical_values(derivatives, near.positive, force),
     )
 
 

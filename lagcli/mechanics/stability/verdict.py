@@ -36,8 +36,8 @@ class Stability:
         The frequency of a drive: the verdict is on the averaged motion where that is large.
     critical
         Where the one condition of `minimum` is an equality, the order of the first derivative
-        that is not 0: of the minimum, or negative where there is none, so that it is unstable.
-        None: not known.
+        that is not 0: of the minimum, or negative where there is none, so that it is unstable;
+        0 where the potential is constant.  None: not known.
     """
 
     stable: bool | None = None
