@@ -19,7 +19,7 @@ from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, ModesOfFrequency, ModesSection
 from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.plus_minus import is_pair, modes_in_pairs, pairs
-from lagcli.statements.wording import alike_blocks
+from lagcli.statements.wording import alike_blocks, conditions
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
@@ -60,6 +60,8 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
                 yield Equations(rows)
             else:
                 yield Paragraph((_without_rows(mode),))
+            if mode.shaped_where:
+                yield Paragraph(("where ", *conditions(mode.shaped_where), "."))
             for other in mode.more_shapes:
                 yield Paragraph(("Also of this frequency, as is every combination:",))
                 yield Equations(tuple(_shape(other)))

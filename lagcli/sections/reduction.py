@@ -129,7 +129,10 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
 
 def _period(period: PeriodSeries, coordinate: str) -> Iterator[Block]:
     if period.root_of is not None:
-        yield Paragraph(("Small oscillations about any ", Name(coordinate), " with"))
+        q = Name(coordinate)
+        yield Paragraph(
+            ("Small oscillations about any ", q, " where ", POTENTIAL, " has a minimum:")
+        )
         yield vanishing((period.root_of,))
     elif period.amplitude:
         yield from state_blocks(period.at, "Oscillations about ")

@@ -269,7 +269,7 @@ class ModesOfFrequency:
     some values; both are None where they have no closed form, or are `damped`.  The displacements
     of one frequency are the combinations of `shape` and of `more_shapes`.  One-sided contacts in
     `open` do not act; `kinked`: a kink of V holds the others.  `open_sign`: `frequency` is real for
-    some values of the parameters only.
+    some values of the parameters only; `shaped_where`: the shapes have a value there.
     """
 
     at: Mapping[str, Expression]
@@ -284,6 +284,7 @@ class ModesOfFrequency:
     open: tuple[str, ...] = ()
     kinked: bool = False
     open_sign: bool = False
+    shaped_where: tuple[Above, ...] = ()
 
 
 @record(kw_only=True)

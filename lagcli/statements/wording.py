@@ -163,7 +163,8 @@ def _compared(difference: Expression, sign: str) -> list[Part]:
     """a = b + c of a - b - c, else that it is 0; or another sign than =."""
     plus, minus = added_and_subtracted(difference)
     if ZERO not in (plus, minus):
-        return [plus, sign, minus]
+        named = any(isinstance(node, Name) for node in walk(plus))
+        return [plus, sign, minus] if named else [minus, sign, plus]
     return [difference, f"{sign}0"]
 
 

@@ -353,3 +353,36 @@ T: m*(x'^2 + y'^2)/2
 V: k*(sqrt(x^2 + y^2) - l)^2/2 + m*g*y
 """)
     assert sorted(states.values()) == [False, True]
+
+
+CAR = """
+coordinates: [z, theta]
+parameters: {m: POSITIVE, J: POSITIVE, k1: POSITIVE, k2: POSITIVE, a: POSITIVE, b: POSITIVE}
+T: m*z'^2/2 + J*theta'^2/2
+V: k1*(z - a*theta)^2/2 + k2*(z + b*theta)^2/2
+"""
+
+
+def test_the_shapes_of_bounce_and_pitch_need_a_coupling():
+    """Thomson, Theory of Vibration, section 5.2: uncoupled for k1 a = k2 b, where it is 0/0."""
+    found = modes(dynamics(CAR)).modes
+    assert [told(mode.shaped_where) for mode in found] == [["(k2*b - k1*a)^2 > 0"]] * 2
+    uncoupled = modes(dynamics(CAR.replace("k2*(z + b*", "k1*(z + a*"))).modes
+    assert [told(mode.shaped_where) for mode in uncoupled] == [[]] * 2
+    assert len({to_grammar(mode.shape["z"]) for mode in uncoupled}) == 2
+
+
+@pytest.mark.parametrize("order", ["x, s", "s, x"])
+def test_a_shape_is_over_what_moves_at_every_angle(order):
+    """A block on a wedge that slides: the wedge stays where the slope is vertical, not the block."""
+    [_, swing] = modes(
+        dynamics(f"""
+coordinates: [{order}]
+parameters: {{m: POSITIVE, M: POSITIVE, k: POSITIVE, alpha: }}
+T: M*x'^2/2 + m*(x'^2 + s'^2 + 2*x'*s'*cos(alpha))/2
+V: k*s^2/2
+""")
+    ).modes
+    assert normal(swing.shape["s"]) == 1
+    assert normal(swing.shape["x"]) == formula("-m*cos(alpha)/(m + M)")
+    assert not swing.shaped_where

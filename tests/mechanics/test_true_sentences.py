@@ -341,3 +341,17 @@ parameters: {m: {assume: positive}, w: {assume: positive}}
 points: {bead: {mass: m, position: [r*cos(w*t), r*sin(w*t)]}}
 """
     assert "dimension 5 modulo constants" in said(text, "The algebra of the symmetries", "algebra")
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_where_a_potential_is_constant_every_position_is_an_equilibrium(seed):
+    """A bead on a turning parabola: V_eff = (n g - w²) x²/2, so that n g = w² leaves no force."""
+    n = random.Random(seed).randint(1, 5)
+    text = (
+        "coordinates: [x]\nparameters: {g: {assume: positive}, w: {assume: positive}}\n"
+        f"L: (1 + {n}^2*x^2)*x'^2/2 + w^2*x^2/2 - {n}*g*x^2/2 BESIDE\n"
+    )
+    [level] = equilibria(derive(text.replace("BESIDE", "")).dynamics).equilibria
+    assert level.verdict.critical == 0
+    bent = equilibria(derive(text.replace("BESIDE", "- x^4")).dynamics).equilibria
+    assert {e.verdict.critical for e in bent if to_grammar(e.at["x"]) == "0"} == {4}

@@ -17,7 +17,7 @@ from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
 from lagcli.statements.plus_minus import modes_in_pairs
-from lagcli.statements.wording import linear_equations, place_rows
+from lagcli.statements.wording import conditions, linear_equations, place_rows
 
 if TYPE_CHECKING:
     from lagcli.mechanics.oscillations.small_oscillations import Place
@@ -116,6 +116,8 @@ def _mode(mode: ModesOfFrequency, omega: Name, place: Place) -> Iterator[Block]:
         again = "and independently of these, as the root is multiple,"
         yield says(again if number else "with the amplitudes in the ratio")
         yield _amplitudes(each)
+    if mode.shaped_where:
+        yield says("for ", *conditions(mode.shaped_where), ".")
     if mode.negative:
         yield says("This is negative: the displacement does not oscillate, it grows exponentially.")
     elif mode.frequency is None or mode.open_sign:

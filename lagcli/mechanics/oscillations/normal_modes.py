@@ -14,6 +14,7 @@ from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.positivity import sign_of, weak_sign, without_moduli
 from lagcli.algebra.signs import sign
+from lagcli.algebra.systems import divisors
 from lagcli.mechanics.inequalities import one_is_negative
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.rest.characteristic import Characteristic
@@ -170,7 +171,7 @@ def shorter(first: Expr, second: Expr) -> Expr:
 def _shapes(
     linear: Linearization, square: Expr, values: Mapping[Symbol, mpf]
 ) -> tuple[tuple[Expr, ...], ...]:
-    """Displacements with first nonzero component 1: a basis of the null space of K - W M.
+    """Displacements with one component 1: a basis of the null space of K - W M.
 
     Empty for complex ones (gyroscopic terms), or where one was not found.
     """
@@ -196,13 +197,25 @@ def _displacement(linear: Linearization, vector: Sequence[Expr]) -> tuple[Expr, 
         )
         for i in range(len(linear.system.q))
     ]
-    first = next((x for x in displacement if x != 0), None)
-    if first is None:
+    moved = [x for x in displacement if x != 0]
+    if not moved:
         return None
     known = linear.point.family
     if known is not None:
         return known.displacement(displacement)
-    return tuple(simplify(x / first) for x in displacement)
+    ratios = [tuple(simplify(x / unit) for x in displacement) for unit in moved]
+    return next((shape for shape in ratios if not _may_be_infinite(shape)), ratios[0])
+
+
+def _may_be_infinite(shape: Sequence[Expr]) -> list[Expr]:
+    """What it is divided by and may be 0."""
+    return [d for x in shape for d in divisors(x) if sign(d**2) is None]
+
+
+def infinite_where(shape: Sequence[Expr]) -> list[Expr]:
+    """What vanishes where a shape has no value, as a coupling does; without roots."""
+    below = dict.fromkeys(_may_be_infinite(shape))
+    return [d for d in below if all(p.exp.is_Integer for p in d.atoms(sympy.Pow))]
 
 
 # -- checks ------------------------------------------------------------------------------------

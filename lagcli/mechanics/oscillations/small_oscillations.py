@@ -27,7 +27,12 @@ from lagcli.expression import Expression, Power, Quotient, length, walk
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
-from lagcli.mechanics.oscillations.normal_modes import NormalMode, never_oscillates, normal_modes
+from lagcli.mechanics.oscillations.normal_modes import (
+    NormalMode,
+    infinite_where,
+    never_oscillates,
+    normal_modes,
+)
 from lagcli.mechanics.oscillations.reduced_verdict import ReducedVerdict
 from lagcli.mechanics.rest.characteristic import Characteristic
 from lagcli.mechanics.rest.equilibria import NO_CLOSED_SOLUTION, REACHED, TIMED, RestPoints
@@ -275,6 +280,11 @@ class SmallOscillations:
                 open=place.held.open,
                 kinked=place.held.kinked,
                 open_sign=mode.open_sign and place.verdict.stable is not True,
+                shaped_where=conditions(
+                    [d**2 for shape in mode.shapes for d in infinite_where(shape)],
+                    self.system.order,
+                    place.point.positive,
+                ),
             )
             for mode in place.modes
         ]
