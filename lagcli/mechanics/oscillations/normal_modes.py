@@ -14,7 +14,7 @@ from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.positivity import sign_of, weak_sign, without_moduli
 from lagcli.algebra.signs import sign
-from lagcli.algebra.systems import divisors
+from lagcli.algebra.vanishing_factors import divisors
 from lagcli.mechanics.inequalities import one_is_negative
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.rest.characteristic import Characteristic

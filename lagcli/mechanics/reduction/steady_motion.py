@@ -8,7 +8,7 @@ from sympy import Add, Expr, Symbol, default_sort_key
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.place import at
-from lagcli.algebra.systems import divisors
+from lagcli.algebra.vanishing_factors import divisors
 from lagcli.mechanics.rest.family import Family
 from lagcli.record import record
 

@@ -60,7 +60,8 @@ def order_of_minimum(derivatives: Sequence[Expr], positive: Sequence[Expr]) -> i
     for order, derivative in enumerate(derivatives, 2):
         sign = sign_of(derivative, positive)
         if sign is None:
-            return None
+            odd = order % 2 and sign_of(derivative**2, positive) == 1
+            return -order if odd else None
         if sign:
             return order if sign == 1 and order % 2 == 0 else -order
     return None
