@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from lagcli.document import Label
-from lagcli.expression import Expression, Name, operation_count
+from lagcli.expression import Expression, Name, operation_count, walk
 from lagcli.statements.motions import Above, SteadyMotion, Verdict
 from lagcli.statements.wording import Part, conditions, joined
 
@@ -100,7 +100,8 @@ def _critical(verdict: Verdict) -> list[Part]:
     if verdict.critical is None or verdict.minimum is None or len(verdict.minimum) != 1:
         return []
     [condition], potential = verdict.minimum, _potential(verdict.potential)
-    equality: list[Part] = ["For ", condition.left, " = ", condition.right]
+    sides = sorted((condition.left, condition.right), key=_is_number)
+    equality: list[Part] = ["For ", sides[0], " = ", sides[1]]
     if verdict.critical == 0:
         return [*equality, " every position is an equilibrium: ", potential, " is constant then. "]
     equality.append(" it is ")
@@ -110,6 +111,10 @@ def _critical(verdict: Verdict) -> list[Part]:
         return [*equality, "unstable: ", potential, f" then {there}. "]
     stable = "asymptotically stable: " if verdict.asymptotic else "stable: "
     return [*equality, stable, potential, f" then has a minimum of order {verdict.critical}. "]
+
+
+def _is_number(side: Expression) -> bool:
+    return not any(isinstance(node, Name) for node in walk(side))
 
 
 def _by_roots(verdict: Verdict, stable: str, along: Sequence[Part]) -> list[Part]:
