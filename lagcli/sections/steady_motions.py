@@ -111,6 +111,8 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
     if squares:
         squared = Power(own("omega"), Number(Fraction(2)))
         yield equations_of((squared, square) for square in squares)
+        if motion.may_be_complex:
+            yield Paragraph(("Where this is not real, displacements oscillate and grow.",))
     if len(motion.mass) > 1:
         matrices = (motion.mass, motion.velocity, motion.stiffness)
         yield from linear_equations("To first order, ", *matrices, end=":")

@@ -109,6 +109,7 @@ class SteadyMotion:
     `free` may have any value.  It is there where each of `where` holds, and with all rates
     and momenta reversed where it is `mirrored`.  `rates` None: the axes of two rotations
     coincide, so only the momenta are known.  The equation `on` ties coordinates of a family.
+    Where a squared frequency `may_be_complex`, a displacement then oscillates and grows.
     """
 
     at: Mapping[str, Expression]
@@ -124,6 +125,7 @@ class SteadyMotion:
     stiffness: tuple[tuple[Expression, ...], ...] = ()
     on: tuple[Expression, Expression] | None = None
     rolling: bool = False
+    may_be_complex: bool = False
 
 
 @record(kw_only=True)

@@ -198,6 +198,8 @@ def _displaced(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
     if squares:
         yield says("The squares of the frequencies are the roots of the determinant:")
         yield _squares(explainer, squares)
+        if motion.may_be_complex:
+            yield says("Where this is not real, displacements oscillate and grow.")
 
 
 def _squares(explainer: Explainer, values: Iterable[Expression]) -> Equations:

@@ -62,6 +62,8 @@ class ReducedFreedom:
         system = self.system
         if is_zero(system.L.diff(system.t)) is not True:
             return "R depends explicitly on the time"
+        if not system.is_continuous:
+            return "R may jump, with an impulse that is not in the equations"
         if is_zero(system.applied_forces[0]) is not True:
             return "a force that is not in L acts"
         return ""
@@ -111,9 +113,14 @@ class ReducedFreedom:
         """What must be positive for the one-sided contacts to hold at each turning point."""
         return tuple(self._reached.values())
 
+    @property
+    def bounds(self) -> list[Expr]:
+        """What is positive between the `turning_energies`."""
+        return [x for low, high in self.turning_energies for x in (self.E - low, high - self.E)]
+
     @cached_property
     def _reached(self) -> dict[Expr, tuple[Expr, ...]]:
-        bounds = [x for low, high in self.turning_energies for x in (self.E - low, high - self.E)]
+        bounds = self.bounds
         pressed = {root: self.contacts.where_pressed({self.q: root}) for root in self._roots or ()}
         return {
             root: where

@@ -229,7 +229,9 @@ class _Statement:
                 (shape(lower, order), shape(upper, order))
                 for lower, upper in motion.turning_energies
             ),
-            turning_where=tuple(conditions(each, order) for each in motion.turning_where),
+            turning_where=tuple(
+                conditions(each, order, motion.bounds) for each in motion.turning_where
+            ),
             oscillates=not periods.excluded,
             when=self.routh.between_impacts.get("", ""),
             reason=periods.reason,

@@ -36,6 +36,7 @@ NO_CLOSED_SOLUTION = "no closed solution of the conditions of equilibrium was fo
 TIMED = "the equations depend explicitly on the time"
 REACHED = "a contact moves, and may reach it"
 _AT_A_KINK = "a force may jump at a kink of the potential, and rest there is not decided"
+_AT_A_JUMP = "the potential may jump where its derivatives vanish, and rest there is not decided"
 _AT_AN_OPEN_POWER = (
     "where the base of a power is 0 the force depends on the exponent, and rest there is not "
     "decided"
@@ -73,6 +74,8 @@ class RestPoints(RestConditions):
         self.at_singular_coordinates = False
         #: at some solutions the base of a power is 0, and its exponent has no known sign
         self.at_open_powers = False
+        #: at some solutions the potential jumps
+        self.at_jumps = False
         #: at some solutions the gradients of the constraints are not independent
         self.at_singular_constraints = False
 
@@ -102,6 +105,7 @@ class RestPoints(RestConditions):
             if not found:
                 self.reason = _AT_A_KINK if kinks else NO_CLOSED_SOLUTION
                 self.reason = _AT_AN_OPEN_POWER if self.at_open_powers else self.reason
+                self.reason = _AT_A_JUMP if self.at_jumps else self.reason
                 self.reason = TIMED if self.depends_on_time else self.reason
                 return None
         return self._in_regular_coordinates(found)
@@ -133,6 +137,8 @@ class RestPoints(RestConditions):
                 lost |= len(solution.values) < len(self.system.q)
             elif point is not None and self.balanced(point.values, solution.positive):
                 found.append(point)
+            elif self.jumps_at(solution.values):
+                lost = self.at_jumps = True
             elif self.without_value(solution.values):
                 self.at_open_powers |= self.has_open_power(solution.values)
             elif len(solution.values) < len(self.system.q) and self._may_be_real(solution):

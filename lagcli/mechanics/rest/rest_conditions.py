@@ -280,6 +280,13 @@ class RestConditions:
         """Whether the coordinate occurs inside sin and cos."""
         return any(not free_of(f, [q]) for e in self.equations for f in e.atoms(*CIRCULAR))
 
+    def jumps_at(self, values: Mapping[Symbol, Expr]) -> bool:
+        """Whether L may jump there, with an impulse that the equations of motion lack."""
+        if self.system.is_continuous:
+            return False
+        arguments = (jump.args[0] for jump in self.system.L.atoms(sympy.sign))
+        return any(is_zero(at(u, values)) is True for u in arguments)
+
     @cached_property
     def goes_beyond_one_turn(self) -> bool:
         """Whether an angle of the conditions counts its turns in the inertia: M = 1 + q²."""
@@ -297,8 +304,10 @@ class RestConditions:
     def balanced(self, values: Mapping[Symbol, Expr], positive: Sequence[Expr] = ()) -> bool:
         """Whether a state of rest is an equilibrium, by substitution where these are positive.
 
-        It is none where the equations have no value.
+        It is none where the equations have no value, nor known to be one where L jumps.
         """
+        if self.jumps_at(values):
+            return False
         decimals = [q for q, value in values.items() if is_decimal(value)]
         try:
             if decimals and not self.dynamics.constraints.equations:

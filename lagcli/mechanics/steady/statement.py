@@ -14,6 +14,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import rounded, written
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import vanishing_part, without_moduli
+from lagcli.algebra.signs import sign, sign_beside_zero
 from lagcli.expression import Expression
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
@@ -191,6 +192,8 @@ class _SteadyStatement:
             velocity=self._matrix(matrices[1]) if matrices else (),
             stiffness=self._matrix(matrices[2]) if matrices else (),
             on=relation_sides(point, system.q, self.order),
+            may_be_complex=judged.stable is not True
+            and any(_may_be_complex(square, motion.known_positive) for square in squares),
         )
 
     def _at_rest(self, motion: Steady) -> Stability | None:
@@ -250,6 +253,12 @@ class _SteadyStatement:
 
     def _shape(self, expression: Expr) -> Expression:
         return written(expression, self.order)
+
+
+def _may_be_complex(square: Expr, positive: Sequence[Expr]) -> bool:
+    """Whether a root in it may have a negative radicand."""
+    radicands = (p.base for p in square.atoms(sympy.Pow) if p.exp == sympy.S.Half)
+    return any(sign_beside_zero(r) is None and sign(r, positive) is None for r in radicands)
 
 
 def squares_of(linear: Linearization) -> tuple[Expr, ...]:
