@@ -435,3 +435,14 @@ def test_a_conical_pendulum_on_a_constraint(string):
     assert rate**2 == pytest.approx(9.1 / (0.7 * 0.6))
     [square] = (evaluated(e, values, FUNCTIONS) for e in conical.frequencies_squared)
     assert square == pytest.approx(9.1 / 0.7 * (1 / 0.6 + 3 * 0.6))
+
+
+@pytest.mark.parametrize("damped", [True, False])
+def test_a_squared_frequency_that_is_not_real_says_so(damped):
+    """Bateman, Phys. Rev. 38 (1931) 815: m x'' + c x' + k x = 0 with its mirror image."""
+    turning = " + c*(x*y' - y*x')/2" if damped else ""
+    [rest] = motions(
+        "coordinates: [x, y]\nparameters: {m: POSITIVE, k: POSITIVE, c: POSITIVE}\n"
+        f"L: m*x'*y' - k*x*y{turning}\n"
+    )
+    assert rest.may_be_complex is damped

@@ -206,3 +206,18 @@ V: {number}*k*(sqrt(l^2 + x^2) - l + {pull}/k)^2/2
 """
     assert places(text, "x") == ["0"]
     assert found(text)[0].verdict.stable
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_no_rest_is_stated_where_the_potential_jumps(seed):
+    """V = k u² - c sign(u): beside u = 0 it is lower on one side, though V' = 0 is there."""
+    source = random.Random(seed)
+    u, c = source.choice(["x", "x - 1", "2*x + 3"]), source.choice([-2, 1, 3])
+    text = "coordinates: [x]\nparameters: {k: {assume: positive}}\nL: x'^2/2 - k*U^2 + STEP\n"
+    text = text.replace("U", f"({u})")
+    jumping = derive(text.replace("STEP", f"{c}*sign({u})"))
+    assert equilibria(jumping.dynamics).equilibria is None
+    bent = derive(text.replace("STEP", f"{c}*({u})^3*sign({u})"))
+    assert next(iter(equilibria(bent.dynamics).equilibria)).verdict.stable is True
+    apart = derive(text.replace("STEP", f"{c}*sign(x - 9)"))
+    assert [e.verdict.stable for e in equilibria(apart.dynamics).equilibria] == [True]
