@@ -2,8 +2,9 @@
 
     (u^2)^(k/2) = |u|^k = u^k, or u^k sign(u) for odd k
     atan2(y, x) = 2 sign(x) atan(y/(r + |x|)) + (1 - sign(x)) sign(y) pi/2,    r^2 = x^2 + y^2
+    asin(sin u) = 2 atan(sin u/(1 + |cos u|)),    atan(tan u) = sign(cos u) asin(sin u)
 
-On each side of x = 0 and y = 0 both are smooth; the second is that of the half angle.
+On each side of x = 0, y = 0 and cos u = 0 all are smooth; the phases are those of the half angle.
 
 References
 ----------
@@ -34,7 +35,25 @@ def _corner(graph: Graph, node: Node) -> Node:
             return graph.product(*(_absolute(graph, *pair) for pair in factors))
         case Call(function="atan2", arguments=(y, x), indices=()):
             return _phase(graph, y, x)
+        case Call(function="asin", arguments=(Call(function="sin" | "cos") as sine,)):
+            return _folded(graph, sine)
+        case Call(function="acos", arguments=(x,)):
+            complement = graph.call("asin", (x,))
+            [angle] = rewritten(graph, [complement], _corner)
+            quarter = graph.scaled(graph.symbol("pi"), _HALF)
+            return node if angle is complement else graph.difference(quarter, angle)
+        case Call(function="atan", arguments=(Call(function="tan", arguments=(u,)),)):
+            side = graph.call("sign", (graph.call("cos", (u,)),))
+            return graph.product(side, _folded(graph, graph.call("sin", (u,))))
     return node
+
+
+def _folded(graph: Graph, sine: Node) -> Node:
+    """asin(sin u) and asin(cos u): waves of triangles."""
+    assert isinstance(sine, Call)
+    other = graph.call("cos" if sine.function == "sin" else "sin", sine.arguments)
+    beside = graph.sum([graph.one, graph.call("abs", (other,))])
+    return graph.scaled(graph.call("atan", (graph.quotient(sine, beside),)), 2)
 
 
 def _is_root_of_square(base: Node, exponent: Fraction) -> bool:

@@ -7,7 +7,6 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lagcli.reader.habits import unit_behind
-from lagcli.units.table import meaning
 
 if TYPE_CHECKING:
     from collections.abc import Container
@@ -43,6 +42,8 @@ def unit_mistake(
 
 def run_mistake(text: str, option: str) -> tuple[str, str] | None:
     """What is wrong with `3 T`, an end of a run, or with `8 digits`, an accuracy."""
+    from lagcli.units.table import meaning
+
     found = _COUNT.fullmatch(text.strip())
     if found is None or found[2] in {"pi", "π"} or found[2] in {"min", "h", "deg"}:
         return unit_mistake(text)

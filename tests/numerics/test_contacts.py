@@ -273,6 +273,21 @@ initial: {{x: -3, y: {y!r}, x': 1}}
     assert result.rows[-1][1:] == pytest.approx(exact, abs=1e-10)
 
 
+@pytest.mark.parametrize(("accuracy", "room"), [(1e-6, 1e-7), (1e-4, 1e-9)])
+def test_two_bumps_that_are_almost_grazed_are_passed(accuracy, room):
+    """Of the runs at the next finer accuracy one touches the first bump, the other does not."""
+    text = f"""
+coordinates: [x, y]
+T: (x'^2 + y'^2)/2
+contacts: {{floor: {{gap: y + cos(x) + 1 + {room!r} >= 0, restitution: 1/2}}}}
+initial: {{x: 0, y: 0, x': 1}}
+"""
+    result = simulated(text, 12, accuracy, "x,y", samples=3)
+    assert result.certificate.reached
+    assert result.rows[-1] == pytest.approx((12, 12, 0))
+    assert result.events == ()
+
+
 def test_a_force_that_comes_to_its_limit_is_kept_with_a_warning():
     """v0^2 = 5 g l: the tension vanishes at the top and nowhere else."""
     text = """

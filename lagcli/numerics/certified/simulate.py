@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from contextlib import nullcontext, suppress
 
@@ -21,20 +20,14 @@ from lagcli.numerics.certified.escalation import (
 )
 from lagcli.numerics.certified.methods import SHARP, SHARPER, STIFF
 from lagcli.numerics.certified.prepared import Precision
-from lagcli.numerics.certified.reduced_run import cut_simulation
+from lagcli.numerics.certified.ready_setup import ReadySetup
 from lagcli.numerics.certified.stiffness import STIFF as STIFFNESS
 from lagcli.numerics.certified.stiffness import decay
-from lagcli.numerics.equations.arithmetic import Doubles
-from lagcli.numerics.equations.constants import constants_of
-from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.equations.refusal import Refusal, reason_of
+from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import initial_state
-from lagcli.numerics.equations.surface import ROUNDING
 from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.numerics.hybrid.result import Result
-from lagcli.numerics.hybrid.setup import Setup
-from lagcli.numerics.integrators.dop853 import dop853
 from lagcli.numerics.integrators.steps import Grazes, NotPossible
 from lagcli.problem_data import Problem
 from lagcli.record import replace
@@ -67,7 +60,7 @@ def simulate(problem: Problem, request: RunRequest, progress: Progress = None) -
     return Simulation(problem, request, progress).result()
 
 
-class Simulation(Setup):
+class Simulation(ReadySetup):
     """A setup, run."""
 
     def restart(self, problem: Problem, modes: Modes) -> None:
@@ -82,7 +75,7 @@ class Simulation(Setup):
         self.begin()
         motion = modes.first.motion
         self.start = initial_state(motion, project=self.request.project)
-        self._check_start(motion, *self.start)
+        self.check_start(motion, *self.start)
 
     # -- the run ---------------------------------------------------------------------------------
 
@@ -107,15 +100,19 @@ class Simulation(Setup):
         return self._with_rows_beyond(result) if self.request.beyond else result
 
     def _told_from_a_graze(self, modes: Modes, outcome: Outcome) -> Result | None:
-        """The result of a finer accuracy that tells whether what is grazed is struck."""
-        accuracy = self.request.accuracy
-        if not isinstance(outcome.run.stop, Grazes) or accuracy <= _FINEST:
-            return None
-        finer = max(_FINER * accuracy, _FINEST)
-        found = self.over(replace(self.request, accuracy=finer, furthest=False)).run(modes)
-        if not found.certificate.reached:
-            return None
-        return replace(found, certificate=replace(found.certificate, accuracy=accuracy))
+        """The result of a finer accuracy that tells whether what is grazed is struck.
+
+        Where one of its runs strikes and the other does not, the next one is tried.
+        """
+        accuracy = finer = self.request.accuracy
+        grazes = isinstance(outcome.run.stop, Grazes)
+        while grazes and finer > _FINEST:
+            finer = max(_FINER * finer, _FINEST)
+            request = replace(self.request, accuracy=finer, furthest=False)
+            found = self.over(request).first(modes)[1]
+            if found.certificate.reached:
+                return replace(found, certificate=replace(found.certificate, accuracy=accuracy))
+        return None
 
     @property
     def _last_methods(self) -> Sequence[str]:
@@ -165,20 +162,6 @@ class Simulation(Setup):
                 outcome = outcome.controller.refined(outcome, self.look_between)
         return on_one_branch(self, modes, outcome, digits)[0]
 
-    def ready(self) -> tuple[Simulation, Modes]:
-        """What is integrated, this or less, in doubles; the initial state is found and tried."""
-        arithmetic = Doubles()
-        constants = constants_of(self.equations, self.all_nodes, arithmetic)
-        modes = Modes(self, constants, arithmetic, dop853, ROUNDING)
-        self.start = initial_state(modes.first.motion, project=self.request.project)
-        self._keep_conserved(modes)
-        reduced = None if self.request.whole else cut_simulation(self, modes, *self.start)
-        if reduced is not None:
-            modes = Modes(reduced, constants, arithmetic, dop853, ROUNDING)
-        integrated = reduced or self
-        self._check_start(modes.first.motion, *integrated.start)
-        return integrated, modes
-
     def _beyond(self, outcome: Outcome, group: Sequence[str]) -> tuple[Sequence[str], float]:
         """The methods that may reach with more digits what was not reached, and from where on."""
         if outcome.reached:
@@ -191,31 +174,3 @@ class Simulation(Setup):
         if is_met(outcome):
             return SHARPER, SHARP
         return within_reach(outcome, group), first_tolerance(outcome)
-
-    def _keep_conserved(self, modes: Modes) -> None:
-        """Leave out the candidates that are conserved in no mode."""
-        if not self.candidates:
-            return
-        kept = dict(zip(self.charges, modes.first.conserved, strict=True))
-        shown = {column.name for column in self.request.columns}
-        self.notes = [
-            f"{s.name} is shown without a gauge, since the file gives none: it is not conserved"
-            for s in self.problem.symmetries
-            if s.gauge is None and s.name in shown and not kept.get(s.name, True)
-        ]
-        if not self.goes_on:
-            self.charges = {name: node for name, node in self.charges.items() if kept[name]}
-            self.candidates = [name for name in self.candidates if kept[name]]
-            del modes.first.conserved
-
-    def _check_start(self, motion: Motion, q: list[float], v: list[float]) -> None:
-        """Whether anything moves at all: the accelerations at t = 0."""
-        try:
-            motion.set_signs(0.0, q, v)
-            found = motion.accelerations(0.0, *q, *v)
-            if all(math.isfinite(a) for a in found):
-                return
-            reason = "they are not finite"
-        except (ArithmeticError, ValueError) as error:
-            reason = reason_of(error)
-        raise Refusal(f"at t = 0 the accelerations are not determined: {reason}", mistake=False)

@@ -21,7 +21,7 @@ from typing import Any
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node, Symbol
 from lagcli.graph.substitution import Substitution
-from lagcli.numerics.certified.simulate import Simulation
+from lagcli.numerics.certified.ready_setup import ReadySetup
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.null_space import reduced
 from lagcli.numerics.equations.refusal import Refusal
@@ -155,15 +155,15 @@ def _solve(
     return {i for i, _ in pivots}
 
 
-def setup_of(problem: Problem, request: RunRequest) -> tuple[Simulation, frozenset[int]]:
+def setup_of(problem: Problem, request: RunRequest) -> tuple[ReadySetup, frozenset[int]]:
     """What is integrated, and the constraints that the others imply at the beginning."""
-    setup, modes = Simulation(problem, request).ready()
+    setup, modes = ReadySetup(problem, request).ready()
     symbols = (*setup.equations.q, *setup.equations.qdot)
     given = {(name.name, name.primes) for name in problem.initial}
     values = zip(symbols, (*setup.start[0], *setup.start[1]), strict=True)
     if any(x and (s.name, s.primes) not in given for s, x in values):
         # what a constraint gives is enclosed with that constraint
-        setup, modes = Simulation(problem, replace(request, whole=True)).ready()
+        setup, modes = ReadySetup(problem, replace(request, whole=True)).ready()
     implied: frozenset[int] = frozenset()
     if setup.equations.rows:
         first = modes.first

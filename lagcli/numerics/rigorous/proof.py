@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from lagcli.numerics.certified.simulate import Simulation
+from lagcli.numerics.certified.ready_setup import ReadySetup
 from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.hybrid.request import Progress, RunRequest
@@ -116,7 +116,7 @@ class Attempt:
 
     def __init__(
         self,
-        setup: Simulation,
+        setup: ReadySetup,
         implied: frozenset[int],
         bits: int,
         most: float,

@@ -73,7 +73,8 @@ def _above(bound: Any) -> str:
     if bound == 0:
         return "0"
     exponent = math.floor(math.log10(float(bound))) if float(bound) > 0 else -300
-    for leading in range(100, 10_000):
+    first = max(100, min(999, int(float(bound) / 10.0**exponent * 100)))
+    for leading in range(first, 10_000):
         candidate = f"{leading / 100:.2f}e{exponent}"
         if type(bound)(candidate).lower() >= bound:
             return candidate
