@@ -23,8 +23,8 @@ if TYPE_CHECKING:
     from lagcli.reader.nodes import Scalar
     from lagcli.reader.scope import Role, Scope
 
-#: A longer formula is not repeated in a hint.
-_LONGEST = 300
+#: Characters of a formula that is repeated in a hint, and of one that is read for it: LaTeX is long.
+_LONGEST, _LONGEST_GIVEN = 600, 1800
 #: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
 _LEFT_SIDE = re.compile(r"^\s*[^\W\d][\w ]*(?:\(\w+\))?\s*:?=(?!=)")
 
@@ -85,7 +85,7 @@ def with_whole(
 
 def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     """The text with names that can be declared, and without `T =` before it."""
-    if len(value) > 2 * _LONGEST:
+    if len(value) > _LONGEST_GIVEN:
         return []
     for each in scope.refused:
         if re.search(r"\w[ .-]\w", each):
