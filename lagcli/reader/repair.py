@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from lagcli.reader.nodes import Scalar
     from lagcli.reader.scope import Role, Scope
 
-#: Characters of a formula that is repeated in a hint, and of one that is read for it: LaTeX is long.
+#: Characters of a formula that is repeated in a hint, and of one that is read for it, as LaTeX.
 _LONGEST, _LONGEST_GIVEN = 600, 1800
 #: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
 _LEFT_SIDE = re.compile(r"^\s*[^\W\d][\w ]*(?:\(\w+\))?\s*:?=(?!=)")
@@ -53,7 +53,8 @@ def with_whole(
         Reads an expression, an equation or a comparison.
     """
     stated = what == "dissipation" and "=" in node.value  # as a force: -c*x'
-    if stated or all(each.hint.startswith("did you mean '") for each in found):
+    too_large = "the limit is" in found[0].hint
+    if stated or too_large or all(each.hint.startswith("did you mean '") for each in found):
         return found
     for written in _written(node.value, scope, equation=read is not read_expression):
         try:
