@@ -102,7 +102,7 @@ class Restart:
     """What follows a crossing at once: R and (dR/dt, DR), as functions of t and the state."""
 
     state: Callable[[Any, Sequence[Any]], list[Any]]
-    slope: Callable[[Any, Sequence[Any]], Any]
+    jacobian: Callable[[Any, Sequence[Any]], Any]
 
 
 def when(piece: Piece, field: VectorField, watched: Watched, begun: int = 0) -> Any:
@@ -199,7 +199,7 @@ def behind(
     delayed = row / -rate  # dtau/dx
     places = column * delayed + matrix(n, n, 1)
     along = matrix(n + 1, n, [*delayed.entries(), *places.entries()])
-    derivative = back * (restart.slope(times, box) * along - f * delayed) * flow
+    derivative = back * (restart.jacobian(times, box) * along - f * delayed) * flow
     delay = -watched.value(s, *before.middle)[0] / rate
     middle = matrix(n, 1, before.middle) + column * delay
     ends = matrix(n, 1, restart.state(s + delay, middle.entries())) - f * delay
@@ -215,7 +215,7 @@ def _moved(field: VectorField, times: Any, box: Sequence[Any], late: Any) -> tup
     found = [x + late * f for x, f in zip(box, field.rate(times, room), strict=True)]
     if not all(y.contains(x) for x, y in zip(found, room, strict=True)):
         raise NotEnclosed(f"no enclosure was found at the event near t = {float(times):.6g}")
-    slope = field.slope(times, room)
-    identity = type(slope)(len(box), len(box), 1)
-    grown = (sizes(slope) * late.abs_upper()).exp()
+    jacobian = field.jacobian(times, room)
+    identity = type(jacobian)(len(box), len(box), 1)
+    grown = (sizes(jacobian) * late.abs_upper()).exp()
     return room, identity + around_zero(grown - identity)

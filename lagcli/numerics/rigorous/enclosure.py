@@ -255,7 +255,7 @@ class Enclosures:
         slopes = self.field.system.slopes
         found = slopes([trial.begin, 1], at_start, order)
         first, *_, last = slopes([trial.times, 1], anywhere, order + 1)
-        return [*found, last], sizes(self.field.jacobian(first))
+        return [*found, last], sizes(self.field.with_velocities(first))
 
     def _bounded(
         self, slopes: Sequence[Any], grown: Any, h: Any, defect: Sequence[Any], whole: Any

@@ -35,15 +35,15 @@ class VectorField:
         found = self.system.solution([t], [[each] for each in x], 1).found[0]
         return [*x[self.n :], *found.entries()[: self.n]]
 
-    def slope(self, t: Any, x: Sequence[Any]) -> Any:
+    def jacobian(self, t: Any, x: Sequence[Any]) -> Any:
         """J at balls."""
-        return self.jacobian(self.system.slopes([t], [[each] for each in x], 1)[0])
+        return self.with_velocities(self.system.slopes([t], [[each] for each in x], 1)[0])
 
-    def jacobian(self, slope: Any) -> Any:
+    def with_velocities(self, accelerations: Any) -> Any:
         """J with da/dx below what the velocities have."""
         n = self.n
         above = [int(j == i + n) for i in range(n) for j in range(2 * n)]
-        return self._matrix(2 * n, 2 * n, above + slope.entries())
+        return self._matrix(2 * n, 2 * n, above + accelerations.entries())
 
     def coefficients(self, t: Any, x: Sequence[Any], order: int) -> list[list[Any]]:
         """Taylor coefficients 0 .. order of the solution from x: of q, then of v."""

@@ -105,13 +105,13 @@ def _solve(
         return set()
     zero = motion.arithmetic.number(Fraction(0))
     slopes = [partial(motion.equations.graph, s)(row) for row in rows for s in unknown]
-    residual, slope = motion.function(rows), motion.function(slopes)
+    residual, jacobian = motion.function(rows), motion.function(slopes)
 
     def at(function: Any) -> Any:
         return function(zero, *(state.get(s, zero) for s in symbols))
 
     width = len(unknown)
-    values = [float(x) for x in at(slope)]
+    values = [float(x) for x in at(jacobian)]
     matrix = [values[i * width : (i + 1) * width] for i in range(len(rows))]
     # columns of zeros come last
     weights = [1.0 if float(state[s]) else _NO_PIVOT**0.5 for s in unknown]
@@ -129,7 +129,7 @@ def _solve(
     def square(all_slopes: Sequence[Any]) -> Any:
         return arb_mat(n, n, [all_slopes[i * width + j] for i, _ in pivots for _, j in pivots])
 
-    inverse = square(at(slope)).mid().inv().mid()
+    inverse = square(at(jacobian)).mid().inv().mid()
     middle = [state[s].mid() for s in chosen]
     largest = max(1.0, *(abs(float(x)) for x in middle))
     box = [x + arb(0, _AROUND * largest) for x in middle]
@@ -140,7 +140,7 @@ def _solve(
         step = inverse * arb_mat(n, 1, [values[i] for i, _ in pivots])
         state |= dict(zip(chosen, box, strict=True))
         identity = arb_mat(n, n, 1)
-        spread = (identity - inverse * square(at(slope))) * arb_mat(
+        spread = (identity - inverse * square(at(jacobian))) * arb_mat(
             n, 1, [x - m for x, m in zip(box, middle, strict=True)]
         )
         found = [m - step[i, 0] + spread[i, 0] for i, m in enumerate(middle)]

@@ -322,14 +322,14 @@ class ProofMode:
             jumps = system.solution([t], [[each] for each in x], 1).found[0].entries()[:n]
             return [*x[:n], *(v + d for v, d in zip(x[n:], jumps, strict=True))]
 
-        def slope(t: Any, x: Sequence[Any]) -> Any:
+        def jacobian(t: Any, x: Sequence[Any]) -> Any:
             whole, found = self._unmoved(t, x), system.slopes([t], [[each] for each in x], 1)[0]
             for i in range(n):
                 for j in range(2 * n + 1):
                     whole[n + i, j] += found[i, j]
             return whole
 
-        return Restart(state, slope)
+        return Restart(state, jacobian)
 
     @staticmethod
     def _unmoved(_: Any, x: Sequence[Any]) -> Any:
