@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import mpmath
 from mpmath import mpf
 
+from lagcli.pivoting import reduced
 from lagcli.record import record
 
 _RELATIVE = mpf(10) ** -20
@@ -61,30 +62,19 @@ def least_norm_solution(rows: Sequence[Sequence[mpf]], right: Sequence[mpf]) -> 
 def nullspace(rows: Sequence[Row]) -> list[Row]:
     """A basis of the c with rows c = 0."""
     width = len(rows[0])
-    solved = dict(_pivots(rows, mpf(1)))
+    solved = _solved(rows, mpf(1))
     free = [k for k in range(width) if k not in solved]
     return [[-solved[k][j] if k in solved else mpf(k == j) for k in range(width)] for j in free]
 
 
 def rank(rows: Sequence[Row]) -> int:
     """The rank, with what is small beside the largest entry taken for 0."""
-    return len(_pivots(rows, mpf(0)))
+    return len(_solved(rows, mpf(0)))
 
 
-def _pivots(rows: Sequence[Row], least: mpf) -> list[tuple[int, Row]]:
-    """Reduced rows by their columns, by elimination with the largest pivot of all."""
-    left = [list(row) for row in rows if any(row)]
-    scale = max((abs(x) for row in left for x in row), default=mpf(0))
-    pivots: list[tuple[int, Row]] = []
-    while left:
-        size, r, c = max((abs(x), r, c) for r, row in enumerate(left) for c, x in enumerate(row))
-        if size < _RELATIVE * max(scale, least):
-            break
-        pivot = left.pop(r)
-        pivot = [x / pivot[c] for x in pivot]
-        left = [[x - row[c] * y for x, y in zip(row, pivot, strict=True)] for row in left]
-        pivots = [
-            (k, [x - row[c] * y for x, y in zip(row, pivot, strict=True)]) for k, row in pivots
-        ]
-        pivots.append((c, pivot))
-    return pivots
+def _solved(rows: Sequence[Row], least: mpf) -> dict[int, Row]:
+    """Reduced rows by the column of their pivot."""
+    work = [list(row) for row in rows]
+    scale = max((abs(x) for row in work for x in row), default=mpf(0))
+    width = len(rows[0]) if rows else 0
+    return {c: work[r] for r, c in reduced(work, width, _RELATIVE * max(scale, least))}

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from lagcli.numerics.equations.null_space import reduced
 from lagcli.numerics.equations.straight_line import PIVOT_TOLERANCE
+from lagcli.pivoting import reduced
 
 
 def determined(rows: Sequence[Sequence[float]], right: Sequence[float]) -> dict[int, float]:

@@ -22,6 +22,7 @@ from operator import mul
 from typing import Any
 
 from lagcli.numerics.equations.straight_line import PIVOT_TOLERANCE
+from lagcli.pivoting import reduced
 from lagcli.record import record
 
 Vector = list[float]
@@ -126,34 +127,6 @@ def pivots_of(masses: Sequence[float], rows: Matrix) -> Vector:
                 for row, part in zip(left, parts, strict=True)
             ]
     return found
-
-
-def reduced(
-    work: list[Vector], n: int, least: float, weights: Sequence[float] | None = None
-) -> list[tuple[int, int]]:
-    """Gauss-Jordan with full pivoting, in place; (row, column) of each pivot above the least.
-
-    The pivots are compared by weights of their columns, if there are any.
-    """
-    weights = weights or [1.0] * n
-    pivots: list[tuple[int, int]] = []
-    rows = set(range(len(work)))
-    columns = set(range(n))
-    while rows and columns:
-        _, i, j = max((abs(work[i][j]) * weights[j], -i, -j) for i in rows for j in columns)
-        i, j = -i, -j
-        if not abs(work[i][j]) > least:
-            break
-        pivots.append((i, j))
-        rows.discard(i)
-        columns.discard(j)
-        top = [x / work[i][j] for x in work[i]]
-        work[i] = top
-        for k, row in enumerate(work):
-            if k != i and row[j]:
-                factor = row[j]
-                work[k] = [x - factor * y for x, y in zip(row, top, strict=True)]
-    return pivots
 
 
 def _determined(

@@ -23,10 +23,10 @@ from lagcli.graph.nodes import Node, Symbol
 from lagcli.graph.substitution import Substitution
 from lagcli.numerics.certified.ready_setup import ReadySetup
 from lagcli.numerics.equations.motion import Motion
-from lagcli.numerics.equations.null_space import reduced
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import given_values
 from lagcli.numerics.hybrid.request import RunRequest
+from lagcli.pivoting import reduced
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 
