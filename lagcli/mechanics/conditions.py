@@ -18,6 +18,7 @@ from lagcli.mechanics.inequalities import shorter_sums
 from lagcli.statements.motions import Above
 
 _MOST_KNOWN = 6
+_LONG = 100  # operations
 
 
 def conditions(
@@ -55,6 +56,8 @@ def _with_numerators(positive: Sequence[Expr]) -> list[Expr]:
 
 def _times_known(expression: Expr, positive: Sequence[Expr]) -> Expr:
     """The same sign, shorter: where k (k - a) > 0 and k (k + a) > 0, k² - a² > 0 always."""
+    if not positive or expression.count_ops() > _LONG:
+        return expression
     known = list(dict.fromkeys(map(deciding, positive)))[:_MOST_KNOWN]
     nonzero = [*positive, *(f**2 for p in known for f, _ in factors_of(p))]
     products = (sympy.Mul(*some) for n in range(3) for some in combinations(known, n))
@@ -121,7 +124,7 @@ def _without_squares(expression: Expr) -> list[Expr]:
 def _in_pairs(expressions: Sequence[Expr]) -> list[Expr]:
     """k (k - a) > 0 and k (k + a) > 0 are k² > a²: k times the sum of both is never negative."""
     left = list(expressions)
-    for pair in combinations(expressions, 2):
+    for pair in combinations([e for e in expressions if e.count_ops() <= _LONG], 2):
         first, second = ({f: n for f, n in factors_of(deciding(e)) if n == 1} for e in pair)
         for shared in (f for f in first if f.is_Symbol and f in second):
             others = [simplify(deciding(e) / shared) for e in pair]

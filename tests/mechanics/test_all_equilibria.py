@@ -385,3 +385,26 @@ def test_two_pendulums_on_a_spring_rest_upright_too(seed):
     places = {tuple(map(str, p.values.values())) for p in rest.points or ()}
     assert places == {("0", "0"), ("pi", "pi")}
     assert not rest.complete
+
+
+@pytest.mark.parametrize(
+    ("V", "count", "complete"),
+    [("m*r*sin(u) + k*u^2/2", 2, False), ("m*cos(u) + k*u^4 + r^2", 1, False)],
+)
+def test_an_angle_in_a_spring_may_rest_after_further_turns(V, count, complete):
+    """A beam that a torsion spring holds: sin(u) = 0 at each half turn, with another r."""
+    d = derive(f"coordinates: [r, u]\nparameters: [m, k]\nL: r'^2/2 + (1 + r^2)*u'^2/2 - ({V})")
+    rest = RestPoints(d.dynamics)
+    assert len(rest.points or ()) >= count
+    assert rest.complete is complete
+
+
+def test_an_angle_that_a_force_of_its_own_gives_is_listed_once():
+    """A cart with the feedback p theta below an upright rod."""
+    d = derive(
+        "coordinates: [x, theta]\nparameters: {p: {assume: positive}}\n"
+        "L: x'^2 + theta'^2/2 + x'*theta'*cos(theta) - cos(theta)\nforces: {x: p*theta}"
+    )
+    rest = RestPoints(d.dynamics)
+    assert [str(p.values) for p in rest.points or ()] == ["{theta: 0}"]
+    assert rest.complete

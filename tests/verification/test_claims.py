@@ -529,3 +529,14 @@ def test_a_sine_that_is_never_below_minus_one_hides_no_other(a: int) -> None:
     found = {round(sin(evaluated(e.at["x"], at, FUNCTIONS)), 9) for e in section.equilibria}
     assert found == {round(sine, 9)}
     assert [e.verdict.stable for e in section.equilibria] == [False, True]
+
+
+@pytest.mark.parametrize("wave", ["-m*g*l*cos(phi)", "m*g*l*sin(phi)", "-m*g*l*cos(phi)^2"])
+def test_a_period_is_kept_where_letters_may_have_any_sign(wave: str) -> None:
+    """With negative masses the motion is about a maximum; the period is that of minima."""
+    text = f"coordinates: [phi]\nparameters: [m, g, l]\nT: m*l^2*phi'^2/2\nV: {wave}\n"
+    problem = read_problem("signs", text.encode()).checked()
+    answers = statements(derive(problem)).answers(("reduction",))
+    found = verified(problem, answers).sections["reduction"]
+    assert found.one_freedom is not None
+    assert len(found.one_freedom.periods) == len(answers.sections["reduction"].one_freedom.periods)

@@ -100,8 +100,11 @@ class RestPoints(RestConditions):
         )
         self.complete &= not (lost or kinks or (found and self.goes_beyond_one_turn))
         if not self.complete:
-            known = {tuple(p.values.get(q, q) for q in self.system.q) for p in found}
-            found += [p for p in self._evident() if tuple(p.values.values()) not in known]
+            known = [{**dict.fromkeys(p.free), **p.values} for p in found]
+            evident = (
+                p for p in self._evident() if {**dict.fromkeys(p.free), **p.values} not in known
+            )
+            found += evident
             if not found:
                 self.reason = _AT_A_KINK if kinks else NO_CLOSED_SOLUTION
                 self.reason = _AT_AN_OPEN_POWER if self.at_open_powers else self.reason

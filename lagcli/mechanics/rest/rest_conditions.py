@@ -292,8 +292,13 @@ class RestConditions:
         """Whether an angle of the conditions counts its turns in the inertia: M = 1 + q²."""
         entries = [x for x in (*chain(*self.mass_matrix), *self.forcing) if x != 0]
         outside = [e.xreplace(dict.fromkeys(e.atoms(*CIRCULAR), sympy.Dummy())) for e in entries]
-        return any(self.is_angle(q) and not all(free_of(e, [q]) for e in outside)
-                   for q in self.system.q)  # fmt: skip
+        angles = (q for q in self.system.q if self.is_angle(q) and not self._is_fixed(q))
+        return any(not all(free_of(e, [q]) for e in outside) for q in angles)
+
+    def _is_fixed(self, q: Symbol) -> bool:
+        """Whether a condition of its own, without sines, gives the coordinate."""
+        own = (e for e in self.equations if e.free_symbols & {*self.system.q} == {q})
+        return any(not any(f.has(q) for f in e.atoms(*CIRCULAR)) for e in own)
 
     def loses_rank(self, values: Mapping[Symbol, Expr]) -> bool:
         """Whether the gradients of the constraints are independent, but not there."""

@@ -78,6 +78,8 @@ class Well:
             q0 = self._root(known, root[0]) if root else at(places[-1])
             if q0 is None or not q0.is_finite() or (root and not self._is_minimum(known, q0)):
                 continue
+            if self._value(known, self.M, q0) < 0:  # with which the motion is about a maximum
+                continue
             tried += 1
             if not self._is_minimum(known, q0):
                 x.refute(what, "there is no minimum of the effective potential")
