@@ -192,7 +192,7 @@ class _SteadyStatement:
             velocity=self._matrix(matrices[1]) if matrices else (),
             stiffness=self._matrix(matrices[2]) if matrices else (),
             on=relation_sides(point, system.q, self.order),
-            may_be_complex=judged.stable is not True
+            may_be_complex=judged.stable is False
             and any(x != 0 for row in (matrices[1] if matrices else ()) for x in row)
             and any(_may_be_complex(square, motion.known_positive) for square in squares),
         )
