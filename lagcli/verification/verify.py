@@ -105,10 +105,11 @@ def verified(problem: Problem, answers: Answers) -> Answers:
 
             every = not listed.sought or symmetries_are_listed(examination, listed)
             if isinstance(counted := sections.get("algebra"), AlgebraSection):
-                from lagcli.verification.claims import algebra
+                from lagcli.verification.claims import algebra, algebra_on_surface
 
+                counts = algebra_on_surface if examination.reference.rows else algebra
                 sections["algebra"] = every and _tried(
-                    examination, "algebra", counted, lambda x, s: algebra.algebra(x, s, listed)
+                    examination, "algebra", counted, lambda x, s: counts.algebra(x, s, listed)
                 )
     warnings = examination.warnings()
     if not warnings:

@@ -105,13 +105,11 @@ class Action:
         if section.separable:
             return x.decide("that the equation separates", lambda s: self._tests(s, pairs))
         obstacle = tuple(self.names.index(n) for n in section.obstacle if n in self.names)
-        if obstacle not in pairs:
-            return True
         claim = "that the equation does not separate"
 
         def gap(s: State) -> arb:
-            [[left], [right]] = self._tests(s, [(obstacle[0], obstacle[1])])
-            return left - right
+            tests = self._tests(s, [obstacle] if obstacle in pairs else pairs)
+            return sum(((a - b) ** 2 for a, b in zip(*tests, strict=True)), arb(0))
 
         return x.constant(claim, claim=False, value=gap)
 

@@ -8,7 +8,7 @@ Killing form tr(ad_a ad_b), which a basis does not change.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from itertools import islice
 
 from flint import arb, arb_mat
@@ -17,6 +17,7 @@ from lagcli.record import replace
 from lagcli.statements.answers import AlgebraSection, ChargesSection
 from lagcli.verification.claims.canonical_samples import CanonicalSample, around_states, samples
 from lagcli.verification.claims.near import eigenvalues
+from lagcli.verification.claims.special_values import holds
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, dot, rank, size
 
@@ -39,18 +40,25 @@ def algebra(
     x: Examination, section: AlgebraSection, listed: ChargesSection
 ) -> AlgebraSection | None:
     """Every number and the name; None where a number is wrong."""
-    known = [c.charge for c in listed.charges if c.charge is not None]
-    places = x.places("the algebra", known)
-    if places is None or not 0 < len(known) <= _MOST or x.reference.rows or x.reference.large:
+    places, points = conserved(x, listed)
+    if not places:
         return section
-    points = sum(
-        not any(map(x.has_velocities, charge.transformation.values())) for charge in listed.charges
-    )
-    found = samples(x, places, 2 * len(known) + 6)
-    if len(found) < 2 * len(known) + 6:
+    found = samples(x, places, 2 * len(places) + 6)
+    if len(found) < 2 * len(places) + 6:
         x.unchecked.append("the algebra of the conserved quantities")
         return section
     return Counted(x, section, found, places, points).examined()
+
+
+def conserved(x: Examination, listed: ChargesSection) -> tuple[list[int], int]:
+    """The steps of the charges, none where they are too many, and how many are of points."""
+    constant = [c for c in listed.charges if c.conserved]  # a momentum equation counts as none
+    known = [c.charge for c in constant if c.charge is not None]
+    places = x.places("the algebra", known)
+    if places is None or len(known) > _MOST or x.reference.large:
+        return [], 0
+    points = sum(not any(map(x.has_velocities, c.transformation.values())) for c in constant)
+    return places, points
 
 
 class Counted:
@@ -73,6 +81,9 @@ class Counted:
         if section.dimension not in {self.count, self.points}:
             x.refute("the dimension of the algebra", f"{self.count} charges are listed")
             return None
+        if section.number != self.count:
+            x.refute("the number of charges of the algebra", f"{self.count} are listed")
+            return None
         if self._rank_of_values() < self.count:
             x.refute("the dimension of the algebra", "the listed charges depend on each other")
             return None
@@ -88,24 +99,27 @@ class Counted:
         if section.in_involution is not None and not self._in_involution(section.in_involution):
             x.refute("the number of charges in involution", "their brackets say otherwise")
             section = replace(section, in_involution=None, integrable=None)
-        return section
+        special = tuple(s for s in section.special if holds(x, s, self.places))
+        return replace(section, special=special)
 
     # -- counts ---------------------------------------------------------------------------------
+
+    @property
+    def freedom(self) -> int:
+        """The number of degrees of freedom."""
+        return len(self.x.reference.names)
 
     def _rank_of_values(self) -> int:
         """Of the charges and 1, without the 1."""
         rows = [[*s.values, arb(1)] for s in self.samples]
         return _rank(rows, self.count + 1) - 1
 
-    def _rank_of_slopes(self, which: Sequence[int]) -> int:
-        return max(
-            _rank([[*s.slopes[i][0], *s.slopes[i][1]] for i in which], 2 * len(s.slopes[0][0]))
-            for s in self.samples[:3]
-        )
+    def _rank_of_slopes(self, which: Iterable[int]) -> int:
+        return max(rank_of(s, which) for s in self.samples[:3])
 
     def _in_involution(self, claimed: int) -> bool:
         """Whether at most `claimed` charges are in involution, n of them where integrable."""
-        n = len(self.x.reference.names)
+        n = self.freedom
         if claimed > n or (self.section.integrable and not self.section.separates and claimed < n):
             return False
         t = self.x.reference.time
@@ -188,6 +202,12 @@ def _trace(one: Sequence[Sequence[arb]], other: Sequence[Sequence[arb]]) -> arb:
     """tr(ad_a ad_b)."""
     rows, columns = one, list(zip(*other, strict=True))
     return sum((dot(row, column) for row, column in zip(rows, columns, strict=True)), arb(0))
+
+
+def rank_of(sample: CanonicalSample, which: Iterable[int]) -> int:
+    """The number of independent gradients of these functions."""
+    slopes = [[*sample.slopes[i][0], *sample.slopes[i][1]] for i in which]
+    return _rank(slopes, 2 * len(sample.slopes[0][0]))
 
 
 def _rank(rows: Sequence[Sequence[arb]], columns: int) -> int:

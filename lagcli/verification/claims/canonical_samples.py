@@ -80,7 +80,7 @@ def around_states(
 
 def _around(first: State, functions: Sequence[int], count: int) -> list[CanonicalSample]:
     found: list[CanonicalSample] = []
-    for state in _nearby(first, count * _ATTEMPTS):
+    for state in nearby(first, count * _ATTEMPTS):
         try:
             sample = CanonicalSample(state, functions)
         except Unclear:
@@ -92,7 +92,7 @@ def _around(first: State, functions: Sequence[int], count: int) -> list[Canonica
     return found
 
 
-def _nearby(first: State, count: int) -> Iterator[State]:
+def nearby(first: State, count: int) -> Iterator[State]:
     """States with the parameters of the first and other t, q and q'."""
     random, reference = Random(23), first.reference
     for _ in range(count):

@@ -18,7 +18,7 @@ from lagcli.statements.answers import Charge, ChargesSection
 from lagcli.verification.claims.boundary import boundary_term
 from lagcli.verification.claims.rest import conditions
 from lagcli.verification.comparison import is_zero
-from lagcli.verification.examination import Examination
+from lagcli.verification.examination import BRANCHED, Examination
 from lagcli.verification.linear import Unclear, dot, rank
 from lagcli.verification.states import State
 from lagcli.verification.sweeps import column
@@ -115,12 +115,11 @@ def _is_real_where(x: Examination, charge: Charge, place: int) -> bool:
     """Whether the printed conditions hold wherever it is real; ln t has a domain of its own."""
     what = f"where the charge '{charge.name}' is real"
     above = conditions(x, what, charge.where)
-
-    def real(s: State) -> tuple[list[arb], list[arb]]:
-        holds = all(s.at(condition) > 0 for condition in above)
-        return [arb(int(holds))], [arb(int(holds or s.at(place).is_finite()))]
-
-    return not above or x.decide(what, real)
+    for s in x.states(BRANCHED) if above else ():
+        if s.at(place).is_finite() and not all(s.at(condition) > 0 for condition in above):
+            x.refute(what, "it is real elsewhere, too")
+            return False
+    return True
 
 
 def _is_as_named(x: Examination, charge: Charge, place: int) -> bool:

@@ -7,7 +7,7 @@ from math import isqrt
 
 from flint import arb, arb_mat, ctx
 
-from lagcli.expression import Expression
+from lagcli.expression import Expression, Negative
 from lagcli.record import replace
 from lagcli.statements.answers import EquilibriaSection, Equilibrium
 from lagcli.statements.motions import SteadyMotion, SteadySection, Verdict
@@ -100,6 +100,8 @@ def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
                     return replace(section, motions=None, reason=not_confirmed("a steady motion"))
                 found.append(each)
                 continue
+            if each.mirrored and not _mirrored(x, what, each):
+                return replace(section, motions=None, reason=not_confirmed("a steady motion"))
             place = RestPlace(x, what, each.at, each.rates, each.on, each.where, section.eliminated)
             zeros = len(each.rates) * (1 if each.rolling else 2)
             verdict = _stays(x, what, place, each.verdict, zeros=zeros)
@@ -114,6 +116,14 @@ def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
         x.refute("that there is no other steady motion", f"there is one with {other}")
         section = replace(section, complete=False)
     return replace(section, motions=tuple(found))
+
+
+def _mirrored(x: Examination, what: str, motion: SteadyMotion) -> bool:
+    """Whether it stays with opposite rates, too."""
+    rates = {name: Negative(rate) for name, rate in (motion.rates or {}).items()}
+    what = f"{what} with opposite rates"
+    place = RestPlace(x, what, motion.at, rates, motion.on, motion.where)
+    return _stays(x, what, place, Verdict(stable=None), zeros=2 * len(rates)) is not None
 
 
 def _another_motion(x: Examination, section: SteadySection, found: list[SteadyMotion]) -> str:
@@ -152,7 +162,11 @@ def _stays(
         if not _is_at_rest(near, place, zeros):
             x.refute(what, "the equations of motion do not let it stay there")
             return None
-        why = "" if place.eliminated else refutes(x, what, near, verdict, zeros)
+        why = (
+            ""
+            if place.eliminated
+            else refutes(x, what, near, verdict, zeros, place.dimension(near))
+        )
         if why:
             x.refute(f"the stability of {what}", why)
             return Verdict(stable=None, reason=_WHY)
@@ -195,7 +209,7 @@ def _refuted_beside_bounds(
     bounds = conditions(x, what, [each for group in given for each in group])
     always = () in (verdict.hurwitz, verdict.spectrum)
     found = (
-        refutes(x, what, near, verdict, zeros)
+        refutes(x, what, near, verdict, zeros, place.dimension(near))
         for near in (place.spread() if always else place.beside(bounds))
         if near.defined and (zeros or near.residual < NOTHING)
     )

@@ -104,6 +104,9 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
         if not all(occur(near, [w] * mode.multiplicity) for w in W):
             x.refute(what, "a frequency is not one of the linear motion near it")
             return False
+        if any(near.at(p) < 0 for p in frequency):
+            x.refute(what, "a frequency is negative")
+            return False
         if mode.shape is None and near.still:
             x.unchecked.append(f"the shapes of {what[4:]}, of which not all are given")
         values = [near.at(p) for p in flat]

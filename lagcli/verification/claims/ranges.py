@@ -3,13 +3,14 @@
 Beside each printed bound the motion is integrated from the initial state, by the rule of Runge
 and Kutta of fourth order.  A condition that fails within a range, or a place that is reached
 outside of it, refutes the answer; so does, for one degree of freedom and no time in L, what does
-not come to pass until a coordinate has turned twice.  That an equation holds nowhere on the way is
-refuted by a motion on which its sides pass each other.
+not come to pass until a coordinate has turned back twice, or has gone round twice.  That an
+equation holds nowhere on the way is refuted by a motion on which its sides pass each other.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import pi
 
 from flint import arb
 
@@ -158,6 +159,7 @@ class PassingMotion:
         """
         lasting, turns = isinstance(self.question, Lasting), [0] * len(self.names)
         before: list[float] = []
+        begun = dict(self.environment)
         for number in range(_STEPS):
             state = State(self.x.reference, dict(self.environment))
             rates = self._rates(state)
@@ -173,11 +175,23 @@ class PassingMotion:
             speeds = [float(self.environment[n, 1].mid()) for n in self.names]
             for k, (a, b) in enumerate(zip(before[1:], speeds, strict=False)):
                 turns[k] += a * b < 0 and min(abs(a), abs(b)) > _MOVES
-            if self.periodic and max(turns) > 1:
+            if self.periodic and (max(turns) > 1 or (lasting and self._gone_round(begun, rates))):
                 return lasting
             before = [values[0], *speeds]
             self._advance(rates)
         return None
+
+    def _gone_round(self, begun: Environment, rates: Sequence[arb]) -> bool:
+        """Whether an angle has grown or fallen by two turns; only of one is the motion the same."""
+        for name in self.names:
+            gap = self.environment[name, 0] - begun[name, 0]
+            if size(gap) > 4 * pi:
+                back = {(name, 0): self.environment[name, 0] - 2 * gap.sgn() * arb.pi()}
+                there = State(self.x.reference, {**self.environment, **back})
+                return all(
+                    size(a - b) < _MOVES for a, b in zip(self._rates(there), rates, strict=True)
+                )
+        return False
 
     def _rates(self, state: State) -> list[arb]:
         """q' and q''."""

@@ -68,7 +68,12 @@ def _routhian(x: Examination, s: State, section: ReductionSection) -> arb:
 
 
 def _equations(x: Examination, section: ReductionSection) -> bool:
-    """Each holds on the motion."""
+    """Each holds on the motion, one for each coordinate that is left."""
+    gone = section.momenta.keys() | set(section.eliminated)
+    left = set(x.reference.names) - gone - {each.coordinate for each in section.equations}
+    if left:
+        x.refute("the reduced equations", f"none is that of {', '.join(sorted(left))}")
+        return False
     if not x.regular:
         return True
     sides = [side for each in section.equations for side in (each.left, each.right)]
@@ -127,7 +132,7 @@ def _one_freedom(x: Examination, one: OneFreedom, R: Expression) -> bool:
         return x.reference.values(known)
 
     def paces(s: State) -> tuple[list[arb], list[arb]]:
-        return [(with_energy(s)(rate) * s.at(velocity)) ** 2], [arb(1)]
+        return [with_energy(s)(rate) * abs(s.at(velocity))], [arb(1)]
 
     def turns(s: State) -> tuple[list[arb], list[arb]] | None:
         known = {**s.environment, **s.following, (one.constant, 0): s.at(h)}

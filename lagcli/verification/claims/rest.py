@@ -15,7 +15,7 @@ from lagcli.record import replace
 from lagcli.statements.motions import Above
 from lagcli.verification.claims.near import NOTHING, LinearMotion
 from lagcli.verification.examination import PRECISIONS, Examination
-from lagcli.verification.linear import size
+from lagcli.verification.linear import rank, size
 from lagcli.verification.newton import settled
 from lagcli.verification.phase_points import Environment
 from lagcli.verification.program import Key
@@ -152,6 +152,21 @@ class RestPlace:
         sure = not allowed or all(at(place) > 0 for place in self.where)
         signs = all(_has_sign(c.assume, environment[c.name, 0]) for c in self.x.problem.coordinates)
         return LinearMotion(self.x, environment) if sure and signs else None
+
+    def dimension(self, near: LinearMotion) -> int:
+        """Of the family of such places at one of them."""
+        reference = self.x.reference
+        program = reference.program
+        symbols = [program.symbol(name) for name in reference.names]
+        ties = self.on + [row.value for row in reference.rows if row.holonomic]
+        for symbol, name in zip(symbols, reference.names, strict=True):
+            if (name, 0) in self.values:
+                ties.append(program.sum(symbol, program.negative(self.values[name, 0])))
+        at = reference.values(near.environment)
+        slopes = map(at.gradient, ties)
+        return len(symbols) - rank(
+            [[by.get(s, arb(0)) for s in symbols] for by in slopes], len(symbols)
+        )
 
     @property
     def _momenta(self) -> Environment:

@@ -51,8 +51,13 @@ class Judged:
         return apart and all(abs(z) > 1e-7 * self.scale for z in self.values)
 
 
-def refutes(x: Examination, what: str, near: LinearMotion, verdict: Verdict, zeros: int) -> str:
-    """Why a verdict cannot be right at this state; empty where it can."""
+def refutes(
+    x: Examination, what: str, near: LinearMotion, verdict: Verdict, zeros: int, family: int = 0
+) -> str:
+    """Why a verdict cannot be right at this state; empty where it can.
+
+    It belongs to a family of states of rest of the dimension `family`, along which V is constant.
+    """
     if not near.regular:
         return _at_a_pole(near, verdict)
     judged = Judged(near, zeros)
@@ -64,17 +69,22 @@ def refutes(x: Examination, what: str, near: LinearMotion, verdict: Verdict, zer
     conservative = (
         not (x.reference.pushed or zeros) and size(damping) < NOTHING
     )  # masses may grow with t
-    definite = all(_positive(value) for value in eigenvalues(near.laws.mass_matrix))
     free = not any(not row.holonomic for row in x.reference.rows)
-    bowl = conservative and definite and free and all(k > 1e-8 for k in near.stiffness)
+    if verdict.asymptotic and free and not x.reference.pushed and size(damping) < NOTHING:
+        return "nothing takes energy from a disturbance"
+    definite = all(_positive(value) for value in eigenvalues(near.laws.mass_matrix))
+    rising, falling = (sum(s * k > 1e-8 for k in near.stiffness) for s in (1, -1))
+    across = len(near.stiffness) - family
+    bowl = conservative and definite and free and rising == across and not falling
     restored = bowl or judged.oscillating or (conservative and definite and returns)
     if verdict.stable is False and restored and not leaves:
         return "no disturbance grows"
     minimum = _all_hold(x, what, near, verdict.minimum)
-    saddle = conservative and definite and free and any(k < -1e-8 for k in near.stiffness)
+    saddle = conservative and definite and free and falling
     if minimum and (judged.growing or saddle):
         return "the potential has no minimum where it is said to have one"
-    if minimum is False and bowl:
+    alone = len(judged.values) == 2 and judged.oscillating and not x.reference.pushed
+    if minimum is False and (bowl or alone):
         return "the potential has a minimum where it is said to have none"
     hurwitz = _all_hold(x, what, near, verdict.hurwitz)
     if hurwitz and judged.growing:

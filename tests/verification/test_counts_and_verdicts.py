@@ -1,0 +1,153 @@
+"""What stands beside formulas, made wrong: signs, verdicts, lists that lack one, numbers."""
+
+from __future__ import annotations
+
+import pytest
+
+from lagcli.expression import Negative
+from lagcli.pipeline import Request, derive, state
+from lagcli.reader import parse_text, read_problem
+from lagcli.record import replace
+from lagcli.statements.answers import AlgebraSection, Charge, ChargesSection, SpecialValue
+from lagcli.statements.motions import Above
+from lagcli.verification import verified
+
+PARAMETERS = "parameters: {m: {assume: positive}, k: {assume: positive}, c: {assume: positive}}\n"
+PLANE = f"coordinates: [x, y]\n{PARAMETERS}T: m*(x'^2 + y'^2)/2\n"
+POLAR = f"coordinates: {{r: {{assume: positive}}, phi: }}\n{PARAMETERS}"
+
+
+def sheet(text, section):
+    """A problem, and its answers with one section."""
+    problem = read_problem("test.yaml", text.encode()).checked()
+    answers = state(derive(problem), Request(sections=(section,)))
+    return problem, answers, answers.sections[section]
+
+
+def printed(problem, answers, **sections):
+    return verified(problem, replace(answers, sections=sections))
+
+
+def above(left, right):
+    return (Above(parse_text(left), parse_text(right)),)
+
+
+@pytest.mark.parametrize(
+    ("verdict", "kept"),
+    [
+        ({}, True),
+        ({"asymptotic": True}, False),
+        ({"stable": None, "minimum": above("m", "c"), "unstable": above("c", "m")}, False),
+        ({"stable": False}, False),
+    ],
+)
+def test_the_verdict_on_a_family_is_examined(verdict, kept):
+    problem, answers, section = sheet(f"{PLANE}V: k*(x - y)^2/2\n", "equilibria")
+    [only] = section.equilibria
+    changed = replace(only, verdict=replace(only.verdict, **verdict))
+    wrong = replace(section, equilibria=(changed,))
+    found = printed(problem, answers, equilibria=wrong)
+    assert found.complete is kept
+    assert (found.sections["equilibria"].equilibria[0].verdict == changed.verdict) is kept
+
+
+def test_a_frequency_is_not_negative():
+    problem, answers, section = sheet(f"{PLANE}V: k*x^2/2 + c*y^2/2\n", "modes")
+    first, *rest = section.modes
+    wrong = replace(first, frequency=Negative(first.frequency))
+    assert printed(problem, answers, modes=section).complete
+    found = printed(problem, answers, modes=replace(section, modes=(wrong, *rest)))
+    assert found.sections["modes"].modes is None
+
+
+@pytest.mark.parametrize("field", ["", " + c*r^2*phi'"])
+def test_a_magnetic_field_tells_a_turn_from_its_mirror_image(field):
+    text = f"{POLAR}L: m*(r'^2 + r^2*phi'^2)/2 - k*r^2/2{field}\n"
+    problem, answers, section = sheet(text, "steady_motions")
+    both = tuple(replace(each, mirrored=each.rates is not None) for each in section.motions)
+    found = printed(problem, answers, steady_motions=replace(section, motions=both))
+    assert found.complete is not bool(field)
+
+
+@pytest.mark.parametrize("name", ["equation", "rate"])
+def test_what_is_left_of_a_reduced_system_is_examined(name):
+    text = f"{POLAR}T: m*(r'^2 + r^2*phi'^2)/2\nV: k*r^2/2\n"
+    problem, answers, section = sheet(text, "reduction")
+    one = section.one_freedom
+    if name == "equation":
+        wrong = replace(section, equations=())
+    else:
+        wrong = replace(section, one_freedom=replace(one, rate=Negative(one.rate)))
+    assert printed(problem, answers, reduction=section).complete
+    assert not printed(problem, answers, reduction=wrong).complete
+
+
+def listed(**charges):
+    """A section with these charges."""
+    return ChargesSection(
+        charges=tuple(
+            Charge(
+                name=name,
+                source="discovered",
+                transformation={},
+                gauge=None,
+                conserved=True,
+                charge=parse_text(charge),
+                rate=None,
+            )
+            for name, charge in charges.items()
+        ),
+        sought=False,
+    )
+
+
+@pytest.mark.parametrize(
+    ("value", "number", "charge", "kept"),
+    [
+        ("k", 3, "x*y' - y*x'", True),
+        ("4*k", 3, "x*y' - y*x'", False),
+        ("-k", 3, "x*y' - y*x'", False),
+        ("k", 4, "x*y' - y*x'", False),
+        ("k", 3, "x*y' + y*x'", False),
+        ("k", 3, "m*x'^2 + k*x^2", False),
+    ],
+)
+def test_a_special_value_is_examined(value, number, charge, kept):
+    problem, answers, _ = sheet(f"{PLANE}V: k*x^2/2 + c*y^2/2\n", "energy")
+    known = listed(a="m*x'^2/2 + k*x^2/2", b="m*y'^2/2 + c*y^2/2")
+    special = SpecialValue(
+        parameter="c", value=parse_text(value), number=number, charges={"n": parse_text(charge)}
+    )
+    section = AlgebraSection(
+        ansatz="", dimension=2, name="R^2", independent=2, in_involution=2, integrable=True,
+        number=2, special=(special,),
+    )  # fmt: skip
+    found = printed(problem, answers, discovered=known, algebra=section)
+    assert found.complete is kept
+    assert bool(found.sections["algebra"].special) is kept
+
+
+@pytest.mark.parametrize(
+    ("numbers", "kept"),
+    [
+        ((3, 3, 2), True),
+        ((3, 2, 2), False),
+        ((4, 3, 2), False),
+        ((3, 3, 1), False),
+        ((3, 3, 3), False),
+    ],
+)
+def test_charges_on_a_sphere_are_counted(numbers, kept):
+    """L_x, L_z and the energy: {L_x, L_z} is not 0, each commutes with the energy."""
+    dimension, independent, in_involution = numbers
+    text = (
+        f"coordinates: [x, y, z]\n{PARAMETERS}T: m*(x'^2 + y'^2 + z'^2)/2\n"
+        "constraints: {sphere: x^2 + y^2 + z^2 = c^2}\n"
+    )
+    problem, answers, _ = sheet(text, "energy")
+    known = listed(L_x="y*z' - z*y'", L_z="x*y' - y*x'", h="x'^2 + y'^2 + z'^2")
+    section = AlgebraSection(
+        ansatz="", dimension=dimension, name=None, independent=independent,
+        in_involution=in_involution, integrable=None, number=dimension,
+    )  # fmt: skip
+    assert printed(problem, answers, discovered=known, algebra=section).complete is kept
