@@ -153,7 +153,7 @@ def run_mistake(name: str, value: float) -> str:
     )
     if 0 < value < below:
         return ""
-    if name == "accuracy" and value >= 1 and value == int(value) < 300:
+    if name == "accuracy" and 3 <= value < 300 and value == int(value):
         return f"{sentence}, not {value:g}: write 1e-{value:g} for {value:g} digits"
     return sentence + (f", not {value:g}" if math.isfinite(value) else ", and a double")
 

@@ -321,3 +321,29 @@ def test_a_cusp_is_passed_in_any_precision(seed):
     )
     assert result.certificate.reached
     assert result.rows[-1][1:] == pytest.approx((1, 0), abs=1e-14)
+
+
+@pytest.mark.parametrize("accuracy", [1e-4, 1e-7, 1e-10, 1e-12])
+def test_a_rounded_constant_that_opens_a_narrow_window(accuracy):
+    """cos(t - 1) > 1 - 1e-12 for 2 acos(1 - 1e-12) around 1, 1 + 2 pi and 1 + 4 pi."""
+    file = given_to('forces: {x: "1e5*(1 + sign(cos(t - 1) - 1 + 1e-12))"}')
+    result = simulated(file, 14, accuracy)
+    with mpmath.workdps(30):
+        gained = 4e5 * mpmath.acos(1 - mpmath.mpf("1e-12"))
+        assert held(result, "x'", 3 * gained)
+        assert held(result, "x", gained * sum(13 - 2 * mpmath.pi * k for k in range(3)))
+    assert result.certificate.reached
+
+
+@pytest.mark.parametrize("accuracy", [1e-4, 1e-7, 1e-10, 1e-12])
+def test_a_rounded_constant_in_a_small_divisor(accuracy):
+    """x'' = a/(b + cos t), b = 1 + 1e-8: a period gives 2 pi a/sqrt(b^2 - 1)."""
+    until = 4 * math.pi
+    result = simulated(given_to('forces: {x: "1e-4/(1.00000001 + cos(t))"}'), until, accuracy)
+    with mpmath.workdps(30):
+        a, b = mpmath.mpf("1e-4"), mpmath.mpf("1.00000001")
+        late = until - 4 * mpmath.pi
+        speed = 4 * mpmath.pi * a / mpmath.sqrt(b * b - 1)
+        assert held(result, "x'", speed + late * a / (b + 1))
+        assert held(result, "x", (2 * mpmath.pi + late) * speed)
+    assert result.certificate.reached

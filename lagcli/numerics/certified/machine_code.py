@@ -265,10 +265,22 @@ def _prepared(
         beside = "it reads no signs" if motion.kinks else double_machine(own)
         return Machine(motion, numbers, None if isinstance(beside, str) else beside)
 
-    if numbers is EXTENDED:
-        runs = Runs(simulation, modes, with_doubles(motion), with_doubles, in_python)
-    else:
-        runs = Runs(simulation, modes, Machine(motion, numbers), None)
+    def runs_of(modes: Modes) -> Runs:
+        motion = modes.first.motion
+        if numbers is EXTENDED:
+            return Runs(simulation, modes, with_doubles(motion), with_doubles, in_python)
+        return Runs(simulation, modes, Machine(motion, numbers), None)
+
+    def other_runs() -> Runs:
+        beside = twin.BesideBalls(round(-math.log2(numbers.rounding)))
+        try:
+            others = constants_of(equations, simulation.all_nodes, beside)
+            made = Modes(simulation, others, beside, doubles.make_method, modes.rounding)
+            made.first.conserved = doubles.first.conserved
+            return runs_of(made)
+        except (Refusal, NotCompiled, OverflowError) as reason:
+            raise NotPossible(str(reason)) from None
+
     q, v = simulation.start
     exact_q, exact_v = refined_state(motion, modes.first.surface(), q, v, anew=not request.project)
     inexact = rounded_components(motion, q, v)
@@ -278,26 +290,32 @@ def _prepared(
     )
     states = (exact_q, exact_v), *beside
 
-    def run(bound: Tolerance, every: int, progress: Progress, *, moved: int) -> Run:
-        times: list[Any] = simulation.times
-        if moved:  # by a clock that is a rounding fast, or slow
-            clock = 1 + 2 * moved * Fraction(numbers.rounding)
-            times = [*(Fraction(t) * clock for t in times[:-1]), times[-1]]
-        bound.unit = numbers.rounding / DOUBLE.rounding
-        try:
-            return runs.run(states[moved], times, bound, every, progress)
-        except (OverflowError, NotCompiled, Refusal) as reason:
-            raise NotPossible(str(reason)) from None
+    usual, unit_of_doubles = runs_of(modes), numbers.rounding / DOUBLE.rounding
 
-    first = _FIRST_OF_LONG if simulation.is_long else math.inf
-    return Prepared(
-        run=run,
-        first=first,
-        finest=finest,
-        rounded=2 * ROUNDED * numbers.rounding,  # 1e-18 is 18 of those of 80 bits
-        longest=LONGEST,
-        precision=precision,
-    )
+    def prepared(other: Runs) -> Prepared:
+        def run(bound: Tolerance, every: int, progress: Progress, *, moved: int) -> Run:
+            times: list[Any] = simulation.times
+            if moved:  # by a clock that is a rounding fast, or slow
+                clock = 1 + 2 * moved * Fraction(numbers.rounding)
+                times = [*(Fraction(t) * clock for t in times[:-1]), times[-1]]
+            bound.unit = unit_of_doubles
+            try:
+                return (other if moved else usual).run(states[moved], times, bound, every, progress)
+            except (OverflowError, NotCompiled, Refusal) as reason:
+                raise NotPossible(str(reason)) from None
+
+        return Prepared(
+            run=run,
+            first=_FIRST_OF_LONG if simulation.is_long else math.inf,
+            finest=finest,
+            rounded=2 * ROUNDED * numbers.rounding,  # 1e-18 is 18 of those of 80 bits
+            longest=LONGEST,
+            precision=precision,
+            unit=unit_of_doubles,
+            with_others=lambda _: prepared(other_runs()),
+        )
+
+    return prepared(usual)
 
 
 @contextmanager

@@ -2,10 +2,11 @@
 
 Every other run begins a rounding of the initial values away and reads a clock that is a
 rounding fast, so that neither what doubles make of the file nor a frequency that they get
-wrong by a rounding is the same in both runs.  A parameter, too, is seldom a double.  Where
-the accelerations, or a column, feel that more than they feel the clock, as k - c does for
-two numbers that are almost the same, the runs are made again, every other one with
-parameters that lie so many times as far from the file's as the doubles do.
+wrong by a rounding is the same in both runs.  A parameter, or a number of a formula, is
+seldom a double, nor a number of 80 bits.  Where the accelerations, or a column, feel that
+more than they feel the clock, as k - c does for two numbers that are almost the same, or
+where they may jump by it, the runs are made again, every other one with numbers that lie
+so many times as far from the file's as the rounded ones do.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from weakref import WeakKeyDictionary
 
 from lagcli.graph.nodes import Symbol
 from lagcli.numerics.certified.accuracy import Outcome
-from lagcli.numerics.equations.arithmetic import Doubles
+from lagcli.numerics.equations.arithmetic import Balls, Doubles
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import rounded_components
@@ -72,6 +73,29 @@ class BesideDoubles(Doubles):
             return nearest
         chance = value.numerator * 48271 % 2147483647
         return nearest + (2 + chance % 7) * math.copysign(unit, chance % 2 - 0.5)
+
+
+class BesideBalls(Balls):
+    """Balls about what numbers of so many bits, some 16 roundings beyond, make of a rational.
+
+    Parameters
+    ----------
+    bits
+        Of the significand.
+    """
+
+    def __init__(self, bits: int) -> None:
+        super().__init__()
+        self._bits = bits
+
+    def number(self, value: Fraction) -> Any:
+        """A rational that has as many bits is kept."""
+        size = abs(value.numerator).bit_length() - value.denominator.bit_length()
+        unit = Fraction(2) ** (size + 1 - self._bits)
+        nearest = round(value / unit) * unit
+        steps = max(1, round(_TIMES * abs(value - nearest) / unit))
+        side = (value > nearest) - (value < nearest)
+        return super().number(nearest + side * steps * unit)
 
 
 def moved_states(simulation: Setup, modes: Modes) -> tuple[State, State]:
@@ -141,48 +165,48 @@ def _other_parameters(simulation: Setup, modes: Modes) -> Modes | None:
     return others
 
 
-def are_felt(outcome: Outcome, others: Modes, accuracy: float) -> bool:
+def are_felt(outcome: Outcome, modes: Modes, others: Modes, accuracy: float, unit: float) -> bool:
     """Whether other parameters change what acts in a run by more than a clock does.
 
     Parameters
     ----------
     outcome
-        Of runs in doubles.
-    others
-        Their modes with the parameters beside.
+        Of the runs.
+    modes, others
+        In doubles; with the parameters beside.
     accuracy
         That of the columns.
+    unit
+        The rounding of the runs as a part of that of doubles.
     """
     run = outcome.run
-    if run.shortened or run.events:  # what is narrow, and an impact, is seldom met by a row
-        return True
+    if run.shortened or run.events or modes.first.motion.kinks:
+        return True  # what is narrow, an impact, or a jump is seldom met by a row
     every = max(1, len(run.marks) // _LOOKS)
-    looks = [*zip(run.marks[::every], outcome.rows[::every], strict=True)]
-    if (narrow := run.narrowest) is not None:
-        looks.append((narrow, run.phases[0].mode.tabulate(narrow.t, narrow.q, narrow.v)))
+    looks = [*run.marks[::every]]
+    if run.narrowest is not None:
+        looks.append(run.narrowest)
     n, columns = len(run.peaks) // 2, len(others.simulation.nodes)
     least = [peak / others.simulation.request.until for peak in run.peaks[n:]]
     sizes, changes = least, [0.0] * n
     moves = [0.0] * columns
-    for mark, row in looks:
-        mode = run.phases[mark.phase].mode
-        beside = others.mode(*mode.key)
-        state, later = (mark.t, *mark.q, *mark.v), mark.t * _LATER
+    for mark in looks:
+        key = run.phases[mark.phase].mode.key
+        mode, beside = modes.mode(*key), others.mode(*key)
+        t, q, v = float(mark.t), [*map(float, mark.q)], [*map(float, mark.v)]
+        state, later = (t, *q, *v), t * _LATER
         try:
-            if mode.motion.kinks:
-                mode.motion.set_signs(*(mark.t, mark.q, mark.v))
-                beside.motion.signs[:] = mode.motion.signs
             here, there = mode.motion.accelerations(*state), beside.motion.accelerations(*state)
-            then = mode.motion.accelerations(mark.t + later, *mark.q, *mark.v)
+            then = mode.motion.accelerations(t + later, *q, *v)
         except (ArithmeticError, ValueError):
             continue
         for j, (a, b, c) in enumerate(zip(here, there, then, strict=True)):
             sizes[j] = max(sizes[j], abs(a) + abs(c - a) / _LATER)
             changes[j] = max(changes[j], abs(b - a))
-        moved = beside.tabulate(mark.t, _turned(mark.q, 1), _turned(mark.v, -1))
-        for j, (x, y) in enumerate(zip(row[:columns], moved[:columns], strict=True)):
+        usual, moved = mode.tabulate(t, q, v), beside.tabulate(t, _turned(q, 1), _turned(v, -1))
+        for j, (x, y) in enumerate(zip(usual[:columns], moved[:columns], strict=True)):
             if x is not None and y is not None:
-                moves[j] = max(moves[j], abs(y - x))
+                moves[j] = max(moves[j], unit * abs(y - x))
     limit = _TIMES * _CLOCK
     return any(d > limit * size for d, size in zip(changes, sizes, strict=True)) or any(
         d > _COLUMN * accuracy * scale for d, scale in zip(moves, outcome.scales, strict=True)

@@ -57,6 +57,8 @@ class Prepared:
         A component smaller than this part of the largest is taken for rounding.
     precision
         The digits within which runs are made and their rows worked out.
+    unit
+        The rounding of its numbers as a part of that of doubles.
     with_others : function, optional
         The same with other parameters in the runs that are moved: see `perturbed_twin`.
     """
@@ -69,6 +71,7 @@ class Prepared:
     longest: Sequence[float] = LONGEST
     floor: float = 0.0
     precision: Precision = nullcontext
+    unit: float = 1.0
     with_others: Callable[[Modes], Prepared] | None = None
 
 
@@ -165,8 +168,9 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
     outcome = found()
     if outcome.good_rows > 1 and made.with_others is not None:
         others = other_parameters(simulation, modes)
-        if others is not None and are_felt(outcome, others, request.accuracy):
-            made = made.with_others(others)
+        if others is not None and are_felt(outcome, modes, others, request.accuracy, made.unit):
+            with made.precision():
+                made = made.with_others(others)
             count = 0
             # runs that meet rounding agree by chance, too: once in 37 rays that graze two discs
             return worse(outcome, found())
