@@ -54,7 +54,8 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
         several = [(at, modes[0].on) for at, _ in states]
         one = len(several) == 1 and modes[0].on is None and not is_pair(several[0][0])
         place = "equilibrium" if one else "equilibria"
-        yield from alike_blocks(several, f"Angular frequencies and shapes about the {place} ")
+        what = "frequencies and shapes" if any(mode.shape for mode in modes) else "frequencies"
+        yield from alike_blocks(several, f"Angular {what} about the {place} ")
         for mode in modes_in_pairs(modes):
             if rows := tuple(_mode(mode)):
                 yield Equations(rows)

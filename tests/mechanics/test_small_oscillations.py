@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from sympy import Expr, Matrix, acos
 
+import lagcli
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
@@ -386,3 +387,11 @@ V: k*s^2/2
     assert normal(swing.shape["s"]) == 1
     assert normal(swing.shape["x"]) == formula("-m*cos(alpha)/(m + M)")
     assert not swing.shaped_where
+
+
+@pytest.mark.parametrize("name", ["chains/triple-pendulum", "steady/penning-trap"])
+def test_frequencies_without_shapes_are_called_frequencies(name):
+    """Roots of a cubic equation and gyroscopic modes have no shapes here, and none is missed."""
+    found = lagcli.solve(name, sections=["modes"])
+    assert "Angular frequencies about the equilibri" in str(found)
+    assert "shapes" not in str(found)

@@ -107,8 +107,6 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
         if any(near.at(p) < 0 for p in frequency):
             x.refute(what, "a frequency is negative")
             return False
-        if mode.shape is None and near.still:
-            x.unchecked.append(f"the shapes of {what[4:]}, of which not all are given")
         values = [near.at(p) for p in flat]
         rows = [values[k : k + size] for k in range(0, len(values), size)]
         if not all(_moves_so(near, W[0], row) for row in rows):
