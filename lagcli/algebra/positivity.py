@@ -121,9 +121,9 @@ def without_moduli(expression: Expr, positive: Sequence[Expr]) -> Expr:
 
 
 def _beside_zero(factor: Expr) -> int | None:
-    """The sign of what has only one beside 0: roots, moduli, cos - 1 and cos + 1."""
+    """The sign of what has only one beside 0: roots, moduli, acos, cos - 1 and cos + 1."""
     even_root = factor.is_Pow and factor.exp.is_Rational and factor.exp.q % 2 == 0
-    if isinstance(factor, sympy.Abs) or even_root:
+    if isinstance(factor, (sympy.Abs, sympy.acos)) or even_root:
         return 1
     return sign_of_circle(factor) or sign_beside_zero(factor)
 

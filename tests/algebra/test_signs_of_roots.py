@@ -9,7 +9,7 @@ import sympy
 
 from lagcli.algebra import simplify
 from lagcli.algebra.equations import written
-from lagcli.algebra.positivity import sign_of
+from lagcli.algebra.positivity import sign_of, weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.expression import Call, walk
 from lagcli.formatters.grammar import to_grammar
@@ -184,3 +184,10 @@ def test_a_sum_of_squares_is_positive_where_one_is_not_zero(seed):
     assert sign(whole, [v**2]) == sign(-whole, [v**2, x]) * -1 == 1
     assert sign(whole, [x**2]) is None
     assert sign(whole - 7 * c * v, [v**2]) is None
+
+
+@pytest.mark.parametrize("inside", [k, k / 3 - p, sympy.sin(k)])
+def test_an_arc_whose_cosine_is_given_is_never_negative(inside):
+    assert weak_sign(sympy.acos(inside)) == weak_sign(p * sympy.acos(inside) ** 3) == 1
+    assert weak_sign(sympy.asin(inside)) is None
+    assert sign(sympy.acos(inside)) is None  # it is 0 where the cosine is 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-from sympy import Add, Expr
+from sympy import Add, Expr, asin, atan
 
 from lagcli.algebra import simplify
 from lagcli.algebra.positivity import deciding, weak_sign
@@ -42,7 +42,8 @@ def real_where(roots: Iterable[Expr]) -> Iterator[Remark]:
 
 def positive_where(roots: Iterable[Expr]) -> Iterator[Remark]:
     """What roots ask for that are to be positive, where they may be negative."""
-    open_ = [deciding(root) for root in roots if weak_sign(root) is None]
+    plain = (root for root in roots if not root.has(asin, atan))
+    open_ = [deciding(root) for root in plain if weak_sign(root) is None]
     for bound in dict.fromkeys(each for each in open_ if each != 1):
         less, more = _sides(bound)
         yield ("positive for ", less, " < ", more)
