@@ -364,6 +364,20 @@ def test_no_average_is_claimed_of_other_forces(potential):
     assert averaged(derive(text).dynamics) is None
 
 
+@pytest.mark.parametrize("also", [("equilibria", "reduction"), ("reduction",), ("equilibria",)])
+def test_the_averaged_potential_is_stated_once(also):
+    text = (
+        "coordinates: [theta]\nparameters: {g: {assume: positive}, a: {assume: positive}, "
+        "w: {assume: positive}}\n"
+        "points: {bob: {position: [sin(theta), a*cos(w*t) - cos(theta)], mass: 1}}\n"
+        "V: -g*cos(theta)\n"
+    )
+    explanation = explain(derive(text), also)
+    titles = {"equilibria": "Equilibria", "reduction": "The reduction"}
+    steps = " ".join(words(explanation, titles[name]) for name in also)
+    assert steps.count("averaged over its period has the potential") == 1
+
+
 @pytest.mark.long
 def test_a_body_slips_before_it_leaves():
     """F = m g sin(theta)/3 and N = m (g cos(theta) - (R + a) theta'^2): |F|/N has no bound."""

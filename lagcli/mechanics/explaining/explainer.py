@@ -19,6 +19,7 @@ class Explainer:
         self.dynamics = derivation.dynamics
         self.readable = Readable(self.dynamics)
         self.letters = Letters(derivation.given)
+        self.averaged = False  # whether the potential of the averaged motion has been stated
 
     @property
     def velocities(self) -> tuple[Name, ...]:

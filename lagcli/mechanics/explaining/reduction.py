@@ -92,7 +92,10 @@ def _routhian(
 
 
 def averaged_potential(explainer: Explainer) -> Iterator[Block]:
-    """V_eff of the motion averaged over a rapid drive, where there is one."""
+    """V_eff of the motion averaged over a rapid drive, where there is one; once."""
+    if explainer.averaged:
+        return
+    explainer.averaged = True
     found = averaged(minimal(explainer.derivation).dynamics)
     if found is None:
         return
