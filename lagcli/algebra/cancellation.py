@@ -24,7 +24,7 @@ from lagcli.algebra.half_angles import (
 )
 
 _PRIME = 2**61 - 1
-_MAX_TERMS = 600
+_MAX_TERMS = 600  # measured: up to 716
 
 
 def cancelled(field: FractionField, element: Element) -> Element:

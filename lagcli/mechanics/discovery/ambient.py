@@ -37,7 +37,7 @@ from lagcli.mechanics.discovery.modular import NoPoint, independent
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.spectrum import roots_of
 
-_MOST = 320
+_MOST = 320  # measured: at most 100
 _HIGHEST = 5  # power of a coordinate
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 _PARTNERS = {

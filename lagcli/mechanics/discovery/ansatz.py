@@ -29,7 +29,7 @@ from lagcli.mechanics.discovery.spectrum import (
 )
 from lagcli.mechanics.discovery.time_dependent import of_changing_coefficients
 
-_MOST_FUNCTIONS = 60
+_MOST_FUNCTIONS = 60  # measured: at most 54
 _MOST_CURVED = 4
 _FEW = 8  # functions of the coordinates that all powers of t multiply
 

@@ -37,7 +37,7 @@ from lagcli.mechanics.discovery.slots import point_slots
 from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
-_MOST_FOR_TENSORS = 6
+_MOST_FOR_TENSORS = 6  # measured: at most 4
 
 Named = tuple[str, Expr, NoetherCharge]
 

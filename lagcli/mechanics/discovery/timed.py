@@ -29,7 +29,7 @@ from lagcli.mechanics.discovery.slots import SlotEquations, point_slots
 from lagcli.mechanics.noether import Noether, NoetherCharge
 
 _MOST_UNKNOWNS = 900
-_MOST_COORDINATES = 3
+_MOST_COORDINATES = 3  # measured: up to 4
 _MOST_CANDIDATES = 400
 _WAVES = (sympy.sin, sympy.cos, sympy.exp)
 

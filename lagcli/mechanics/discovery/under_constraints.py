@@ -21,7 +21,7 @@ from lagcli.mechanics.discovery.surface import independent_on_surface
 from lagcli.mechanics.discovery.surface_integrals import Integral, IntegralTerm, SurfaceIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
-_MOST_LINEAR = 420
+_MOST_LINEAR = 420  # measured: at most 314
 _MOST_QUADRATIC = 300
 _ENERGY = (-1,)
 

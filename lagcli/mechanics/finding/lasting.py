@@ -26,7 +26,7 @@ from lagcli.mechanics.parameter_values import exact_values
 from lagcli.problem_data import Inequality, Lasting, Reaching
 from lagcli.statements.questions import Range, Ranges
 
-_SMALL = mpf(10) ** -60
+_SMALL = mpf(10) ** -60  # measured: what is not 0 is above 4e-1
 
 
 class LastingAnswer:

