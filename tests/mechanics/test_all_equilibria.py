@@ -408,3 +408,21 @@ def test_an_angle_that_a_force_of_its_own_gives_is_listed_once():
     rest = RestPoints(d.dynamics)
     assert [str(p.values) for p in rest.points or ()] == ["{theta: 0}"]
     assert rest.complete
+
+
+@pytest.mark.parametrize("curve", ["a*cos(x/a)", "x^2/a + a*cos(x/a)", "a*exp(-x^2/a^2)"])
+def test_an_evident_place_on_a_curve_is_that_of_its_coordinate(curve):
+    """m g F'(x) + k x = 0 has no closed solution but x = 0, with y = F(0)."""
+    letters = "".join(f"{name}: {{assume: positive}}, " for name in "mgka")
+    held = derive(
+        f"coordinates: [x, y]\nparameters: {{{letters}}}\nT: m*(x'^2 + y'^2)/2\n"
+        f'V: m*g*y + k*x^2/2\nconstraints: {{c: "y = {curve}"}}\n'
+    )
+    free = derive(
+        f'coordinates: [x]\nparameters: {{{letters}}}\nT: m*x\'^2/2\nV: "m*g*({curve}) + k*x^2/2"\n'
+    )
+    rest = RestPoints(held.dynamics)
+    [found], [alone] = rest.points, RestPoints(free.dynamics).points
+    assert {q.name: str(v) for q, v in found.values.items()} == {"x": "0", "y": "a"}
+    assert list(alone.values.values()) == [0]
+    assert not rest.complete

@@ -278,4 +278,21 @@ class RestPoints(RestConditions):
             values = {s: simplify(x + by) for (s, by), x in pairs}
             if self.balanced(values):
                 found.append(RestPoint(values, tuple(self.translations)))
-        return found
+        return found or list(self._evident_in_one())
+
+    def _evident_in_one(self) -> Iterator[RestPoint]:
+        """Where one coordinate is 0, an angle 0 or pi, and the others follow: y = a cos(x/a)."""
+        q, known = self.system.q, []
+        places = [(s, x) for s in q for x in (S.Zero, sympy.pi)[: 1 + self.is_angle(s)]]
+        for unknown, value in places if len(q) > 1 else ():
+            there = [e.xreplace({unknown: value}) for e in self.at_all_times]
+            if any(e.has(S.NaN, S.ComplexInfinity) for e in there):
+                continue
+            for each in solve_system(there, [s for s in q if s != unknown]).solutions:
+                solution = replace(each, values={unknown: value, **each.values})
+                point = self._point(solution) if len(solution.values) == len(q) else None
+                if point is None or point.values in known:
+                    continue
+                known.append(point.values)
+                if self.balanced(point.values, solution.positive):
+                    yield point
