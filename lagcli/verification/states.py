@@ -133,10 +133,10 @@ def random_states(reference: Reference, seed: int = 1) -> Iterator[State]:
         yield found
 
 
-def phase_states(reference: Reference, seed: int = 1) -> Iterator[PhaseState]:
+def phase_states(reference: Reference) -> Iterator[PhaseState]:
     """States of a system whose H has no Lagrangian."""
     given = (
-        _anywhere(reference.problem, Random(f"{seed} {number}"), 0.4 * (number % 2), wide=False)
+        _anywhere(reference.problem, Random(f"1 {number}"), 0.4 * (number % 2), wide=False)
         for number in range(100)
     )
     return with_momenta(reference, given)

@@ -48,10 +48,10 @@ def crossing(f: Function, good: float, bad: float, above: float, below: float) -
     return bad
 
 
-def lowest_of(places: Sequence[float], values: Sequence[float], count: int = 32) -> float:
-    """Where the polynomial through the points is least, to 1/count of their span."""
+def lowest_of(places: Sequence[float], values: Sequence[float]) -> float:
+    """Where the polynomial through the points is least, to 1/32 of their span."""
     low, span = places[0], places[-1] - places[0]
-    tried = [low + span * k / count for k in range(count + 1)]
+    tried = [low + span * k / 32 for k in range(33)]
     return min(tried, key=polynomial(places, values))
 
 
