@@ -5,20 +5,23 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from lagcli.reader.habits import COMMENT, INSTEAD, meanings, unit_behind
+from lagcli.reader.habits import COMMENT, INSTEAD, unit_behind
 
 if TYPE_CHECKING:
     from lagcli.reader.automaton import Token
 
 END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
-_COMPONENTS = "a vector is written by its components"
 #: What begins with the character, and what is written instead.
 _MEANT = [
     (r"!=|:=", "write an equation with '='"),
-    (r"\[[^\]]*[,;\[]|\\(?:vec|mathbf|boldsymbol|begin|end)", _COMPONENTS),
+    (
+        r"\[[^\]]*[,;\[]|\\(?:vec|mathbf|boldsymbol|begin|end)",
+        "a vector is written by its components",
+    ),
     (r"\\\s*\d", "division is written with '/'"),
     (r"\\(?:partial|nabla)", "write diff(expression, name); a force that V has is found from V"),
-    (r"\\(?:int|sum|prod)\b", "{instead}"),
+    (r"\\int\b", INSTEAD["int"]),
+    (r"\\(?:sum|prod)\b", INSTEAD["sum"]),
     (r"\.\.\.|…", "leave it out: a line that continues the one above begins with blanks"),
     (r"\.subs\b", "leave out what begins with '.subs': values stand under 'parameters'"),
     (r"\.(?:evalf|simplify|expand|n|doit|replace|rewrite)\b", "leave out what begins with '.'"),
@@ -34,10 +37,4 @@ def character_meant(rest: str, tokens: list[Token]) -> str:
         unit = re.match(r"\[([^\[\]]+)\]\s*$", rest)
         if unit and unit_behind(f"1 {unit[1]}"):
             return f"leave out '{unit[0].strip()}': units stand where names are declared"
-    found = next((hint for form, hint in _MEANT if re.match(form, rest)), "")
-    word = re.match(r"\\(\w+)", rest)
-    return (
-        found.format(instead=INSTEAD[word[1]])
-        if word and found == "{instead}"
-        else (found or meanings("characters").get(rest[0], ""))
-    )
+    return next((hint for form, hint in _MEANT if re.match(form, rest)), "")
