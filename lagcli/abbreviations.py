@@ -40,6 +40,7 @@ from lagcli.statements.registry import in_order
 MOST_OPERATIONS = 100_000
 #: Operations of three lines of 80 columns.
 LONG = 65
+_TWO_LINES = 36
 #: What is named has as many operations, or two thirds of them where it occurs often.
 _WORTH = 8
 _OFTEN = 3
@@ -51,8 +52,12 @@ _DERIVATION = 3
 
 
 def abbreviated(answers: Answers, taken: Collection[str]) -> Answers:
-    """The answers with names for what recurs in long formulas of motion, H and charges."""
-    given = [each.name for each in in_order(answers.sections) if each.abbreviated]
+    """The answers with names for what recurs in long formulas, and in sections of some length."""
+    given = [
+        each.name
+        for each in in_order(answers.sections)
+        if each.abbreviated and _has_lines(answers.sections[each.name])
+    ]
     names = None if answers.where else _found([answers.sections[name] for name in given], taken)
     if names is None:
         return answers
@@ -61,6 +66,11 @@ def abbreviated(answers: Answers, taken: Collection[str]) -> Answers:
         for name, section in answers.sections.items()
     }
     return replace(answers, sections=sections, where=names.where)
+
+
+def _has_lines(section: object) -> bool:
+    """Whether a formula fills more than two lines; shorter ones are printed without names."""
+    return any(operation_count(tree) > _TWO_LINES for tree in _trees(section))
 
 
 def in_steps(explanation: Explanation, taken: Collection[str]) -> Explanation:

@@ -47,6 +47,8 @@ class Request:
     abbreviate : bool
         Name what recurs in formulas of more than three lines; a system too large for formulas
         has abbreviations in any case.
+    named : bool
+        Keep definitions of the file by their names: mu for m1 m2/(m1 + m2), r for sqrt(x² + y²).
     """
 
     sections: tuple[str, ...] | None = None
@@ -55,6 +57,7 @@ class Request:
     numeric: bool = False
     expand: bool = False
     abbreviate: bool = False
+    named: bool = False
 
 
 @record
@@ -116,10 +119,17 @@ def _with_values(problem: Problem, request: Request) -> tuple[Problem, list[Diag
     return changed, list(wrong)
 
 
-def derive(problem: Problem) -> Derivation:
-    """Problem -> derivation; its parts are worked out at their first use."""
+def derive(problem: Problem, *, named: bool = False) -> Derivation:
+    """Problem -> derivation; its parts are worked out at their first use.
+
+    `named` makes parameters of definitions of constants.
+    """
     from lagcli.mechanics.derivation import Derivation
 
+    if named and problem.definitions:
+        from lagcli.mechanics.named_definitions import with_named_constants
+
+        problem = with_named_constants(problem)
     return Derivation(problem)
 
 
@@ -143,6 +153,8 @@ def state(derivation: Derivation, request: Request) -> Answers:
         from lagcli.abbreviations import written_out
 
         answers = written_out(answers)
+    if request.named and derivation.given.definitions:
+        answers = _with_roots(derivation.given, answers)
     manner = Manner(derivation.given)
     sections: dict[str, Section] = {}
     for name, section in answers.sections.items():
@@ -171,6 +183,20 @@ def state(derivation: Derivation, request: Request) -> Answers:
         sections=rewritten(answers.sections, with_decimals),
         where=rewritten(answers.where, with_decimals),
     )
+
+
+def _with_roots(problem: Problem, answers: Answers) -> Answers:
+    """With r for sqrt(x² + y²), where the file defines r so."""
+    from lagcli.mechanics.named_definitions import NamedRoots
+    from lagcli.notation.letters import names_in
+    from lagcli.rewriting import rewritten
+
+    roots = NamedRoots(problem)
+    if not roots:
+        return answers
+    answers = replace(answers, sections=rewritten(answers.sections, roots))
+    used = roots.named(problem, names_in(answers.sections))
+    return replace(answers, named={**answers.named, **used})
 
 
 def _with_charges(derivation: Derivation, answers: Answers) -> Answers:
@@ -232,8 +258,12 @@ def with_lagrangian(problem: Problem) -> Problem:
     return transformed(problem)
 
 
-def explain(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
+def explain(
+    derivation: Derivation, also: Sequence[str] = (), *, named: bool = False
+) -> Explanation:
     """Derivation -> its account, step by step, and the requested further steps.
+
+    `named` keeps r for sqrt(x² + y²), where the file defines r so.
 
     Raises
     ------
@@ -248,6 +278,12 @@ def explain(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
     from lagcli.mechanics.explaining.explain import explanation
 
     account = _ended(lambda: explanation(derivation, also))
+    if named and derivation.given.definitions:
+        from lagcli.mechanics.named_definitions import NamedRoots
+        from lagcli.rewriting import rewritten
+
+        roots = NamedRoots(derivation.given)
+        account = replace(account, steps=rewritten(account.steps, roots)) if roots else account
     return _in_the_manner(derivation, _confirmed(derivation, account, also))
 
 

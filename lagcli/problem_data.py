@@ -433,6 +433,7 @@ class Problem:
     description: str | None = None
     functions: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     definitions: Mapping[str, Expression] = field(default_factory=dict)
+    named: Mapping[str, Expression] = field(default_factory=dict)  # parameters that are definitions
     points: tuple[Point, ...] = ()
     kinetic: Expression | None = None
     potential: Expression | None = None

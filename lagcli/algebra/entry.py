@@ -25,8 +25,8 @@ class Field(ExpressionField):
     ----------
     expressions
         The known expressions that are put in.
-    alone
-        Whether it is all: θ₁ − θ₂ is one angle where neither occurs otherwise.
+    alone, closed
+        As of `ExpressionField`.
 
     Its generators are made on demand: symbols; sin and cos (sinh and cosh) of base
     arguments with their quadratic relation; exponentials and symbolic powers; roots;
@@ -40,10 +40,12 @@ class Field(ExpressionField):
     True
     """
 
-    def __init__(self, expressions: Iterable[Expr] = (), *, alone: bool = False) -> None:
+    def __init__(
+        self, expressions: Iterable[Expr] = (), *, alone: bool = False, closed: bool = False
+    ) -> None:
         expressions = list(expressions)
         symbols = {s for e in expressions for s in e.free_symbols}
-        super().__init__(capacity=len(symbols) + 4, alone=alone)
+        super().__init__(capacity=len(symbols) + 4, alone=alone, closed=closed)
         self._memo: dict[Expr, Element] = {}
         self._powers: dict[Expr, Multiples] = {}
         self.circular = Multiples(self, "circular")

@@ -51,7 +51,7 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
     if (n := common_multiple(expression, unknown)) > 1:
         plain = solve_for(without_phases(expression.xreplace({unknown: unknown / n}), {}), unknown)
         return plain and Roots(_over_all_turns(plain.values, n), plain.angle)
-    field = Field([expression])
+    field = Field([expression], closed=True)
     try:
         poly = field(expression).numerator
     except ZeroDivisionError:

@@ -19,11 +19,13 @@ class ExpressionField(FractionField, ABC):
     ----------
     alone
         Whether nothing else will be entered: θ₁ − θ₂ is one angle where neither occurs otherwise.
+    closed
+        The same without that: of cos 2 x and cos 4 x the angle is 2 x.
     """
 
-    def __init__(self, capacity: int, *, alone: bool) -> None:
+    def __init__(self, capacity: int, *, alone: bool, closed: bool = False) -> None:
         super().__init__(capacity)
-        self.alone = alone
+        self.alone, self.closed = alone, alone or closed
         self._numbers: dict[Expr, int] = {}  # expression of a generator -> its number
 
     @abstractmethod

@@ -10,10 +10,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from functools import cached_property, reduce
-from math import lcm
+from math import gcd, lcm
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Rational
 
 from lagcli.algebra.field import Element, Generator
 from lagcli.algebra.generators import ExpressionField
@@ -60,8 +60,8 @@ class Multiples:
         self.field = field
         self.kind = kind
         self.base = base  # of a power
-        self._unit: dict[Expr, int] = {}  # base argument -> N: the generator is of argument/N
-        self._generators: dict[tuple[Expr, int], int] = {}
+        self._unit: dict[Expr, Fraction] = {}  # base argument -> N: the generator is of argument/N
+        self._generators: dict[tuple[Expr, Fraction], int] = {}
         self._prepared: list[dict[Expr, Fraction]] = []  # multiples by base argument
 
     def prepare(self, argument: Expr) -> None:
@@ -69,8 +69,8 @@ class Multiples:
         parts = split(self.field, argument)
         self._prepared.append({base: multiple for multiple, base in parts})
         for multiple, base in parts:
-            unit = self._unit.get(base, 1)
-            self._unit[base] = lcm(unit, multiple.denominator)
+            unit = self._unit.get(base, Fraction(1))
+            self._unit[base] = Fraction(lcm(unit.numerator, multiple.denominator))
 
     @cached_property
     def _together(self) -> list[tuple[Expr, dict[Expr, Fraction]]]:
@@ -88,7 +88,7 @@ class Multiples:
         found = []
         for (leader, first), *others in (group.items() for group in groups.values()):
             ratios = {leader: Fraction(1), **{base: ratio / first for base, ratio in others}}
-            whole = sympy.Add(*(sympy.Rational(ratio) * base for base, ratio in ratios.items()))
+            whole = sympy.Add(*(Rational(ratio) * base for base, ratio in ratios.items()))
             if self._is_turned(leader, whole):
                 whole, ratios = -whole, {base: -ratio for base, ratio in ratios.items()}
             if others or whole != leader:
@@ -101,6 +101,18 @@ class Multiples:
         if self.kind in ("hyperbolic", "circular"):
             return bool(whole.could_extract_minus_sign())
         return sum(each.get(leader, Fraction(0)) for each in self._prepared) < 0
+
+    @cached_property
+    def _scales(self) -> dict[Expr, int]:
+        """3 for Omega t where 3 Omega t and 6 Omega t are all that occurs."""
+        if self.kind != "circular" or not self.field.closed:
+            return {}
+        found: dict[Expr, int] = {}
+        for each in self._prepared:
+            for multiple, base in self._joined((value, base) for base, value in each.items()):
+                whole = multiple * self._unit.get(base, Fraction(1))
+                found[base] = gcd(found.get(base, 0), whole.numerator)
+        return {base: scale for base, scale in found.items() if scale > 1}
 
     def _joined(self, parts: Iterable[tuple[Fraction, Expr]]) -> list[tuple[Fraction, Expr]]:
         """The parts, those of each such sum as a multiple of it."""
@@ -118,26 +130,27 @@ class Multiples:
     def parts(self, parts: Iterable[tuple[Fraction, Expr]]) -> Iterator[tuple[int, int]]:
         """(k, g) for each part: it is k times the argument of generator g."""
         for multiple, base in self._joined(parts):
-            unit = self._unit.setdefault(base, multiple.denominator)
+            unit = self._unit.setdefault(base, Fraction(multiple.denominator))
+            unit /= self._scales.get(base, 1)
             scaled = multiple * unit
             if scaled.denominator != 1:
-                unit = lcm(unit, multiple.denominator)
+                unit = Fraction(lcm(unit.numerator, multiple.denominator))
                 scaled = multiple * unit
                 self.field.doubtful = True
                 self._unit[base] = unit
             multiplier = scaled.numerator
-            part = base / unit
+            part = base / Rational(unit)
             if abs(multiplier) > MAX_MULTIPLE:
                 self.field.doubtful = True
                 part, multiplier = abs(multiplier) * part, 1 if multiplier > 0 else -1
-                yield multiplier, self._generator(part, 1)
+                yield multiplier, self._generator(part, Fraction(1))
             else:
                 yield multiplier, self._generator(base, unit)
 
-    def _generator(self, base: Expr, unit: int) -> int:
+    def _generator(self, base: Expr, unit: Fraction) -> int:
         key = (base, unit)
         if key not in self._generators:
-            argument = base / unit
+            argument = base / Rational(unit)
             if not argument.free_symbols or argument.has(*_INVERSE):
                 self.field.doubtful = True
             self._generators[key] = self._create(argument)

@@ -53,8 +53,24 @@ def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
 def vanishing_part(expression: Expr) -> Expr:
     """What is 0 just where the expression is: sin θ of m g l sin θ, without factors of one sign."""
     whole = simplify(expression)
-    open_ = [factor for factor in sympy.Mul.make_args(whole) if not sign(factor)]
-    return sympy.Mul(*open_) if open_ else whole
+    factors = sympy.Mul.make_args(whole)
+    open_ = [factor for factor in factors if not (sign(factor) or factor.is_nonzero)]
+    return sympy.Mul(*map(_without_letters, open_)) if open_ else whole
+
+
+def _without_letters(factor: Expr) -> Expr:
+    """sin θ/b³ + m g cos θ of a sin θ/b³ + m g a cos θ, where a is not 0."""
+    if not factor.is_Add:
+        return factor
+    factor = factor.primitive()[1]
+    terms = [term.as_powers_dict() for term in sympy.Add.make_args(factor)]
+    common = {
+        letter: min(term.get(letter, S.Zero) for term in terms)
+        for letter in factor.free_symbols
+        if letter.is_nonzero and all(term.get(letter, S.Zero).is_Integer for term in terms)
+    }
+    outside = sympy.Mul(*(letter**power for letter, power in common.items() if power > 0))
+    return sympy.Add(*(term / outside for term in sympy.Add.make_args(factor)))
 
 
 def _exceeds_a_square(radicand: Expr, nonzero: Sequence[Expr]) -> bool:

@@ -110,6 +110,7 @@ def _solved(
         options.settings,
         numeric=options.numeric,
         expand=options.expand,
+        named=printing.format_name != "json",
         mistakes=mistakes,
         option=work.option,
         known=work.sections,

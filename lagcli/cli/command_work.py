@@ -46,7 +46,9 @@ def _format_of_explanations(name: str) -> list[str]:
 WORKS: dict[str, CommandWork[Any]] = {
     "solve": CommandWork(state, render, _format_of_answers),
     "explain": CommandWork(
-        lambda derivation, request: explain(derivation, request.sections or ()),
+        lambda derivation, request: explain(
+            derivation, request.sections or (), named=request.named
+        ),
         render_explanations,
         _format_of_explanations,
         "--also",

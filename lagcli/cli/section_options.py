@@ -28,6 +28,7 @@ def read_section_options(
     *,
     numeric: bool,
     expand: bool = False,
+    named: bool = False,
     mistakes: list[str],
     option: str = "--show",
     known: Known = in_order,
@@ -40,6 +41,7 @@ def read_section_options(
         numeric=numeric,
         expand=expand,
         abbreviate=not expand,
+        named=named and not (expand or numeric),
     )
     return SectionOptions(request, tuple(mistakes))
 

@@ -124,7 +124,7 @@ def _answer(
     name: str, problem: Problem, request: Request, work: CommandWork[Result], tally: Tally
 ) -> Result | None:
     try:
-        derivation = derive(problem)
+        derivation = derive(problem, named=request.named)
         _start_algebra(needed=derivation.gives_hamiltonian or derivation.large_form is None)
         answers = work.make(derivation, request)
     except ProblemError as error:

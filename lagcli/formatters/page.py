@@ -23,6 +23,8 @@ def to_document(answers: Answers) -> Document:
     listed_at = next(
         (section for section in worded if where and names_in(section) & set(where)), ()
     )
+    if named := _used(answers.named, names_in(worded) | names_in(where)) if answers.named else {}:
+        blocks += [Heading("Definitions"), rows_by_name(named)]
     for section in worded:
         if section is listed_at:
             blocks += [Heading("Abbreviations"), rows_by_name(where)]

@@ -225,7 +225,7 @@ def _whole(node: Expression) -> list[Expression]:
     """The factors x^n, sqrt(x) of x^(n + 1/2)."""
     if not isinstance(node, Power) or not isinstance(node.base, (Name, Call)):
         return [node]
-    exponent = _half(node.exponent)
+    exponent = half_of(node.exponent)
     if exponent is None or exponent < 1:
         return [node]
     whole = Number(Fraction(exponent.numerator // 2))
@@ -233,7 +233,7 @@ def _whole(node: Expression) -> list[Expression]:
     return [power, Call("sqrt", (node.base,))]
 
 
-def _half(node: Expression) -> Fraction | None:
+def half_of(node: Expression) -> Fraction | None:
     """n/2 of an exponent that is one, n odd."""
     match node:
         case Number(value=value) if value.denominator == 2:

@@ -24,6 +24,7 @@ from lagcli.expression import (
     Sum,
     children,
     operation_count,
+    opposite,
     terms_of,
     walk,
 )
@@ -41,6 +42,8 @@ from lagcli.rewriting import rebuilt
 
 #: How many times as long as the answer's the file's own sum may be.
 _LONGER = 1.4
+#: How many times as long the potential of the file may be.
+_LIMIT = 2
 #: Terms of a sum, or a part of one, that is looked for within longer sums.
 _SHORT = 4
 
@@ -144,6 +147,43 @@ class GivenSums:
         return None
 
 
+class GivenPotential:
+    """V as the file writes it, within L, H and U_eff.
+
+    Parameters
+    ----------
+    potential
+        Of the file; its terms stay apart where the algebra has brought some together.
+    """
+
+    def __init__(self, potential: Expression | None) -> None:
+        value = multiplied_out(potential) if isinstance(potential, Sum) else None
+        self._value = value if value and is_tidy(cast(Sum, potential)) else None
+        self._node = potential
+
+    def __call__(self, node: Expression) -> Expression:
+        """The formula with V or −V for all that has neither velocities nor momenta."""
+        if self._value is None or self._node is None or not _leaves(self._node) <= _leaves(node):
+            return node
+        given, terms = self._node, terms_of(node)
+        still = [t for t in terms if not any(map(_is_fast, walk(t)))]
+        shown = Sum((*still,)) if len(still) > 1 else still[0] if still else None
+        value = None if shown is None else multiplied_out(shown)
+        if shown is None or value is None or len(value) != len(self._value):
+            return node
+        ratios = {
+            c / self._value[term] if term in self._value else None for term, c in value.items()
+        }
+        if ratios not in ({Fraction(1)}, {Fraction(-1)}) or _LIMIT * operation_count(
+            shown
+        ) < operation_count(given):
+            return node
+        own = terms_of(given) if ratios == {Fraction(1)} else map(opposite, terms_of(given))
+        first = terms.index(still[0])
+        before, after = terms[:first], [t for t in terms[first:] if t not in still]
+        return Sum((*before, *own, *after))
+
+
 def _cost(term: Expression) -> int:
     """The operations of a term, without signs: these belong to the sums."""
     return operation_count(term) - sum(isinstance(part, Negative) for part in walk(term))
@@ -151,6 +191,10 @@ def _cost(term: Expression) -> int:
 
 def _is_rate(node: Expression) -> bool:
     return isinstance(node, Name) and node.primes > 0
+
+
+def _is_fast(node: Expression) -> bool:
+    return isinstance(node, Name) and (node.primes > 0 or node.name.startswith("p_"))
 
 
 def _worth(given: Expression) -> int:

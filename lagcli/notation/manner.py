@@ -27,6 +27,7 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    factors_of,
     opposite,
     quotient_of,
     terms_of,
@@ -49,12 +50,15 @@ from lagcli.notation.factors import (
     with_one_root,
     with_whole_powers,
 )
+from lagcli.notation.fractions import Brackets
 from lagcli.notation.given_formulas import given, order_of_names
-from lagcli.notation.given_sums import GivenSums, arranged
+from lagcli.notation.given_sums import GivenPotential, GivenSums, arranged
 from lagcli.notation.likeness import EVEN, ODD, Key, Monomial, multiplied_out, parity, signed_key
 from lagcli.notation.ordering import Ordering, positive_first
 from lagcli.problem_data import Problem
 from lagcli.rewriting import rebuilt
+
+_ARC = frozenset(("acos", "asin", "acosh", "asinh"))
 
 
 class Manner:
@@ -82,8 +86,10 @@ class Manner:
                     self._signs[key] = sign if self._signs.get(key, sign) == sign else 0
         self._ordering = Ordering(order_of_names(problem))
         self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
-        names = (q.name for q in problem.coordinates)
+        self._potential = GivenPotential(problem.potential)
+        names = [q.name for q in problem.coordinates]
         self._momenta = NamedMomenta(names, self._positive, self._ordering)
+        self._brackets = Brackets(self._ordering, frozenset("p_" + name for name in names))
 
     def anew(self) -> None:
         """Begin another section, which is written as if it were the only one."""
@@ -92,7 +98,19 @@ class Manner:
 
     def __call__(self, node: Expression) -> Expression:
         """The formula as the file would write it; its value stays."""
-        return squares_as_brackets(self._in_manner(node, inside=False), self._squares)
+        node = self._in_manner(node, inside=False)
+        terms = self._brackets.spread(node)
+        if any(
+            isinstance(f, Sum) and any(parts_of(t)[2] for t in f.terms) for f in factors_of(node)
+        ):
+            terms = self._opened(node)
+        node = Sum((*positive_first(terms),)) if len(terms) > 1 else node
+        return squares_as_brackets(self._potential(node), self._squares)
+
+    def vanishing(self, node: Expression) -> Expression:
+        """What is 0 where the node is: x2 − x1 − l where the file has that, not x1 − x2 + l."""
+        shown = self(node)
+        return negative_of(shown) if isinstance(shown, Sum) and self._wrong(shown) else shown
 
     def _in_manner(self, node: Expression, *, inside: bool) -> Expression:
         """The same; `inside` a function or a root the sign of a denominator is left alone."""
@@ -115,7 +133,7 @@ class Manner:
                 node = with_one_root(with_whole_powers(node), self._positive, self._ordering)
                 if self._momenta.occur(node):
                     node = self._momenta.product(node)
-                return self._signed(node, inside=inside)
+                return self._signed(self._with_one_fraction(node), inside=inside)
             case Call(function="sqrt", arguments=(Sum() as inner,)) if self._momenta.occur(inner):
                 return self._momenta.root(inner)
             case Power():
@@ -139,12 +157,38 @@ class Manner:
                 node = self._beside_roots(node)
                 like = self._sums.like(node)
                 return self._sum(node) if like is None or like[0] != 1 else like[1]
+            case Call(function=function, arguments=(Sum() as inner,)) if function in _ARC:
+                return self._arc(node, inner)
             case Call(function="sqrt", arguments=(Quotient(numerator=Number(value=1)) as inner,)):
                 return Quotient(ONE, Call("sqrt", (inner.denominator,)))  # sqrt(1/x) = 1/sqrt(x)
             case Call(function="sqrt", arguments=(Sum() | Product() as inner,)):
                 return Call("sqrt", (self._as_before(inner),))
             case _:
                 return node
+
+    def _with_one_fraction(self, node: Expression) -> Expression:
+        """(k l − m g)/(m l) for (k − m g/l)/m, but for brackets of the file."""
+        node = self._brackets.joined(node)
+        _, above, _ = parts_of(node)
+        if any(isinstance(f, Sum) and signed_key(f)[1] in self._signs for f in above):
+            return node
+        found = self._brackets.merged(node)
+        if found is None:
+            return node
+        whole, inside = found
+        shown = self._written(inside, inside=True)
+        return _with_part(whole, inside, shown)
+
+    def _arc(self, node: Call, inner: Sum) -> Expression:
+        """arccos((a + b)/c) for arccos(a/c + b/c), but 1 − E/(m g l)."""
+        if len(inner.terms) == 2 and any(map(_constant, inner.terms)):
+            return node
+        found = self._brackets.over_one(inner.terms)
+        if found is None:
+            return node
+        above, inverse = found
+        whole = inverse.times_sum(self._written(above, inside=True), self._ordering)
+        return Call(node.function, (self._written(whole, inside=True),), node.primes)
 
     def _as_before(self, node: Expression) -> Expression:
         """A radicand, or what stands beside a root, as the section has written it before."""
@@ -174,6 +218,7 @@ class Manner:
     def _ordered(self, node: Sum) -> Sum:
         """The sum without brackets around inner sums, a positive term first where there is one."""
         terms = [each for term in node.terms for each in terms_of(term)]
+        terms = [each for term in terms for each in self._opened(term)]
         if not isinstance(terms[0], Negative):
             return node if tuple(terms) == node.terms else Sum(tuple(terms))
         if _accelerates(terms[0]):  # m l² θ'' − m l y'' sin θ + …
@@ -181,6 +226,13 @@ class Manner:
             return Sum((*first, *(t for t in terms if t not in first)))
         # in order anew: a bracket that was turned has changed the sign of its term
         return Sum((*positive_first(sorted(terms, key=self._ordering.term)),))
+
+    def _opened(self, term: Expression) -> list[Expression]:
+        """2 Ω y' and Ω² x of Ω (2 y' + Ω x), where the file does not have the bracket."""
+        own = (f for f in parts_of(term)[1] if isinstance(f, Sum))
+        if any(signed_key(f)[1] in self._signs for f in own):
+            return [term]
+        return self._brackets.opened(term)
 
     def _as_within(self, term: Expression) -> Expression:
         minus, above, below = parts_of(term)
@@ -395,6 +447,15 @@ def _begins_better(node: Sum) -> bool:
             return not isinstance(first, (Name, Negative, Number))
         case _:
             return False
+
+
+def _with_part(node: Expression, part: Expression, other: Expression) -> Expression:
+    """The product with another factor in the place of one."""
+    if node is part:
+        return other
+    if isinstance(node, (Negative, Product, Quotient)):
+        return rebuilt(node, lambda inner: _with_part(inner, part, other))
+    return node
 
 
 def _accelerates(node: Expression) -> bool:

@@ -101,8 +101,13 @@ def blocks(section: ConstraintForcesSection, _: Answers) -> Iterator[Block]:
             yield _forces({name: each for name, each in forces.items() if each is not None})
         for point, components in section.on_points.get(constraint, {}).items():
             along = dict(zip("xyz", components, strict=False))
+            known = {
+                part: Label("Q", (name,))
+                for name, part in (forces or {}).items()
+                if part not in (None, ZERO)
+            }
             yield equations_of(
-                (Label("F", (point, axis)), part, "force on the point")
+                (Label("F", (point, axis)), known.get(part, part), "force on the point")
                 for axis, part in along.items()
                 if part is not None
             )

@@ -385,7 +385,8 @@ class Answers:
     was requested and not found: exit status 1.  `absent` names sections that were requested
     and could not be made at all; `degrees_of_freedom` is None where the number could not be
     confirmed.  `where` holds the abbreviations that formulas use, in an
-    order in which each uses only earlier ones.
+    order in which each uses only earlier ones; `named` the definitions of the file that are
+    kept by their names.
     """
 
     title: str
@@ -396,6 +397,7 @@ class Answers:
     symbols: Mapping[str, str] = field(default_factory=dict)
     multipliers: Mapping[str, str] = field(default_factory=dict)
     where: Mapping[str, Expression] = field(default_factory=dict)
+    named: Mapping[str, Expression] = field(default_factory=dict)
     warnings: tuple[str, ...] = ()
     complete: bool = True
     absent: tuple[str, ...] = ()

@@ -74,6 +74,14 @@ def manner():
         ("2*pi*sqrt(r/g)*(1 + a^2/16)", "2*pi*sqrt(r/g)*(1 + a^2/16)"),
         # a positive term first
         ("-m*(R - a) + g*r", "g*r - m*(R - a)"),
+        # one fraction for those in a bracket, but (w^2 cos - g/R) sin stays
+        ("(2/m + 1/R)*g", "(m + 2*R)*g/(m*R)"),
+        ("(g*theta - phi/m)/r", "(m*g*theta - phi)/(m*r)"),
+        ("(g^2*cos(theta) - g/R)*sin(theta)", "(g^2*cos(theta) - g/R)*sin(theta)"),
+        ("acos(a/R - r/m)", "acos((m*a - R*r)/(m*R))"),
+        ("acos(1 - a/R)", "acos(1 - a/R)"),
+        # a letter before a bracket with the same letter
+        ("m*(2*r' + m*theta) + g", "2*m*r' + m^2*theta + g"),
     ],
 )
 def test_a_formula_is_written_as_its_file_writes(formula, written):

@@ -120,7 +120,7 @@ class Shaper:
 
         A root that the denominator holds as well may belong to a common factor.
         """
-        if element.is_polynomial():
+        if element.is_polynomial() or self._is_root_of_quadratic(element):
             return
         kinds = self.field.generators
         used = self.field.ring.used
@@ -268,6 +268,7 @@ class Shaper:
             len(divisors) < len(below.parts)
             or not divisors
             or not 2 <= len(element.numerator) <= LONG
+            or self._is_root_of_quadratic(element)
         ):
             return
         divisor = tuple(sorted(divisors))
@@ -290,6 +291,22 @@ class Shaper:
             if len(below_each) > 1 and known[0] and (not known[1] or content.keys() == {()}):
                 parts = [self.grouper.group(each, spread=True) for each in below_each.values()]
                 yield total([as_product(self.atoms, part) for part in parts])
+
+    def _is_root_of_quadratic(self, element: Element) -> bool:
+        """Whether N is b + sqrt(b² - a c), of letters at rest, which stays over one denominator."""
+        kinds = [self.field.generators[g] for g in self.field.ring.used(element.numerator)]
+        roots = [each for each in kinds if each.kind == "root"]
+        letters = [each for each in kinds if each not in roots]
+        if len(roots) != 1 or any(each.kind != "symbol" for each in letters):
+            return False
+        if any(self._is_fast(each.expression.name) for each in letters):
+            return False
+        radicand = self.field.ring.lift(roots[0].radicand)
+        return len(radicand) > 1 and self._over(element.denominator, radicand) is None
+
+    @staticmethod
+    def _is_fast(name: str) -> bool:
+        return name.endswith("'") or name.startswith("p_")
 
 
 def _sums_of(poly: Poly) -> frozenset[tuple[str, int]]:

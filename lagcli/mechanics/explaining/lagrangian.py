@@ -28,9 +28,9 @@ def lagrangian(explainer: Explainer) -> Iterator[Block]:
             " means" if len(letters.moved) == 1 else " mean",
             " something else in this file, so the usual quantity has the index 'sys' here.",
         )
-    if problem.definitions:
+    if definitions := {**problem.named, **problem.definitions}:
         yield says("The definitions of the file are")
-        yield equations_of((Name(n), formula) for n, formula in problem.definitions.items())
+        yield equations_of((Name(n), formula) for n, formula in definitions.items())
     if system.H is not None:
         yield from _hamiltonian(explainer, system.H)
     elif system.T is None or system.V is None:

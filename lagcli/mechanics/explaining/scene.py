@@ -23,7 +23,7 @@ def scene(explainer: Explainer) -> Iterator[Block]:
         "The coordinate " if one else "The coordinates ",
         names(coordinates),
         " describes the configuration." if one else " describe the configuration.",
-        *_constants([p.name for p in problem.parameters]),
+        *_constants([p.name for p in problem.parameters if p.name not in problem.named]),
     )
     equations = dynamics.constraints.equations
     if not equations:

@@ -67,6 +67,7 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
         plain = [without_moduli(root, linear.point.positive) for root in roots]
         given, roots = roots, plain
         pair = beats(roots, chosen)
+        shapes: tuple[tuple[Expr, ...], ...] = ()
         for k, root in enumerate(roots):
             if pair:
                 frequency, square = pair[k], simplify(pair[k] ** 2)
@@ -75,7 +76,12 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
                 square = shorter(simplify(root), root)
             known = sign(square, linear.point.positive)
             falls = frequency is None and known == -1
-            shapes = _shapes(linear, square, values) or _shapes(linear, given[k], values)
+            shapes = (
+                _conjugate(modes[-1], square, linear, values)
+                if k and len(roots) == 2 and shapes
+                else ()
+            )
+            shapes = shapes or _shapes(linear, square, values) or _shapes(linear, given[k], values)
             complex_somewhere = any(_is_complex(root, each) for each in chosen)
             turns = known is None and (complex_somewhere or weak_sign(square) != 1)
             modes.append(
@@ -187,6 +193,26 @@ def _shapes(
         for vector in vectors
     ]
     return () if None in shapes else tuple(shape for shape in shapes if shape is not None)
+
+
+def _conjugate(
+    mode: NormalMode, square: Expr, linear: Linearization, values: Mapping[Symbol, mpf]
+) -> tuple[tuple[Expr, ...], ...]:
+    """The shape of another mode with the other sign of its one root, where it belongs to W.
+
+    Both are then written alike: (M - m ± sqrt(m² - m M + M²))/M.
+    """
+    n = len(linear.system.q)
+    if len(mode.shapes) != 1 or sympy.Matrix(linear.basis) != sympy.eye(n):
+        return ()
+    (shape,) = mode.shapes
+    roots = {x for part in shape for x in part.atoms(sympy.Pow) if abs(x.exp) == S.Half}
+    if len(roots) != 1:
+        return ()
+    root = roots.pop()
+    other = tuple(part.xreplace({root: -root}) for part in shape)
+    matrix = [[linear.K[i][j] - square * linear.M[i][j] for j in range(n)] for i in range(n)]
+    return (other,) if _annihilates(matrix, other, values) else ()
 
 
 def _displacement(linear: Linearization, vector: Sequence[Expr]) -> tuple[Expr, ...] | None:

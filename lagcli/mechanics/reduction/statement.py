@@ -14,6 +14,7 @@ from lagcli.algebra.build import symbol
 from lagcli.algebra.conjugate_roots import written_alike
 from lagcli.algebra.equations import written
 from lagcli.algebra.factors import square_part
+from lagcli.algebra.simplification import fraction
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
     ONE,
@@ -27,6 +28,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
     factors_of,
+    operation_count,
     quotient_of,
     sum_of,
     terms_of,
@@ -44,6 +46,8 @@ from lagcli.mechanics.reduction.routh import Routh
 from lagcli.statements.answers import EquationsSection, LagrangeEquation, ReductionSection
 from lagcli.statements.motions import Irreducible, OneFreedom, PeriodSeries
 
+#: How many times as long one fraction may be as a bracket with fractions.
+_WHOLE = 1.25
 _ONCE = Fraction(1)
 _HALF = Fraction(1, 2)
 
@@ -259,7 +263,7 @@ class _Statement:
         name = free_name(self.routh, ("a", "A", "a_0", "A_0"))
         amplitude, order = symbol(name, "positive"), (*self.order, name)
         corrections = [
-            shape(c * amplitude ** (k + 1), order)
+            _over_one(c * amplitude ** (k + 1), order)
             for k, c in enumerate(found.coefficients)
             if c != 0
         ]
@@ -279,6 +283,15 @@ class _Statement:
             period=period,
             where=conditions(found.where, self.order),
         )
+
+
+def _over_one(term: Expr, order: Sequence[str]) -> Expression:
+    """The term, as one fraction where its brackets would hold others."""
+    shown = shape(term, order)
+    sums = (part for part in walk(shown) if isinstance(part, Sum))
+    nested = any(isinstance(part, Quotient) for each in sums for part in walk(each))
+    whole = fraction(term, order) if nested else shown
+    return whole if operation_count(whole) <= _WHOLE * operation_count(shown) else shown
 
 
 def _rate(motion: Motion, potential: Expression, order: Sequence[str]) -> Expression:
@@ -313,9 +326,10 @@ def _two_pi_times(root: Expression) -> Expression:
     number, factors = _number_and_rest(above_)
     divisor, divisors = _number_and_rest(below)
     number = 2 * number / divisor
-    powers = factors.count(Name("pi")) + 1
+    powers = factors.count(Name("pi")) + 1 - divisors.count(Name("pi"))
     pi = Name("pi") if powers == 1 else Power(Name("pi"), Number(Fraction(powers)))
-    whole = [pi, *(factor for factor in factors if factor != Name("pi"))]
+    whole = [*([pi] if powers else []), *(factor for factor in factors if factor != Name("pi"))]
+    divisors = [factor for factor in divisors if factor != Name("pi")]
     if number.numerator != 1:
         whole.insert(0, Number(Fraction(number.numerator)))
     if number.denominator != 1:

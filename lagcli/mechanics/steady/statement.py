@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from fractions import Fraction
 from functools import cached_property
 
 import sympy
@@ -15,7 +16,7 @@ from lagcli.algebra.equations import rounded, written
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import vanishing_part, without_moduli
 from lagcli.algebra.signs import sign, sign_beside_zero
-from lagcli.expression import Expression
+from lagcli.expression import Expression, Number, Power
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
@@ -39,6 +40,8 @@ from lagcli.mechanics.stability.verdict import Stability, undecided
 from lagcli.mechanics.steady.moving_frames import moving_frames
 from lagcli.mechanics.steady.rolling import RollingMotions
 from lagcli.mechanics.steady.rolling_statement import applies, rolling_section
+from lagcli.notation.manner import Manner
+from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.statements.motions import Above, SteadyMotion, SteadySection, Verdict
 
@@ -57,7 +60,7 @@ def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:
     routh = Routh(derivation)
     if routh.reduced is None:
         return _not_found(routh.reason)
-    section, missing = _SteadyStatement(SteadyMotions(routh)).section()
+    section, missing = _SteadyStatement(SteadyMotions(routh), derivation.given).section()
     if section.motions == () and not derivation.problem.contacts:
         drifting = RollingMotions(derivation)  # along what the equations of motion do not contain
         if drifting.motions and drifting.turning:
@@ -71,8 +74,9 @@ def _not_found(reason: str) -> tuple[SteadySection, Missing]:
 
 
 class _SteadyStatement:
-    def __init__(self, steady: SteadyMotions) -> None:
+    def __init__(self, steady: SteadyMotions, given: Problem) -> None:
         self.steady = steady
+        self.given = given
         self.routh = steady.routh
         momenta = tuple(p.name for p in self.routh.momenta)
         names = tuple(n for n in steady.full.order if n not in momenta)
@@ -82,8 +86,12 @@ class _SteadyStatement:
         steady = self.steady
         found = steady.motions
         cyclic = tuple(steady.full.names[j] for j in self.routh.cyclic)
+        manner = Manner(self.given)
         conditions = (
-            {str(k): self._shape(vanishing_part(c)) for k, c in enumerate(steady.balance)}
+            {
+                str(k): manner.vanishing(self._shape(vanishing_part(c)))
+                for k, c in enumerate(steady.balance)
+            }
             if self.routh.quadratic
             else {}
         )
@@ -186,7 +194,7 @@ class _SteadyStatement:
             mirrored=motion.mirrored,
             verdict=self._verdict(judged, motion, potential, turning=turning),
             frequencies_squared=tuple(
-                self._shape(without_moduli(w, motion.positive)) for w in squares
+                self._square(without_moduli(w, motion.positive)) for w in squares
             ),
             mass=self._matrix(matrices[0]) if matrices else (),
             velocity=self._matrix(matrices[1]) if matrices else (),
@@ -254,6 +262,13 @@ class _SteadyStatement:
 
     def _shape(self, expression: Expr) -> Expression:
         return written(expression, self.order)
+
+    def _square(self, expression: Expr) -> Expression:
+        """(Ω ± sqrt(k/m))² as the square of what it is the square of."""
+        base, power = expression.as_base_exp()
+        if power != 2 or not base.is_Add:
+            return self._shape(expression)
+        return Power(self._shape(base), Number(Fraction(2)))
 
 
 def _may_be_complex(square: Expr, positive: Sequence[Expr]) -> bool:

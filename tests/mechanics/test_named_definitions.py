@@ -1,0 +1,137 @@
+"""Definitions of a file that its answers keep by name, and those that they cannot keep."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from lagcli.expression import Expression, Name, walk
+from lagcli.formatters import Options
+from lagcli.graph.nodes import Graph
+from lagcli.graph.reading import GraphReader
+from lagcli.graph.values import Floats, Program
+from lagcli.mechanics.named_definitions import with_named_constants
+from lagcli.pipeline import Request, derive, explain, read, render, state
+
+# Goldstein, 3rd ed., sections 3.1 and 3.7: two bodies by their reduced mass
+TWO_BODIES = """
+coordinates: {r: {assume: positive}, phi: }
+parameters: {m1: {assume: positive}, m2: {assume: positive}, G: {assume: positive}}
+definitions: {mu: m1*m2/(m1 + m2), k: G*m1*m2}
+T: mu*(r'^2 + r^2*phi'^2)/2
+V: -k/r
+"""
+# Szebehely, Theory of Orbits, section 1.5
+THREE_BODIES = """
+coordinates: [x, y]
+parameters: {mu: {assume: positive}}
+definitions:
+  r1: sqrt((x + mu)^2 + y^2)
+  r2: sqrt((x - 1 + mu)^2 + y^2)
+T: ((x' - y)^2 + (y' + x)^2)/2
+V: -(1 - mu)/r1 - mu/r2
+"""
+
+
+def problem_of(text):
+    found = read("file.yaml", ("title: t\n" + text).encode())
+    assert found.problem is not None, found.diagnostics
+    return found.problem
+
+
+def answers_of(text, *sections, named=True):
+    request = Request(sections=sections, named=named)
+    return state(derive(problem_of(text), named=named), request)
+
+
+def text_of(answers):
+    return render([answers], "text", Options())
+
+
+def test_a_reduced_mass_keeps_its_name():
+    text = text_of(answers_of(TWO_BODIES, "lagrangian", "accelerations", "hamiltonian"))
+    assert "μ = m₁ m₂/(m₁ + m₂)" in text
+    assert "L = μ (ṙ² + r² φ̇²)/2 + k/r" in text
+    assert "r̈ = r φ̇² − k/(μ r²)" in text
+    assert "H = (p_r² + p_φ²/r²)/(2 μ) − k/r" in text
+    assert "parameters m₁, m₂, G;" in text
+
+
+def test_distances_keep_their_names():
+    text = text_of(answers_of(THREE_BODIES, "lagrangian", "accelerations"))
+    assert "+ (1 − μ)/r₁ + μ/r₂" in text
+    assert "ẍ = 2 ẏ + x − μ (x − 1 + μ)/r₂³ − (1 − μ) (x + μ)/r₁³" in text
+    assert text.count("√") == 2  # the definitions themselves
+
+
+@pytest.mark.parametrize("text", [TWO_BODIES, THREE_BODIES])
+def test_the_values_are_those_of_what_is_written_out(text):
+    """Both answers at random points, the definitions evaluated by the file's own reader."""
+    problem, chance = problem_of(text), random.Random(5)
+    pairs = zip(
+        *(
+            answers_of(text, "accelerations", named=named)
+            .sections["accelerations"]
+            .accelerations.values()
+            for named in (True, False)
+        ),
+        strict=True,
+    )
+    for one, other in pairs:
+        values = {
+            name: chance.uniform(0.2, 0.9)
+            for q in problem.coordinates
+            for name in (q.name, q.name + "'")
+        }
+        values |= {p.name: chance.uniform(0.2, 0.9) for p in problem.parameters}
+        assert value(problem, one, values) == pytest.approx(value(problem, other, values))
+
+
+def value(problem, formula: Expression, values):
+    names = tuple(q.name for q in problem.coordinates)
+    node = GraphReader(Graph(), names, problem.definitions)(formula)
+    (number,) = Program([node], Floats())(values)
+    return number
+
+
+@pytest.mark.parametrize(
+    ("definitions", "physics"),
+    [
+        # m occurs beside it: T would be positive only where M > m
+        ("{M: m + n}", "T: M*x'^2/2 + m*y'^2/2"),
+        # two functions of one parameter
+        ("{a: n^2, b: n^3}", "T: a*x'^2/2 + b*y'^2/2"),
+        # a position is no constant
+        ("{u: m*x}", "T: n*(x'^2 + y'^2)/2\nV: u^2"),
+    ],
+)
+def test_what_is_not_free_is_written_out(definitions, physics):
+    problem = problem_of(
+        "coordinates: [x, y]\nparameters: {m: {assume: positive}, n: {assume: positive}}\n"
+        f"definitions: {definitions}\n{physics}\n"
+    )
+    assert with_named_constants(problem) is problem
+
+
+def test_the_sign_of_a_definition_is_known():
+    named = with_named_constants(problem_of(TWO_BODIES))
+    assert {p.name: p.assume for p in named.parameters}["mu"] == "positive"
+    assert list(named.named) == ["mu", "k"]
+
+
+def test_they_are_written_out_where_names_are_not_wanted():
+    answers = answers_of(TWO_BODIES, "accelerations", named=False)
+    used = {
+        part.name
+        for formula in answers.sections["accelerations"].accelerations.values()
+        for part in walk(formula)
+        if isinstance(part, Name)
+    }
+    assert not used & {"mu", "k"}
+
+
+def test_an_explanation_lists_and_keeps_them():
+    told = repr(explain(derive(problem_of(THREE_BODIES), named=True), named=True).steps)
+    assert "r1" in told
+    assert "Fraction(3, 2)" not in told.split("Lagrange's equations")[1]
