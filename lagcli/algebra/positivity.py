@@ -62,7 +62,8 @@ def _without_letters(factor: Expr) -> Expr:
     """sin θ/b³ + m g cos θ of a sin θ/b³ + m g a cos θ, where a is not 0."""
     if not factor.is_Add:
         return factor
-    factor = factor.primitive()[1]
+    number, rest = factor.primitive()
+    factor = rest if number.is_Integer else factor
     terms = [term.as_powers_dict() for term in sympy.Add.make_args(factor)]
     common = {
         letter: min(term.get(letter, S.Zero) for term in terms)

@@ -302,7 +302,7 @@ class Shaper:
         if any(self._is_fast(each.expression.name) for each in letters):
             return False
         radicand = self.field.ring.lift(roots[0].radicand)
-        return len(radicand) > 1 and self._over(element.denominator, radicand) is None
+        return len(radicand) > 1 and self.field.quotient(element.denominator, radicand) is None
 
     @staticmethod
     def _is_fast(name: str) -> bool:
