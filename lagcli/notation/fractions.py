@@ -144,11 +144,18 @@ class Brackets:
 
     def _is_form(self, node: Sum) -> bool:
         """Whether momenta stand in all of its terms to the second power."""
-        degrees = (
-            sum(e for b, e in _Monomial.of(t).powers.items() if self._momentum(b))
-            for t in node.terms
-        )
-        return min(degrees) > 1
+        return min(map(self._degree, node.terms)) > 1
+
+    def _degree(self, term: Expression) -> int:
+        """The degree in the momenta of a term, above its denominator."""
+        _, above, _ = parts_of(term)
+        degree = 0
+        for base, exponent in map(whole_power, above):
+            if isinstance(base, Sum):
+                degree += exponent * max(map(self._degree, base.terms))
+            elif self._momentum(base):
+                degree += exponent
+        return degree
 
     def _momentum(self, node: Expression) -> bool:
         return any(isinstance(part, Name) and part.name in self._momenta for part in walk(node))
@@ -160,7 +167,7 @@ class Brackets:
         if len(brackets) != 1 or len(above) == 1 or len(brackets[0].terms) > _TERMS:
             return [term]
         (bracket,) = brackets
-        if all(map(is_letter, bracket.terms)):
+        if all(map(is_letter, bracket.terms)) or any(map(_accelerates, walk(bracket))):
             return [term]
         if any(isinstance(whole_power(f)[0], Sum) for f in (*above, *below) if f is not bracket):
             return [term]
@@ -177,6 +184,10 @@ class Brackets:
             fractional and any(map(self._momentum, outside.powers))
         ):
             return [term]  # (p − q A) stays together
+        if all(any(map(_is_rate, part.powers)) for part in parts) and not any(
+            map(_is_rate, outside.powers)
+        ):
+            return [term]  # R (x' + R θ')
         inside = {base for part in parts for base, e in part.powers.items() if e > 0}
         before = {base for base, e in outside.powers.items() if e > 0 and isinstance(base, Name)}
         if not inside & before:
@@ -201,3 +212,11 @@ class Brackets:
         for factor in below:
             outside.multiply(factor, -1)
         return [part.times(outside).written(self._ordering) for part in parts]
+
+
+def _is_rate(node: Expression) -> bool:
+    return isinstance(node, Name) and node.primes > 0
+
+
+def _accelerates(node: Expression) -> bool:
+    return isinstance(node, Name) and node.primes > 1

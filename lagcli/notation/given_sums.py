@@ -154,12 +154,14 @@ class GivenPotential:
     ----------
     potential
         Of the file; its terms stay apart where the algebra has brought some together.
+    ordering
+        Of the factors of a product.
     """
 
-    def __init__(self, potential: Expression | None) -> None:
+    def __init__(self, potential: Expression | None, ordering: Ordering) -> None:
         value = multiplied_out(potential) if isinstance(potential, Sum) else None
         self._value = value if value and is_tidy(cast(Sum, potential)) else None
-        self._node = potential
+        self._node = None if potential is None else _arranged(potential, ordering)
 
     def __call__(self, node: Expression) -> Expression:
         """The formula with V or −V for all that has neither velocities nor momenta."""
@@ -174,6 +176,9 @@ class GivenPotential:
         ratios = {
             c / self._value[term] if term in self._value else None for term, c in value.items()
         }
+        keys = [{signed_key(t)[1] for t in terms_of(each)} for each in (shown, given)]
+        if keys[0] == keys[1]:  # it has the terms of the file already
+            return node
         if ratios not in ({Fraction(1)}, {Fraction(-1)}) or _LIMIT * operation_count(
             shown
         ) < operation_count(given):

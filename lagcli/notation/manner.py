@@ -86,7 +86,7 @@ class Manner:
                     self._signs[key] = sign if self._signs.get(key, sign) == sign else 0
         self._ordering = Ordering(order_of_names(problem))
         self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
-        self._potential = GivenPotential(problem.potential)
+        self._potential = GivenPotential(problem.potential, self._ordering)
         names = [q.name for q in problem.coordinates]
         self._momenta = NamedMomenta(names, self._positive, self._ordering)
         self._brackets = Brackets(self._ordering, frozenset("p_" + name for name in names))
