@@ -281,10 +281,11 @@ class RestPoints(RestConditions):
         return found or list(self._evident_in_one())
 
     def _evident_in_one(self) -> Iterator[RestPoint]:
-        """Where one coordinate is 0, an angle 0 or pi, and the others follow: y = a cos(x/a)."""
+        """On a curve, where one coordinate is 0, or an angle 0 or pi: the others follow."""
         q, known = self.system.q, []
+        on_a_curve = len(self.dynamics.independent_constraints) == len(q) - 1 > 0
         places = [(s, x) for s in q for x in (S.Zero, sympy.pi)[: 1 + self.is_angle(s)]]
-        for unknown, value in places if len(q) > 1 else ():
+        for unknown, value in places if on_a_curve else ():
             there = [e.xreplace({unknown: value}) for e in self.at_all_times]
             if any(e.has(S.NaN, S.ComplexInfinity) for e in there):
                 continue
