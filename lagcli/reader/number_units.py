@@ -11,7 +11,7 @@ from lagcli.reader.habits import unit_behind
 if TYPE_CHECKING:
     from collections.abc import Container
 
-_COUNT = re.compile(r"([\d.]+(?:[eE][-+]?\d+)?)\s*([^\W\d]\w*)")
+_COUNT = re.compile(r"([\d.]+(?:[eE][-+]?\d+)?)\s*(?![eE]\d+$)([^\W\d]\w*)")
 _TIME = (("s", Fraction(1)),)
 
 
