@@ -92,6 +92,7 @@ def changed(problem, name, **attributes):
     )
 
 
+@pytest.mark.first_quick
 @by_title
 def test_a_unit_that_the_others_determine_is_inferred_and_a_wrong_one_is_found(problem):
     for quantity in quantities(problem):

@@ -26,6 +26,7 @@ def test_refused(simulate, text, status, word):
     assert run.out == ""
 
 
+@pytest.mark.long
 def test_constraints_that_contradict_each_other(lagcli, simulate):
     text = (
         "coordinates: [x, y]\n" + PLANE + "constraints: {one: x^2 + y^2 = 1, two: x^2 + y^2 = 2}\n"

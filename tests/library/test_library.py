@@ -135,6 +135,7 @@ class TestSet:
         for format_name in ("markdown", "html", "json"):
             assert explaining.render(told, format_name, Options())
 
+    @pytest.mark.long
     def test_further_steps_of_explanations_compile(self, tmp_path):
         told = [
             explain(derive(load(LIBRARY / f"{name}.yaml")), also) for name, also in FURTHER.items()

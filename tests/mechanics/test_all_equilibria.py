@@ -85,6 +85,7 @@ def test_both_minima_of_three_cosines():
         assert any(math.dist((sign * third,) * 2, point) < 1e-12 for point in points)
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(6))
 def test_a_phase_moves_the_critical_points(seed):
     """a cos n (x - d) + b cos 2 n (x - d) + c cos (y - e): found at d and e, and all of them."""

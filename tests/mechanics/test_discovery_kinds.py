@@ -136,6 +136,7 @@ def test_the_energy_of_a_damped_oscillator_is_named(letters):
     assert min(digits_of(derivation).values()) > 20
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("c", "name"), [("a", "damped_energy"), ("-a", "energy_exp"), ("B", "energy_exp")]
 )

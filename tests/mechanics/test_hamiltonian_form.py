@@ -30,6 +30,7 @@ def formula(found):
     return found.grammar
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("given", "book"),
     [

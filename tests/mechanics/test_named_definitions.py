@@ -66,6 +66,7 @@ def test_distances_keep_their_names():
 
 
 @pytest.mark.parametrize("text", [TWO_BODIES, THREE_BODIES])
+@pytest.mark.first_quick
 def test_the_values_are_those_of_what_is_written_out(text):
     """Both answers at random points, the definitions evaluated by the file's own reader."""
     problem, chance = problem_of(text), random.Random(5)
@@ -131,6 +132,7 @@ def test_they_are_written_out_where_names_are_not_wanted():
     assert not used & {"mu", "k"}
 
 
+@pytest.mark.long
 def test_an_explanation_lists_and_keeps_them():
     told = repr(explain(derive(problem_of(THREE_BODIES), named=True), named=True).steps)
     assert "r1" in told

@@ -76,6 +76,7 @@ def test_signs_and_absolute_values_in_the_potential_break_no_section(seed: int) 
     assert_sound(answers(f"{HEAD}V: {potential(source)}\n", QUICK))
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize(
     "argument", ["x/(2 + sin(y))", "log(cos(x)^2)", "x^c", "asin(sin(x))", "atanh(tanh(x)/2)"]
 )

@@ -150,6 +150,7 @@ FRAMES = {
 }
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize(("text", "frame"), FRAMES.items())
 def test_what_a_frame_that_moves_along_leaves_the_same(text, frame):
     told = answered(f"coordinates: [a, b]\n{_POSITIVE}\n{text}\n", "steady_motions")

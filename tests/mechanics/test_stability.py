@@ -191,6 +191,7 @@ L: (x'^2 + y'^2 + z'^2)/2 + {n}*(x*y' - y*x') - ({k}*x^2 + 2*{c}*x*z + {w * w}*z
     assert found.stable is (away < 500), away
 
 
+@pytest.mark.long
 def test_a_pendulum_over_a_repelling_charge_rests_aside_stably():
     """V' = l sin(θ) (m g - c/D²) vanishes at D² = c/(m g), and V'' = 2 c l² sin²(θ)/D³ there."""
     found = equilibria(

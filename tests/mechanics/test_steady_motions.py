@@ -365,6 +365,7 @@ V: -M*g*(l - r)*cos(theta)
     assert squares == {formula("g/(l - r)"), formula("3*M*g/((m + M)*r)")}
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("turns", [1, 2, 3])
 def test_the_distance_is_given_where_the_rate_is_short_by_it(turns):
     """An elastic string over a hole with M in the bight of `turns` pulleys: m φ'² r = M g/turns."""

@@ -130,6 +130,7 @@ initial: {{x: {x}, x': {v}}}
 """
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(3))
 def test_a_ball_that_bounces_many_times(seed):
     draw = random.Random(seed)
@@ -269,6 +270,7 @@ def test_a_force_with_a_vertical_tangent(accuracy):
     assert held(result, "x'", 2 * (c**1.5 + (8 - c) ** 1.5) / 3)
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("force", "method", "what"),
     [
@@ -285,6 +287,7 @@ def test_corners_jumps_and_poles_are_distinguished(force, method, what, rate):
     assert what in simulated(file, 8.0, 1e-9, method=method).refusal
 
 
+@pytest.mark.first_quick
 @pytest.mark.skipif(not engine().quadruple, reason="no numbers of 128 bits")
 @pytest.mark.parametrize("force", ["sqrt(1 - cos(t + 1)^2)", "asin(sin(3*t))", "acos(cos(2*t))"])
 def test_a_corner_met_by_a_run_of_128_bits(force):

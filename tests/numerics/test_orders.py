@@ -150,6 +150,7 @@ def test_no_exact_derivatives_where_nothing_dies_away_quickly(monkeypatch):
     assert len(asked) == 1
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("method", ["radau5", "gauss8", "yoshida8"])
 @pytest.mark.parametrize("accuracy", [1e-4, 1e-8])
 def test_certified_against_the_exact_motion(method, accuracy):

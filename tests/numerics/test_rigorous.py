@@ -237,6 +237,7 @@ def test_what_a_constraint_determines_is_no_double(constraint, given, exact):
         assert float(row[1].rad()) < 1e-20
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("force", "integral"),
     [

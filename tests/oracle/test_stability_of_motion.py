@@ -48,6 +48,7 @@ def test_the_same_of_many_systems(seed: int) -> None:
     assert not examined(claimed(system(seed)))
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("name", SHORT)
 def test_some_problems_of_the_library(name: str) -> None:
     problem = load(PROBLEMS / f"{name}.yaml")

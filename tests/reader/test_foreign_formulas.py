@@ -48,6 +48,7 @@ def formulas():
                 yield problem, formula
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("language", WRITERS)
 def test_what_sympy_prints_for_another_language_is_translated_back(language):
     draw, right, unclear = random.Random(language), 0, 0

@@ -439,6 +439,7 @@ def test_what_a_kinetic_energy_may_be_is_read_without_a_warning(kinetic):
         assert messages(text(T=kinetic, parameters=parameters)) == []
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("entry", entries(), ids=lambda entry: entry.name)
 def test_no_problem_of_the_library_is_warned_of(entry):
     assert read_problem(entry.name, entry.path.read_bytes()).diagnostics == ()

@@ -43,6 +43,7 @@ def test_the_schema_is_one_and_has_every_key():
     assert tuple(problem_schema()["properties"]) == KEYS
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("entry", entries(), ids=lambda entry: entry.name)
 def test_every_problem_of_the_library_is_valid(entry):
     assert is_valid(entry.path.read_text("utf-8"))

@@ -41,6 +41,7 @@ def _value(formula: str, values: dict[str, float]) -> float:
     return eval(formula.replace("^", "**"), {**names, **values})
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("argument", ["a - b*cos(x)", "a^2 - b^2*sin(x/2)^2", "a + b*cos(x) - c"])
 @pytest.mark.parametrize("outer", ["c*sqrt({})", "-c*({})^(3/2)", "b*log({})", "c/sqrt({})"])
 def test_an_equilibrium_exists_where_the_potential_is_real(outer: str, argument: str) -> None:
