@@ -143,7 +143,7 @@ def named(row):
     return pytest.param(row, id=row[2].split("\n")[0][:40], marks=slow)
 
 
-@pytest.mark.parametrize("row", map(named, BOOK))
+@pytest.mark.parametrize("row", [*map(named, BOOK)])
 def test_the_book_s_form_is_printed(row):
     *file, wanted = row
     sections = dict.fromkeys(PLACES.get(path, path.split(".")[0]) for path in wanted)
