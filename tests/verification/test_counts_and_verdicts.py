@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.expression import Negative
 from lagcli.pipeline import Request, derive, state
 from lagcli.reader import parse_text, read_problem
 from lagcli.record import replace
@@ -51,10 +50,11 @@ def test_the_verdict_on_a_family_is_examined(verdict, kept):
     assert (found.sections["equilibria"].equilibria[0].verdict == changed.verdict) is kept
 
 
-def test_a_frequency_is_not_negative():
+@pytest.mark.parametrize("frequency", ["-sqrt(k/m)", "sqrt(-k/m)", "sqrt(-k*(2 - sqrt(2))/m)"])
+def test_a_frequency_is_real_and_not_negative(frequency):
     problem, answers, section = sheet(f"{PLANE}V: k*x^2/2 + c*y^2/2\n", "modes")
     first, *rest = section.modes
-    wrong = replace(first, frequency=Negative(first.frequency))
+    wrong = replace(first, frequency=parse_text(frequency))
     assert printed(problem, answers, modes=section).complete
     found = printed(problem, answers, modes=replace(section, modes=(wrong, *rest)))
     assert found.sections["modes"].modes is None
