@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from lagcli.expression import Negative
 from lagcli.pipeline import Request, derive, state
 from lagcli.reader import parse_text, read_problem
 from lagcli.record import replace
