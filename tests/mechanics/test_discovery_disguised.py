@@ -129,8 +129,8 @@ def test_an_inverse_square_on_the_sphere_leaves_neumanns_integral():
 
 def test_a_special_value_lists_only_what_is_new():
     L = "m*(x'^2 + y'^2)/2 + q*B*(x*y' - y*x')/2 + k*(x^2 + y^2)/2"
-    found = derive(problem(L, "[x, y]", "m B k | q")).discovery
-    at_zero = next(case for case in found.special if case.value == 0)
+    found = derive(problem(L, "[x, y]", "m B k | q"))
+    at_zero = next(case for case in found.special_cases if case.value == 0)
     assert [c.name for c in at_zero.charges] == ["energy_x", "fradkin_xy"]
 
 

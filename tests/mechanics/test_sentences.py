@@ -163,7 +163,6 @@ KEPT = (
     ("forces: {y: k*x}", True, "a force that is not in L depends on it"),
     ("constraints: {c: x' = y'*z}", False, "the constraint 'c' acts along it"),
     ("constraints: {c: z' = y'*x}", True, "the constraint 'c' contains it"),
-    ("constraints: {c: x' = 0}", True, "the constraint 'c' contains its velocity"),
 )
 
 
@@ -181,6 +180,16 @@ def test_a_cyclic_coordinate_is_kept_for_a_reason(acting, conserved, why):
     verdict = "is cyclic and p_x is constant, but" if conserved else "but p_x is not conserved:"
     assert verdict in sentences
     assert "No coordinate is cyclic" not in sentences
+
+
+def test_a_coordinate_that_a_constraint_holds_still_is_eliminated():
+    text = (
+        "coordinates: [x, y, z]\nparameters: [m, k]\nT: m*(x'^2 + y'^2 + z'^2)/2\n"
+        "V: k*(y^4 + z^4)\nconstraints: {c: x' = 0}\n"
+    )
+    section, _ = reduction(derive(text))
+    assert section.irreducible == {}
+    assert "eliminate x" in said(text, "The reduction", "reduction")
 
 
 def test_what_the_constraints_eliminate_is_named_before_none_is_cyclic():
@@ -308,7 +317,7 @@ def test_special_values_are_symmetric_in_three_frequencies():
         "b: {assume: positive}, c: {assume: positive}}\nT: m*(x'^2 + y'^2 + z'^2)/2\n"
         "V: a*x^2/2 + b*y^2/2 + c*z^2/2\n"
     )
-    special = derive(text).discovery.special
+    special = derive(text).special_cases
     assert {frozenset((case.parameter.name, str(case.value))) for case in special} >= {
         frozenset("ab"), frozenset("ac"), frozenset("bc"),
     }  # fmt: skip

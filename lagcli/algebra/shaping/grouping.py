@@ -94,6 +94,8 @@ class Grouper:
         return {t: int(v) for t, v in self.atoms.terms(other).items()}
 
     def _search(self, terms: Integers, spread: bool) -> PlannedProduct | PlannedSum:
+        if not terms:  # what the angles' relations leave nothing of
+            return product(self.atoms, 0, [])
         if len(terms) == 1:
             ((term, coefficient),) = terms.items()
             return product(self.atoms, coefficient, list(term))
