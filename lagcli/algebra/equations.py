@@ -153,11 +153,11 @@ def factor_roots(
     field: Field, poly: Poly, generator: int
 ) -> list[tuple[list[Expr] | None, int, int]]:
     """By irreducible factor: roots (None without closed form), multiplicity, degree."""
-    factors = irreducible_factors(field, poly, generator)
+    factors = factors_by_coefficients(field, poly, generator)
     return [(_roots(field, parts), many, len(parts) - 1) for parts, many in factors]
 
 
-def irreducible_factors(
+def factors_by_coefficients(
     field: Field, poly: Poly, generator: int
 ) -> list[tuple[list[Element], int]]:
     """Those with the generator: the coefficients a_0, a_1, … and the multiplicity of each."""

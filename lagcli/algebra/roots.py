@@ -20,6 +20,7 @@ from lagcli.algebra.half_angles import (
     to_half_angle,
 )
 from lagcli.algebra.ring import Poly, factorization
+from lagcli.algebra.squared_sines import factors_and_sines
 
 _MOST_ANGLES = 5  # beyond, and at higher degrees, no square is looked for in half angles
 _HIGHEST = 8
@@ -41,30 +42,11 @@ def absolute(field: ExpressionField, element: Element) -> Element:
     return _absolute(field, element.numerator) / _absolute(field, element.denominator)
 
 
-def _factors(
-    field: ExpressionField, poly: Poly
-) -> tuple[int, list[tuple[Poly, int]], list[Element]]:
-    """Content and factors, and apart from them s for each s² = 1 - c² or c² - 1 that is one."""
-    content, factors = factorization(poly)
-    number, exponents, sines = int(content), dict(enumerate(k for _, k in factors)), list[Element]()
-    lifted = [field.ring.lift(factor) for factor, _ in factors]
-    for g in {g for factor in lifted for g in field.ring.used(factor)}:
-        generator, cosine = field.generators[g], field.ring.generator(g)
-        ends = [cosine - field.ring.one, cosine + field.ring.one]
-        if generator.kind in ("cos", "cosh") and all(end in lifted for end in ends):
-            places = [lifted.index(end) for end in ends]
-            both = min(exponents[k] for k in places)
-            exponents |= {k: exponents[k] - both for k in places}
-            number *= (-1) ** both if generator.kind == "cos" else 1
-            sines += [field.generator(generator.partner)] * both
-    return number, [(factors[k][0], e) for k, e in exponents.items() if e], sines
-
-
 def _absolute(field: ExpressionField, poly: Poly) -> Element:
-    number, factors, sines = _factors(field, poly)
+    number, factors, sines = factors_and_sines(field, poly)
     result = field.rational(abs(number))
-    for sine in sines:
-        result = result * sine**2
+    for sine, pairs in sines:
+        result = result * field.generator(sine) ** (2 * pairs)
     for factor, exponent in factors:
         base = field.polynomial(factor)
         if exponent % 2 and not is_nonnegative(field, factor):
@@ -143,14 +125,14 @@ def _polynomial_root(field: ExpressionField, radicand: Poly, index: int) -> Elem
         return absolute(field, square)
     radicand = ring.reduce(radicand)
     if index == 2:
-        number, factors, sines = _factors(field, radicand)
+        number, factors, sines = factors_and_sines(field, radicand)
     else:
         content, factors = factorization(radicand)
         number, sines = int(content), []
     together = ring.constant(-1 if number < 0 else 1)
     result = _integer_root(field, abs(number), index)
-    for sine in sines:
-        result = result * absolute(field, sine)
+    for sine, pairs in sines:
+        result = result * absolute(field, field.generator(sine)) ** pairs
     factors.sort(key=lambda pair: str(pair[0]))
     for factor, exponent in factors:
         whole, rest = divmod(exponent, index)

@@ -18,7 +18,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.notation.factors import parts_of, product_of_powers, whole_power
-from lagcli.notation.ordering import Ordering, is_letter
+from lagcli.notation.ordering import Ordering, accelerates, is_letter, is_rate
 
 _GROWTH = 2  # operations that a sum may have more without an inner bracket
 _TERMS = 3  # of such a bracket
@@ -33,7 +33,12 @@ class _Monomial:
 
     @classmethod
     def of(cls, node: Expression) -> _Monomial:
-        minus, above, below = parts_of(node)
+        return cls.product(*parts_of(node))
+
+    @classmethod
+    def product(
+        cls, minus: bool, above: Sequence[Expression], below: Sequence[Expression]
+    ) -> _Monomial:
         found = cls(Fraction(-1 if minus else 1), {})
         for factors, sign in (above, 1), (below, -1):
             for factor in factors:
@@ -122,14 +127,8 @@ class Brackets:
                 isinstance(whole_power(f)[0], Call) for f in below
             ):
                 continue
-            whole = inverse
-            for factor in outside:
-                whole.multiply(factor, 1)
-            for factor in below:
-                whole.multiply(factor, -1)
-            whole.number *= -1 if minus else 1
-            whole.multiply(inside, 1)
-            return whole.written(self._ordering), inside
+            whole = inverse.times(_Monomial.product(minus, outside, below))
+            return whole.times_sum(inside, self._ordering), inside
         return None
 
     def joined(self, node: Expression) -> Expression:
@@ -167,15 +166,11 @@ class Brackets:
         if len(brackets) != 1 or len(above) == 1 or len(brackets[0].terms) > _TERMS:
             return [term]
         (bracket,) = brackets
-        if all(map(is_letter, bracket.terms)) or any(map(_accelerates, walk(bracket))):
+        if all(map(is_letter, bracket.terms)) or accelerates(bracket):
             return [term]
         if any(isinstance(whole_power(f)[0], Sum) for f in (*above, *below) if f is not bracket):
             return [term]
-        outside = _Monomial(Fraction(-1 if minus else 1), {})
-        for factors, sign in (above, 1), (below, -1):
-            for factor in factors:
-                if factor is not bracket:
-                    outside.multiply(factor, sign)
+        outside = _Monomial.product(minus, [f for f in above if f is not bracket], below)
         parts = [_Monomial.of(each) for each in bracket.terms]
         if any(isinstance(base, Sum) for part in parts for base in part.powers):
             return [term]
@@ -184,8 +179,8 @@ class Brackets:
             fractional and any(map(self._momentum, outside.powers))
         ):
             return [term]  # (p − q A) stays together
-        if all(any(map(_is_rate, part.powers)) for part in parts) and not any(
-            map(_is_rate, outside.powers)
+        if all(any(map(is_rate, part.powers)) for part in parts) and not any(
+            map(is_rate, outside.powers)
         ):
             return [term]  # R (x' + R θ')
         inside = {base for part in parts for base, e in part.powers.items() if e > 0}
@@ -208,15 +203,5 @@ class Brackets:
         inner = any(isinstance(base, Sum) for part in parts for base in part.below())
         if not inner or not all(isinstance(whole_power(f)[0], (Name, Number)) for f in below):
             return [node]
-        outside = _Monomial(Fraction(-1 if minus else 1), {})
-        for factor in below:
-            outside.multiply(factor, -1)
+        outside = _Monomial.product(minus, [], below)
         return [part.times(outside).written(self._ordering) for part in parts]
-
-
-def _is_rate(node: Expression) -> bool:
-    return isinstance(node, Name) and node.primes > 0
-
-
-def _accelerates(node: Expression) -> bool:
-    return isinstance(node, Name) and node.primes > 1

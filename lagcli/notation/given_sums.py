@@ -37,7 +37,7 @@ from lagcli.notation.likeness import (
     multiplied_out,
     signed_key,
 )
-from lagcli.notation.ordering import Ordering
+from lagcli.notation.ordering import Ordering, is_rate
 from lagcli.rewriting import rebuilt
 
 #: How many times as long as the answer's the file's own sum may be.
@@ -78,7 +78,7 @@ class GivenSums:
     def _keep_short(self, leaves: frozenset[Expression], value: Polynomial, node: Sum) -> None:
         """Keep a sum and its square, to be found within longer sums; none of squared rates."""
         if len(value) > _SHORT or any(
-            isinstance(part, Quotient) or (isinstance(part, Power) and _is_rate(part.base))
+            isinstance(part, Quotient) or (isinstance(part, Power) and is_rate(part.base))
             for part in walk(node)
         ):
             return
@@ -192,10 +192,6 @@ class GivenPotential:
 def _cost(term: Expression) -> int:
     """The operations of a term, without signs: these belong to the sums."""
     return operation_count(term) - sum(isinstance(part, Negative) for part in walk(term))
-
-
-def _is_rate(node: Expression) -> bool:
-    return isinstance(node, Name) and node.primes > 0
 
 
 def _is_fast(node: Expression) -> bool:

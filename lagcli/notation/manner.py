@@ -54,7 +54,7 @@ from lagcli.notation.fractions import Brackets
 from lagcli.notation.given_formulas import given, order_of_names
 from lagcli.notation.given_sums import GivenPotential, GivenSums, arranged
 from lagcli.notation.likeness import EVEN, ODD, Key, Monomial, multiplied_out, parity, signed_key
-from lagcli.notation.ordering import Ordering, positive_first
+from lagcli.notation.ordering import Ordering, accelerates, positive_first
 from lagcli.problem_data import Problem
 from lagcli.rewriting import rebuilt
 
@@ -221,8 +221,8 @@ class Manner:
         terms = [each for term in terms for each in self._opened(term)]
         if not isinstance(terms[0], Negative):
             return node if tuple(terms) == node.terms else Sum(tuple(terms))
-        if _accelerates(terms[0]):  # m l² θ'' − m l y'' sin θ + …
-            first = [t for t in terms if not isinstance(t, Negative) and _accelerates(t)][:1]
+        if accelerates(terms[0]):  # m l² θ'' − m l y'' sin θ + …
+            first = [t for t in terms if not isinstance(t, Negative) and accelerates(t)][:1]
             return Sum((*first, *(t for t in terms if t not in first)))
         # in order anew: a bracket that was turned has changed the sign of its term
         return Sum((*positive_first(sorted(terms, key=self._ordering.term)),))
@@ -316,7 +316,7 @@ class Manner:
                 base, odd = odd_base(factor)
                 if base is None or not odd:
                     continue
-                if _accelerates(base.terms[0]):  # a bracket, not an equation of motion
+                if accelerates(base.terms[0]):  # a bracket, not an equation of motion
                     base = Sum((*positive_first(base.terms),))
                     factors[place] = with_base(factor, base)
                     factor = factors[place]
@@ -456,10 +456,6 @@ def _with_part(node: Expression, part: Expression, other: Expression) -> Express
     if isinstance(node, (Negative, Product, Quotient)):
         return rebuilt(node, lambda inner: _with_part(inner, part, other))
     return node
-
-
-def _accelerates(node: Expression) -> bool:
-    return any(isinstance(part, Name) and part.primes > 1 for part in walk(node))
 
 
 def _sums(node: Expression) -> bool:

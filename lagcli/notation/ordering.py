@@ -251,6 +251,16 @@ def bases(term: Expression) -> Iterator[Expression]:
             yield term
 
 
+def is_rate(node: Expression, order: int = 1) -> bool:
+    """Whether it is a derivative by the time, of this order at least."""
+    return isinstance(node, Name) and node.primes >= order
+
+
+def accelerates(node: Expression) -> bool:
+    """Whether there is an acceleration in it."""
+    return any(is_rate(part, 2) for part in walk(node))
+
+
 def is_letter(node: Expression) -> bool:
     """Whether a term is a letter, perhaps with a number before it."""
     match node:

@@ -105,11 +105,12 @@ def verified(problem: Problem, answers: Answers) -> Answers:
 
             every = not listed.sought or symmetries_are_listed(examination, listed)
             if isinstance(counted := sections.get("algebra"), AlgebraSection):
-                from lagcli.verification.claims import algebra, algebra_on_surface
+                from lagcli.verification.claims.algebra import Counted, algebra
+                from lagcli.verification.claims.algebra_on_surface import OnSurface
 
-                counts = algebra_on_surface if examination.reference.rows else algebra
+                counts = OnSurface if examination.reference.rows else Counted
                 sections["algebra"] = every and _tried(
-                    examination, "algebra", counted, lambda x, s: counts.algebra(x, s, listed)
+                    examination, "algebra", counted, lambda x, s: algebra(x, s, listed, counts)
                 )
     warnings = examination.warnings()
     if not warnings:

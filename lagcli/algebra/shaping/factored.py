@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from lagcli.algebra.field import FractionField
-from lagcli.algebra.ring import Monomial, Poly, factorization
+from lagcli.algebra.ring import Monomial, Poly
 from lagcli.algebra.shaping.atoms import Atoms, Exponent, Terms, multiply
 from lagcli.algebra.shaping.expansions import Expansions
 from lagcli.algebra.shaping.grouping import Grouper, with_squares
 from lagcli.algebra.shaping.plan import OPERATION, PlannedProduct, PlannedSum, product, total
+from lagcli.algebra.squared_sines import factors_and_sines
 from lagcli.algebra.writing import Writer
 
 _MAX_FACTORED = 1500  # terms
@@ -124,33 +125,11 @@ class FactoredPolynomials:
 
     def _factored(self, poly: Poly) -> tuple[int, list[tuple[Poly, int]]]:
         """Irreducible factors; (1 - cos)(1 + cos) is joined to sin², so is cosh² - 1."""
-        content, factors = factorization(poly)
-        factors = [(f, int(e)) for f, e in factors]
-        ring = self.field.ring
-        for index in ring.used(poly):
-            generator = self.field.generators[index]
-            if generator.kind not in ("cos", "cosh"):
-                continue
-            cosine = ring.generator(index)
-            exponents = {
-                sign: next((e for f, e in factors if f == cosine - sign), 0) for sign in (1, -1)
-            }
-            pairs = min(exponents.values())
-            if not pairs:
-                continue
-            # (cos - 1)(cos + 1) = -sin²
-            if generator.kind == "cos":
-                content = int(content) * (-1) ** pairs
-            kept = []
-            for f, e in factors:
-                if f == cosine - 1 or f == cosine + 1:
-                    e -= pairs
-                if e:
-                    kept.append((f, e))
-            factors = [*kept, (ring.generator(generator.partner), 2 * pairs)]
+        content, factors, sines = factors_and_sines(self.field, poly)
+        factors += [(self.field.ring.generator(s), 2 * pairs) for s, pairs in sines]
         factors = with_squares(factors)
         factors.sort(key=lambda pair: str(pair[0]))
-        return int(content), self._with_double_angles(factors)
+        return content, self._with_double_angles(factors)
 
     def _with_double_angles(self, factors: list[tuple[Poly, int]]) -> list[tuple[Poly, int]]:
         """Sines and cosines joined to one factor where that is shorter: 2 sin cos = sin(2a)."""

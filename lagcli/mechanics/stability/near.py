@@ -11,7 +11,7 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import Field, dot, nullspace, rank, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant, determinant_in
-from lagcli.algebra.equations import irreducible_factors
+from lagcli.algebra.equations import factors_by_coefficients
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import is_positive, sign_of, weak_sign
 from lagcli.mechanics.rest.characteristic import Characteristic
@@ -365,7 +365,7 @@ def _symmetric_functions(powers: Sequence[Expr], W: Symbol) -> list[Expr]:
     field = Field([whole])
     number = field.number_of(W)
     assert number is not None
-    factors = irreducible_factors(field, field(whole).numerator, number)
+    factors = factors_by_coefficients(field, field(whole).numerator, number)
     factors.sort(key=lambda factor: factor[0][0].is_zero())  # W itself, of what is neutral
     return [
         simplify(field.to_sympy(c / a[-1])) for a, many in factors for _ in range(many)

@@ -36,20 +36,6 @@ _KNOWN: dict[str, Signature] = {
 }  # fmt: skip
 
 
-def algebra(
-    x: Examination, section: AlgebraSection, listed: ChargesSection
-) -> AlgebraSection | None:
-    """Every number and the name; None where a number is wrong."""
-    places, points = conserved(x, listed)
-    if not places:
-        return section
-    found = samples(x, places, 2 * len(places) + 6)
-    if len(found) < 2 * len(places) + 6:
-        x.unchecked.append("the algebra of the conserved quantities")
-        return section
-    return Counted(x, section, found, places, points).examined()
-
-
 def conserved(x: Examination, listed: ChargesSection) -> tuple[list[int], int]:
     """The steps of the charges, none where they are too many, and how many are of points."""
     constant = [c for c in listed.charges if c.conserved]  # a momentum equation counts as none
@@ -63,6 +49,13 @@ def conserved(x: Examination, listed: ChargesSection) -> tuple[list[int], int]:
 
 class Counted:
     """A section beside what the samples say."""
+
+    @classmethod
+    def sampled(cls, x: Examination, places: Sequence[int]) -> Sequence[CanonicalSample]:
+        """As many samples as the counts need, none where they are not found."""
+        count = 2 * len(places) + 6
+        found = samples(x, places, count)
+        return found if len(found) == count else ()
 
     def __init__(
         self,
@@ -157,6 +150,23 @@ class Counted:
         size_ = self.section.dimension
         around = islice(around_states(self.x, self.places, size_ + 5), _PARAMETERS)
         return all(_has_signature(each, size_, expected) for each in around)
+
+
+def algebra(
+    x: Examination,
+    section: AlgebraSection,
+    listed: ChargesSection,
+    counted: type[Counted] = Counted,
+) -> AlgebraSection | None:
+    """Every number and the name; None where a number is wrong."""
+    places, points = conserved(x, listed)
+    if not places:
+        return section
+    found = counted.sampled(x, places)
+    if not found:
+        x.unchecked.append("the algebra of the conserved quantities")
+        return section
+    return counted(x, section, found, places, points).examined()
 
 
 def _has_signature(around: Sequence[CanonicalSample], size_: int, expected: Signature) -> bool:

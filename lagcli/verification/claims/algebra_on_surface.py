@@ -9,46 +9,27 @@ With the constraints phi_a(q, p) = 0, both f = 0 and f' = 0 of each, Dirac's bra
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from itertools import islice
 
 from flint import arb
 
-from lagcli.statements.answers import AlgebraSection, ChargesSection
-from lagcli.verification.claims.algebra import Counted, conserved, rank_of
+from lagcli.verification.claims.algebra import Counted, rank_of
 from lagcli.verification.claims.canonical_samples import CanonicalSample
 from lagcli.verification.examination import LOOKED_AT, STATES, Examination
 from lagcli.verification.linear import Unclear, dot, solve
 
 
-def algebra(
-    x: Examination, section: AlgebraSection, listed: ChargesSection
-) -> AlgebraSection | None:
-    """Every number; None where one is wrong."""
-    places, points = conserved(x, listed)
-    if not places:
-        return section
-    rows = x.reference.rows
-    forms = [row.value for row in rows if row.holonomic] + [row.velocity for row in rows]
-    found = list(islice(_samples(x, [*places, *forms]), STATES))
-    if not found:
-        x.unchecked.append("the algebra of the conserved quantities")
-        return section
-    return OnSurface(x, section, found, places, points).examined()
-
-
-def _samples(x: Examination, functions: Sequence[int]) -> Iterable[CanonicalSample]:
-    for state in x.states(LOOKED_AT):
-        try:
-            sample = CanonicalSample(state, functions)
-        except Unclear:
-            continue
-        if sample.finite:
-            yield sample
-
-
 class OnSurface(Counted):
     """A section beside what states on the constraints say."""
+
+    @classmethod
+    def sampled(cls, x: Examination, places: Sequence[int]) -> Sequence[CanonicalSample]:
+        """Samples of the charges and of the constraints."""
+        rows = x.reference.rows
+        forms = [row.value for row in rows if row.holonomic] + [row.velocity for row in rows]
+        return list(islice(_samples(x, [*places, *forms]), STATES))
 
     @property
     def forms(self) -> range:
@@ -88,3 +69,11 @@ class OnSurface(Counted):
     def _has_name(self, name: str) -> bool:
         del name
         return True
+
+
+def _samples(x: Examination, functions: Sequence[int]) -> Iterator[CanonicalSample]:
+    for state in x.states(LOOKED_AT):
+        with suppress(Unclear):
+            sample = CanonicalSample(state, functions)
+            if sample.finite:
+                yield sample

@@ -95,14 +95,13 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
     if not place.readable or square is None or frequency is None or flat is None:
         return False
     size = len(x.reference.names)
-    unreal = seen = 0
+    real: list[bool] = []  # at each state
     for near in place.states():
         if not (near.defined and near.regular):
             continue
         W = [near.at(p) for p in square] + [near.at(p) ** 2 for p in frequency]
-        real = all(w.is_finite() for w in W)
-        unreal, seen = unreal + (not real), seen + 1
-        if not real:
+        real.append(all(w.is_finite() for w in W))
+        if not real[-1]:
             continue
         if not all(occur(near, [w] * mode.multiplicity) for w in W):
             x.refute(what, "a frequency is not one of the linear motion near it")
@@ -118,7 +117,7 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
         if rows and _independent(rows, size) not in {_expected(near, W[0], mode), -1}:
             x.refute(what, "the shapes of a frequency are not as many as it has")
             return False
-    if frequency and not mode.open_sign and unreal == seen > 0:
+    if frequency and not mode.open_sign and real and not any(real):
         x.refute(what, "a frequency is nowhere real")
         return False
     return True
