@@ -59,7 +59,9 @@ _GIVEN = re.compile(
     r"(?=\s*(?:$|[,;]|[^\W\d]\w*'*(?:\(0\))?\s*(?:[-=]>|[=:→])))"
 )
 #: A quantity within a formula: the 9.81 m/s² of `m*9.81 m/s²*x`.
-_UNIT_WITHIN = re.compile(r"([\d.]+)\s+([A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+)(?![\w(])")
+_UNIT_WITHIN = re.compile(
+    r"([\d.]+)\s+([A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+|kg|cm|km|Hz)(?![\w(])"
+)
 _NO_EQUATION = Equation(ZERO, ZERO)
 
 
@@ -110,7 +112,12 @@ class FileReader:
         if isinstance(node, Mapping):
             yield from node.entries
         else:
-            if isinstance(node, Scalar) and node.value.casefold() in {"none", "null", *YES_OR_NO}:
+            is_word = isinstance(node, Scalar) and node.value.casefold() in {
+                "none",
+                "null",
+                *YES_OR_NO,
+            }
+            if is_word and not what.startswith("the symmetry"):
                 hint = "leave out the key"
             if isinstance(node, Sequence) and (named := by_its_name(node)):
                 hint = f"write {named}, without '-'"
@@ -230,14 +237,26 @@ class FileReader:
         meant = key_meant(key.label, names)
         alike = [name for name in names if name.casefold() == key.label.casefold()]
         meant = alike[0] if len(alike) == len(key.label) == 1 else meant
-        advice = f"the key is {meant}" if meant else key_advice(key.label, written, names)
+        forceless = meant == "dissipation" and "'" not in written
+        advice = key_advice("friction" if forceless else key.label, written, names)
+        advice = f"the key is {meant}" if meant and not forceless else advice
         hint = advice or did_you_mean(key.label, names)
         stem = None if advice else key_of_stem(key.label, names)
         if stem and stem != closest(key.label, names):
             meant, hint = stem, f"the key is {stem}"
         shape = key_by_shape(value, around) if what == "the problem" else None
         near = meant or closest(key.label, names)
-        if shape and (not hint or (near in MAPS - {shape} and isinstance(value, Sequence))):
+        if (
+            shape
+            and near != key.label.casefold()
+            and (
+                not hint
+                or (
+                    near in MAPS - {shape}
+                    and (isinstance(value, Sequence) or shape == "parameters")
+                )
+            )
+        ):
             meant, hint = shape, f"the key is {shape}"
         if not hint and isinstance(value, Mapping) and value.entries:
             inner = [each.label for each, _ in value.entries]
@@ -273,7 +292,8 @@ class FileReader:
             return UNREADABLE
         within = _UNIT_WITHIN.search(alone)
         if within and self._is_unit(within[2]):
-            given = f"parameters: {{g: {{value: {within[1]}, unit: {within[2]}}}}}"
+            name = "m" if within[2] == "kg" else "g"
+            given = f"parameters: {{{name}: {{value: {within[1]}, unit: {within[2]}}}}}"
             self.error(
                 f"the unit '{within[2]}' cannot stand in {what}", node.span, f"write {given}"
             )

@@ -41,7 +41,7 @@ _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
 #: A number with a unit behind it, as in `10 kg` and `9.81 m/s^2`.
 _WITH_UNIT = re.compile(
     r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*"
-    r"(?P<unit>(?:[kmcµu]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa)|rad|deg|min|h|mol)(?:[ \^*/].*)?)"
+    r"(?P<unit>(?:[kmcµu]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa)|rad|deg|rpm|min|h|mol)(?:[ \^*/].*)?)"
 )
 #: Words for a kind of number, before a name in other languages.
 _TYPES = frozenset("Real real float double int Integer parameter const var let symbol".split())
@@ -59,6 +59,7 @@ INSTEAD = {
     **dict.fromkeys(("dot", "norm", "cross"), "write the sum over the components"),
     **dict.fromkeys(("grad", "gradient", "nabla"), "a force that V has is found from V"),
     **dict.fromkeys(("Eq", "Equality"), "write left = right"),
+    **dict.fromkeys(("dirac", "DiracDelta"), "a kick at t = 0 is a velocity under initial"),
     "max": "compare two at a time: max(a, b) is (a + b + abs(a - b))/2",
     "min": "compare two at a time: min(a, b) is (a + b - abs(a - b))/2",
 }  # fmt: skip
@@ -116,6 +117,8 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
     if "source" in known and len(value.split()) > 1 and re.fullmatch(r"[\w\s,.;-]*", value):
         return f"write description: {word}: …, with quotes around it"
     key = meanings("keys").get(word.replace("-", "_"), word)
+    if value.strip() == "t":
+        return "leave it out: t is the time"
     part = _PARTS.get(key)
     if part == "expect" and part in known and value in _WISHES:
         return f"an option, not a key: lagcli solve FILE --show {key}"
@@ -123,6 +126,8 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
         return f"write {part}: {{{key}: {value or '…'}}}"
     if "parameters" in known and is_constant(word, value):
         return f"a constant stands under parameters: write parameters: {{{word}: {value.strip()}}}"
+    if word.casefold() in {"gravity", "gravitation", "weight", "spring", "field"} and "V" in known:
+        return "it has a potential energy: write V: m*g*y"
     return ""
 
 
@@ -152,6 +157,7 @@ def colon_advice(line: str) -> str:
         return f"write parameters: {{{found[1]}: {{value: {number}, unit: {unit}}}}}"
     if found:
         value = re.sub(r"^\{([^:{}]*)\}$", r"[\1]", found[2].strip())
+        value = re.sub(r"^T\s*[-−]\s*V\s*=\s*", "", value)
         return f"write {found[1]}: {value}"
     if re.search(r"[\w)][*/^+-]", line):
         return f"write L: {line.strip()}"
@@ -175,7 +181,7 @@ def name_meant(name: str, *, one: bool = False) -> str:
         return made[1]
     if declared := re.fullmatch(r"\s*(\w+)\s*=\s*[\w.]+\(.*", name):
         return declared[1]
-    if given := re.fullmatch(r"\s*(\w+'*)\s*(?:=>|[=:]|:=|[-=]>|→|⇒)\s*(\S+)\s*", name):
+    if given := re.fullmatch(r"\s*(\w+'*)\s*(?:=>|[=:：]|:=|[-=]>|→|⇒)\s*(\S+)\s*", name):
         return f"{given[1]}: {given[2]}"
     typed = re.fullmatch(r"(?:[Pp]arameter\s+|const\s+|final\s+)?(?:\w+\s+)?(\w+)", name)
     if typed and _TYPES & set(name.split()[:-1]):
@@ -207,7 +213,7 @@ def unit_behind(text: str) -> str:
 def _is_unit(text: str) -> bool:
     from lagcli.units import UnitMistake, read_unit
 
-    if text in {"deg", "min", "h"}:
+    if text in {"deg", "rpm", "min", "h"}:
         return True
     try:
         read_unit(text)
@@ -218,7 +224,9 @@ def _is_unit(text: str) -> bool:
 
 def unit_at_end(text: str) -> str:
     """The unit in `k*x^2/2 J`, with a blank before it; nothing where there is none."""
-    found = re.search(r"[\w)']\s+([^\W\d][^()']*)$", text.strip())
+    found = re.search(
+        r"[\w)']\s+([^\W\d][^()']*)$", re.sub(r"\(([A-Z][^()]*)\)$", r"\1", text.strip())
+    )
     return found[1] if found and unit_behind(f"1 {found[1]}") == found[1] else ""
 
 

@@ -95,6 +95,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     _grouped,
     lambda line: re.sub(r"^(\s*)-\s+(?=[^\W\d]\w*:\s)", r"\1", line),
     lambda line: re.sub(r"^(\s*[^\W\d]\w*);\s", r"\1: ", line),
+    lambda line: re.sub(r"'(\w+)'('+)(?=\s*:)", r"\1\2", line),
     _paired,
     lambda line: line.replace(";", ",") if re.search(r"[\[{].*;", line) else line,
     lambda line: re.sub(r"\s+(?://|%|--|;)\s*(?=\S)", "  # ", line, count=1),
@@ -104,6 +105,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     _closed,
     _separated,
     lambda line: line.rstrip() + "," if re.match(r"\s+[\w\"']+:.*[^:,]$", line) else line,
+    lambda line: re.sub(r"([\]}\"'])\s*[;,.]\s*$", r"\1", line),
     _quoted,
 )
 

@@ -18,6 +18,7 @@ from lagcli.expression import (
 )
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
+from lagcli.reader.foreign.words import Vocabulary, rate_meant
 from lagcli.reader.habits import INSTEAD, foreign_function, meanings
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import closest, did_you_mean
@@ -216,7 +217,10 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return "the value is the change by itself: write x: 1 for x → x + ε"
     if what.startswith("the constraint") and name in {"lambda", "λ", "lam"}:
         return "a constraint is written without its multiplier"
-    hint = did_you_mean(name, scope.usable(role))
+    if what in {"T", "V", "L"} and name in {"lambda", "lam"}:
+        return f"a constraint stands under 'constraints', without its multiplier; or {UNDECLARED}"
+    rate = role.order > 0 and rate_meant(name, Vocabulary(tuple(coordinates), frozenset()))
+    hint = "" if rate else did_you_mean(name, scope.usable(role))
     if not hint and role.time and name[-1] == "t" and (len(name) == 2 or name[:-1] in GREEK):
         return f"did you mean {name[:-1]}*t?"
     if re.fullmatch(r"_?\d+", name.removeprefix(closest(name, scope.usable(role)))):

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Container
 
 _COUNT = re.compile(r"([\d.]+(?:[eE][-+]?\d+)?)\s*(?![eE]\d+$)([^\W\d]\w*)")
+_ANGLE = re.compile("deg(/.*|)|rpm")
 _TIME = (("s", Fraction(1)),)
 
 
@@ -33,8 +34,12 @@ def unit_mistake(
         hint = f"write {{value: {number}, unit: {unit}}}"
     elif unit in {"min", "h"}:
         hint = f"write {number}*{60 if unit == 'min' else 3600} for seconds"
-    if unit == "deg":
-        hint = f"angles are in radians: write {number}*pi/180"
+    if angle := _ANGLE.fullmatch(unit):
+        per = "/s" if unit == "rpm" else angle[1]
+        value = f"{number}*pi/{30 if unit == 'rpm' else 180}"
+        if declared and per:
+            value = f"{{value: {value}, unit: rad{per}}}"
+        hint = f"angles are in radians: write {value}"
     if unit in names:
         hint += f"; the product is {number}*{unit}"
     return f"the unit '{unit}' cannot stand behind a number", hint

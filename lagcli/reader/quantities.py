@@ -31,6 +31,7 @@ class _Said(TypedDict, total=False):
 
 _COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
 _PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
+_RANGE = re.compile(r"\s*[\[(]?\s*(-?[\d.]*\d)\s*(?:\.\.+|…|to|bis|:|–)\s*-?[\d.:]+\s*[\])]?\s*")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 
 
@@ -68,6 +69,9 @@ def read_parameters(
         if sign := _sign(attributes.get("value")):
             hint = f"write {{assume: {sign}}}"
             file.error(f"an assumption stands under 'assume' of '{key.label}'", key.span, hint)
+        elif isinstance(given := attributes.get("value"), Scalar) and _RANGE.fullmatch(given.value):
+            hint = f"write one; several are run by lagcli sweep --vary {key.label}=1,2,3"
+            file.error(f"'{key.label}' has a range for its value", given.span, hint)
         elif "value" in attributes:
             what = f"the value of '{key.label}'"
             mistakes = len(file.diagnostics)
@@ -170,7 +174,7 @@ def is_decimal_part(key: Scalar, value: DocumentNode | None) -> bool:
 def _list_advice(text: str) -> str:
     """`[x, y]` for `x, y` and for `symbols("x y")`, and `m: 1` for `m = 1`."""
     text = re.sub(r"^(?:.*=)?\s*(?:\w+\.)?\w+\(\s*(['\"])(.*)\1.*\)\s*$", r"\2", text)
-    given = re.findall(r"(\w+)\s*=\s*([^\s,]+)", text)
+    given = re.findall(r"(\w+)\s*[=:]\s*((?:[^\s,;()}]|\([^()]*\))+)", text)
     if given:
         listed = ", ".join(f"{name}: {value}" for name, value in given)
         return f"write {{{listed}}}" if "," in text else f"write {listed.split(', ')[0]}"
@@ -193,6 +197,7 @@ def _pairs(node: DocumentNode) -> str:
         given = [re.fullmatch(r"(\w+)[\s=:]+([\d.]\S*)", key.label) for key, _ in node.entries]
     elif isinstance(node, Sequence):
         source = [item.text.source.text[item.start : item.end] for item in node.items]
+        source = [re.sub(r"^\[(\w+),\s*([^,\]]+)\]$", r"\1: \2", text) for text in source]
         given = [re.fullmatch(r"(\w+)\s*[=:]\s*(\S.*?)\s*", text) for text in source]
         given = [] if any(each and re.search(r"\(['\"]", each[2]) for each in given) else given
     if not given or not all(given):
@@ -227,9 +232,10 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
         if text is not None and text.value in _ASSUMPTIONS:
             said["assume"] = cast("Assumption", text.value)
         elif text is not None:
-            hint = did_you_mean(text.value, _ASSUMPTIONS) or f"known are {', '.join(_ASSUMPTIONS)}"
+            meant = [a for a in _ASSUMPTIONS if text.value and a.startswith(text.value)][:1]
             sign = _sign(text)
-            hint = f"write {sign}" if sign else hint.replace("known are", "write one of")
+            hint = f"write {sign}" if sign else did_you_mean(text.value, _ASSUMPTIONS)
+            hint = hint or f"write {''.join(meant) or 'one of ' + ', '.join(_ASSUMPTIONS)}"
             file.error(f"unknown assumption '{text.value}'", text.span, hint)
     return said
 

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 #: Characters of a formula that is repeated in a hint, and of one that is read for it, as LaTeX.
 _LONGEST, _LONGEST_GIVEN = 600, 1800
 #: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
-_LEFT_SIDE = re.compile(r"^\s*[^\W\d][\w ]*(?:\(\w+\))?\s*:?=(?!=)")
+_LEFT_SIDE = re.compile(r"^\s*(?:T\s*[-−]\s*V|[^\W\d][\w ]*(?:\(\w+\))?)\s*:?=(?!=)")
 
 
 def with_whole(
@@ -78,6 +78,8 @@ def with_whole(
         proposed = re.search(rf"(?:write|mean) {re.escape(whole)}(?:[?;,]|$)", found[0].hint)
         if "".join(whole.split()) == "".join(node.value.split()) or (proposed and not found[1:]):
             return found
+        if refused := [each for each in wrong if each.message.startswith("the acceleration ")]:
+            return [replace(each, span=node.span) for each in refused]
         guess = found[0].hint.endswith("?")
         hint = f"did you mean {whole}?" if guess else f"write {whole}"
         return [replace(found[0], hint=hint), *(replace(each, span=node.span) for each in wrong)]

@@ -55,7 +55,7 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
             sides = (equation.left, equation.right)
             if max(derivative_order(side, file.scope) for side in sides) < 0:
                 message = f"the constraint '{name}' contains no coordinate"
-                file.error(message, node.span)
+                file.error(message, node.span, "a value stands under 'parameters', as in l: 1")
         holds_while = None
         if "holds_while" in one.attributes:
             holds_while = file.comparison(one.attributes["holds_while"], "'holds_while'", QUESTION)
@@ -139,7 +139,10 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
             file.error(f"{what} changes nothing", value.span, hint)
         words = re.findall(r"\w+", value.value) if isinstance(value, Scalar) else []
         changed = [name for name in words if name in {*coordinates, "t"}]
-        here = f"write {key.label}: {change_of(changed[0])}" if changed else hint
+        usual = change_of(*(changed or coordinates or ["x"])[:1])
+        if "rot" in key.label and not changed and len(coordinates) > 1:
+            usual = "{{{0}: -{1}, {1}: {0}}}".format(*coordinates)
+        here = f"write {key.label}: {usual}"
         if isinstance(value, Scalar) and (moved := _MOVED.findall(value.value)):
             pairs = [f"{name}: {'-' * (sign == '-')}{change or 1}" for name, sign, change in moved]
             here = f"write {key.label}: {{{', '.join(pairs)}}}"

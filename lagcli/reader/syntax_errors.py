@@ -26,6 +26,8 @@ _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 #: A number in powers of ten that is not written as one: 2.0e, 2e - 3, 1.5d-3; 6.67 x 10^-11.
 _EXPONENT = re.compile(r"([\d.]+)(?:\s*([eE])\s*|([dD])(?=[-+\d]))([-+]?)\s*(\d*)(?![\w(.'])")
 _TIMES_TEN = re.compile(r"([\d.]+)\s*[xX]\s*10\s*(?:\^|\*\*|[eE])?\s*[({]?\s*(-?)[\s+]*(\d+)")
+#: Before a factor of a denominator, as in p^2/2m, where 1/2m may be a half of m.
+_DENOMINATOR = re.compile(r"(?:[\w.]*[^\W\d][\w.']*|[)'²]|\^\s*\d)\s*/\s*$")
 #: At least three words, one of them longer than the names of most quantities.
 _PROSE = re.compile(r"(?=.*\b[^\W\d_]{5,}\b)[^\W\d_]+(?:[ ,]+[^\W\d_]+){2,}\.?")
 
@@ -131,6 +133,8 @@ def _missing_product(
         return Diagnostic("a formula is no program", span, f"write {written}")
     if left.type == "NUMBER" and str(right) == "percent":
         return Diagnostic("'percent' has no meaning", span, f"write {left}/100")
+    if str(left) == "Σ":
+        return Diagnostic("a formula has no sums", span, INSTEAD["sum"])
     if {"where", "with"} & {left, right} and re.search("[=<>]", excerpt.value):
         return Diagnostic("a formula has no conditions", span, "values stand under 'parameters'")
     if {str(left), str(right)} & CASES:
@@ -173,7 +177,10 @@ def _missing_product(
     message = f"a '*' is missing between '{left}' and '{right}'"
     unit = left.type == "NUMBER" and len(right) > 1 and unit_behind(f"1 {right}")
     stands = f"; the unit {right} stands where a name is declared" if unit else ""
-    return Diagnostic(message, span, f"did you mean {before}*{after}?{stands}")
+    product = f"{before}*{after}"
+    if not apart and _DENOMINATOR.search(excerpt.value[: left.start_pos]):
+        product = f"({product})"  # p^2/2m
+    return Diagnostic(message, span, f"did you mean {product}?{stands}")
 
 
 def _unexpected(

@@ -58,7 +58,9 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         if foreign := _FOREIGN.match(each):
             begin = text.line_starts[place] + foreign.start(1)
             foreign_line = text.span(begin, begin + len(each.strip()))
-            hint = COMMENT if foreign[2] else "a key is written without brackets: key: value"
+            hint = "a key is written without brackets: key: value"
+            if not foreign[1].startswith("["):
+                hint = COMMENT if foreign[2] else colon_advice(each)
             return Diagnostic("this line is none of the file", foreign_line, hint)
     near = "\n".join(lines[max(0, number - 1) : number + 1])
     if blank := re.search(r"^\s*\w+:([^\S \t\r\n])", near, re.MULTILINE):
@@ -133,8 +135,10 @@ _MIDDLE = re.compile(r"\s*([-+*^]|/(?![/*])|\w+[-+*/^(])")
 _CONTINUED = "a line that continues the one above it begins with blanks"
 #: A text in quotes with one of them inside.
 _QUOTED = re.compile(r"\s*([\w ]+):\s*(['\"])([^#]*\2[^#]*)\2\s*(?:#.*)?")
-#: A comment of another language, or the head of a section: // a, ; a, % a, <!-- a -->; [a].
-_FOREIGN = re.compile(r"\s*((//|/\*|;|%(?!YAML)|<!--|--\s|'''|\"\"\").*|\[\w+\]\s*$)")
+#: A comment of another language, the head of a section, a program: // a, ; a, % a; [a]; import a.
+_FOREIGN = re.compile(
+    r"\s*((//|/\*|;|%(?!YAML)|<!--|--\s|'''|\"\"\").*|\[\w+\]\s*$|(?:from\s+[\w.]+\s+)?import\s.*)"
+)
 #: A formula within marks of Markdown: **m*x**, `m*x`.
 _EMPHASIS = re.compile(r"\s*[\w ]+:\s+(\*\*?|`+)([^\s*`].*[^\s*`])\1\s*(?:#.*)?$")
 #: A formula that begins with a group in braces.

@@ -56,7 +56,8 @@ class Token(NamedTuple):
 
 def prepared(text: str, names: Vocabulary) -> str:
     """With the marks of web pages, v² and Leibniz' derivatives in the notation of a file."""
-    text = re.sub(r"^\s*r?(['\"])(.*)\1\s*$", r"\2", unescape(text))
+    text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
+    text = re.sub(r"\\(?:begin|end)\s*\{\w+\*?\}|\\[()\[\]]", " ", text)
     behind = re.search(r"\[([^\[\]]+)\]\s*$", text)
     if behind and unit_behind(f"1 {behind[1]}"):
         raise Unclear  # m*g*y [J]

@@ -116,7 +116,7 @@ class _Translation(Functions):
 
     def named(self, word: str, primes: int = 0) -> Part:
         """A name with its primes and arguments."""
-        if word in CASES:
+        if word in CASES or (word == "Σ" and word not in self.names.known):
             raise Unclear
         primes += self.primes()
         function = function_named(word, self.names)
