@@ -96,7 +96,7 @@ def begun(e: Equations, further: Sequence[Node] = ()) -> tuple[Motion, list[floa
     initial = [e.form.read(value) for value in e.problem.initial.values()]
     needed = [*(x for row in e.mass for x in row), *e.forcing, *initial, *further]
     motion = Motion(e, constants_of(e, needed, Doubles()), Doubles())
-    return motion, *initial_state(motion)
+    return motion, *initial_state(motion, e.problem.initial)
 
 
 def _spans(

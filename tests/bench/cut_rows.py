@@ -28,9 +28,11 @@ sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from lagcli.diagnostics import ProblemError
 from lagcli.evaluation import value_of
-from lagcli.numerics.certified.simulate import Simulation
+from lagcli.numerics.certified.ready_setup import ready_setup
+from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import RunRequest
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem_data import Problem
 from lagcli.reader.columns import Column, read_columns, usual_columns
@@ -131,7 +133,7 @@ def _gains(
 
     None where nothing is cut.
     """
-    end = problem.simulation.until
+    end = problem.setup.until
     until = span = float((end and value_of(end)) or _UNTIL)
     asked = RunRequest(
         until=until, accuracy=_ACCURACY, samples=_SAMPLES, columns=columns, project=True
@@ -141,7 +143,7 @@ def _gains(
     while until <= _LONGEST * span and not last[2]:
         less = replace(asked, until=until)
         try:
-            if first is None and not _is_less(Simulation(problem, less).ready()[0], every):
+            if first is None and not _is_less(ready_setup(problem, less)[0], every):
                 return None
             slow, steps = _shortest(problem, replace(less, columns=every, whole=True))
             quick, _ = _shortest(problem, less)
@@ -157,10 +159,10 @@ def _gains(
     return None if first is None else (first, *last)
 
 
-def _is_less(simulation: Simulation, every: tuple[Column, ...]) -> bool:
+def _is_less(setup: Setup, every: tuple[Column, ...]) -> bool:
     """Whether something is cut; where all is shown, whether a constraint is solved."""
-    cut = simulation.cut
-    shows_all = simulation.request.columns == every
+    cut = setup.cut
+    shows_all = setup.request.columns == every
     return cut is not None and bool(cut.eliminated or (cut.dropped and not shows_all))
 
 
@@ -169,7 +171,7 @@ def _shortest(problem: Problem, asked: RunRequest) -> tuple[float | None, int]:
     best, begun = float("inf"), process_time()
     for _ in range(_TIMES):
         before = process_time()
-        found = Simulation(problem, asked).result()
+        found = simulate(problem, asked)
         if not found.certificate.reached:
             return None, found.steps
         best = min(best, process_time() - before)

@@ -18,7 +18,7 @@ def tolerances(error, shortened=0):
     """Those that are tried where a run with a tolerance has an error."""
     tried = []
 
-    def runner(tolerance, longest, peaks, every, slow):
+    def runner(tolerance, longest, peaks, every, slow, times):
         del longest, peaks, every
         tried.append(tolerance)
         rows = [[0.0], [1.0 + error(tolerance)]]

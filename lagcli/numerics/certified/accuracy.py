@@ -73,12 +73,16 @@ _NEXT = 10.0
 _NO_GAIN, _FAR = 0.5, 5.0
 #: Runs that begin at less have all digits that help where constraints become dependent.
 _SHARP = 1e-16
+#: Intervals that are compared between two rows where the accuracy is lost.
+_CLOSER = 64
 #: Where the longest step binds both runs their steps must still differ, or so would nothing.
 _FINER_STEPS = 1.37
 
 #: (tolerance, longest step, peaks of the run before, probes at this interval of steps, whether with
-#: a slow clock where others have a fast one) -> run
-Runner = Callable[[float, float, "Sequence[float] | None", int, bool], Run]
+#: a slow clock where others have a fast one, other rows than the usual ones) -> run
+Runner = Callable[
+    [float, float, "Sequence[float] | None", int, bool, "Sequence[float] | None"], Run
+]
 
 
 @record
@@ -101,6 +105,7 @@ class Outcome:
     tolerances: tuple[float, float]
     multiples: tuple[float, float]  # of the differences, the least and the largest in `held`
     is_against_two: bool  # the finer run was compared with two others
+    looked_at: int | None  # the rows that are usual, where others lie between those that follow
     controller: Controller  # what can look more closely at where it fails
 
 
@@ -228,12 +233,18 @@ class Controller:
         return replace(worse(found, again), is_against_two=True)
 
     def _run(
-        self, tolerance: float, level: int, before: Run | None, *, slow: bool = False
+        self,
+        tolerance: float,
+        level: int,
+        before: Run | None,
+        *,
+        slow: bool = False,
+        times: Sequence[float] | None = None,
     ) -> tuple[Run, list[list[Any]]]:
         every = 0 if before is None else max(1, int(2 * before.steps / _PROBES))
         peaks = None if before is None or before.stop is not None else before.scales
         longest = self.span / (self._longest[level] * _FINER_STEPS**self._finer)
-        run = self.runner(tolerance, longest, peaks, every, slow)
+        run = self.runner(tolerance, longest, peaks, every, slow, times)
         self._finer, self.runs = self._finer + 1, self.runs + 1
         self.evaluations += run.evaluations
         return run, run.rows()
@@ -292,6 +303,7 @@ class Controller:
             tolerances,
             (factor, largest),
             False,
+            None,
             self,
         )
 
@@ -320,10 +332,10 @@ class Controller:
         held = [relative(most, scale) for most, scale in zip(worst, scales, strict=False)][:-1]
         return good, held or [0.0] * (len(scales) - 1), scales[:-1]
 
-    def refined(self, found: Outcome, between: Callable[[float, float], None]) -> Outcome:
+    def refined(self, found: Outcome, usual: Sequence[float]) -> Outcome:
         """The same pair of runs, compared more closely where the accuracy is lost.
 
-        `between` has later runs give rows up to a time, then densely up to another one.
+        Up to there they have the usual rows.
         """
         fine, good = found.run, found.good_rows
         if good < 2 or fine.steps >= fine.step_limit or self._is_refused:
@@ -332,22 +344,28 @@ class Controller:
         ends += [fine.stop.t] if fine.stop is not None else []
         if not ends or min(ends) <= fine.marks[good - 1].t:
             return found
-        between(fine.marks[good - 1].t, min(ends))
-        coarse, rows = self._run(found.tolerances[0], self._level, None)
-        again, fine_rows = self._run(found.tolerances[1], self._level, coarse)
+        last, lost = fine.marks[good - 1].t, min(ends)
+        kept = [t for t in usual if t <= last]
+        step = (lost - last) / _CLOSER
+        times = [*kept, *(last + step * k for k in range(1, _CLOSER)), lost]
+        times += [self.span] if lost < self.span else []
+        coarse, rows = self._run(found.tolerances[0], self._level, None, times=times)
+        again, fine_rows = self._run(found.tolerances[1], self._level, coarse, times=times)
         closer = self._compared(coarse, rows, again, fine_rows, found.tolerances)
-        third = self._run(found.tolerances[0] / _THIRD, self._level, again, slow=True)
+        coarser = found.tolerances[0] / _THIRD
+        third = self._run(coarser, self._level, again, slow=True, times=times)
         closer = self._worse(closer, third)
         if closer.good_rows < good:
             return found
         # beyond these there is the end alone: what lies between was not within the accuracy
-        looked_at = sum(mark.t <= min(ends) for mark in again.marks)
+        looked_at = sum(mark.t <= lost for mark in again.marks)
         return replace(
             closer,
             errors=[*map(max, found.errors, closer.errors)],
             good_rows=min(closer.good_rows, looked_at),
             reached=False,
             reason=found.reason or closer.reason,
+            looked_at=len(kept),
         )
 
     def _missed(self, fine: Run, rows: list[list[Any]]) -> str:

@@ -6,15 +6,39 @@ from collections.abc import Sequence
 from contextlib import nullcontext
 
 from lagcli.numerics.certified.accuracy import Outcome
+from lagcli.numerics.certified.machine_code import FIRST_OF_LONG, RoundingAddsUp
 from lagcli.numerics.certified.methods import AUTO, METHODS, MORE_DIGITS, SHARP, SHARPER
-from lagcli.numerics.certified.prepared import Precision, outcome_of
+from lagcli.numerics.certified.prepared import Precision, RunsDone, outcome_of
 from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.steps import NotPossible
+from lagcli.record import record
 
 #: Doubles claim nothing better: the parameters are rounded too, alike in all runs.
 _LEAST_DOUBLE = 1e-13
+
+
+@record
+class Attempt:
+    """What the first method of a group gives that is possible.
+
+    Attributes
+    ----------
+    outcome : Outcome or None
+        None where none is possible.
+    precision
+        The digits of its runs.
+    remark : str
+        Why other methods are not possible, as far as it is told.
+    first : float
+        The first tolerance of the next group is no coarser.
+    """
+
+    outcome: Outcome | None
+    precision: Precision = nullcontext
+    remark: str = ""
+    first: float = 1.0
 
 
 def groups(request: RunRequest) -> Sequence[Sequence[str]]:
@@ -25,11 +49,18 @@ def groups(request: RunRequest) -> Sequence[Sequence[str]]:
 
 
 def attempt(
-    setup: Setup, group: Sequence[str], modes: Modes, first: float = 1.0
-) -> tuple[Outcome | None, Precision]:
-    """What the first method gives that is possible, and its digits; why others are not.
+    setup: Setup,
+    group: Sequence[str],
+    modes: Modes,
+    done: RunsDone,
+    *,
+    first: float = 1.0,
+    most: int | None = None,
+) -> Attempt:
+    """What the first method of a group gives that is possible.
 
-    Its first tolerance is no coarser than `first`.
+    Its first tolerance is no coarser than `first`, its runs with more digits than doubles have
+    `most` steps.
     """
     remark, names = "", list(group)
     while names:
@@ -37,19 +68,15 @@ def attempt(
         made = METHODS[name].prepare(setup, modes)
         if not isinstance(made, str):
             try:
-                found = outcome_of(setup, modes, made, first)
+                outcome = outcome_of(setup, modes, made, done, first=first, most=most)
+                return Attempt(outcome, made.precision, remark)
+            except RoundingAddsUp as reason:
+                return Attempt(None, remark=f"; not {name}: {reason}", first=FIRST_OF_LONG)
             except NotPossible as reason:
                 made = str(reason)
-                if setup.is_long:
-                    setup.remark += f"; not {name}: {made}"
-                    return None, nullcontext
                 if names and reason.needs_digits and MORE_DIGITS not in names:
                     names[:0] = SHARPER
                     first = SHARP
-            else:
-                setup.remark += remark
-                return found, made.precision
         remark += f"; not {name}: {made}"
-    if len(groups(setup.request)) == 1:
-        setup.remark += remark
-    return None, nullcontext
+    is_only = len(groups(setup.request)) == 1
+    return Attempt(None, remark=remark if is_only else "")

@@ -22,7 +22,7 @@ from lagcli.numerics.certified.attempts import attempt
 from lagcli.numerics.certified.clock import BITS, DOUBLES
 from lagcli.numerics.certified.escalation import TIMES
 from lagcli.numerics.certified.methods import SHARP, SHARPER
-from lagcli.numerics.certified.prepared import Precision
+from lagcli.numerics.certified.prepared import Precision, RunsDone
 from lagcli.numerics.certified.rank import RankPlace, places, varies
 from lagcli.numerics.hybrid.mark import Mark
 from lagcli.numerics.hybrid.modes import Modes
@@ -44,25 +44,29 @@ _KNOWN, _CLOSER = 1e3, 10
 
 
 def on_one_branch(
-    simulation: Setup, modes: Modes, outcome: Outcome, digits: Precision
-) -> tuple[Outcome, Precision]:
-    """The outcome where it is certain to be on one branch, or what is left of it.
+    setup: Setup, modes: Modes, outcome: Outcome, digits: Precision, done: RunsDone
+) -> tuple[Outcome, str]:
+    """The outcome where it is certain to be on one branch, or what is left of it; a remark.
 
     Parameters
     ----------
-    simulation, modes
+    setup, modes
         The request, and the modes in doubles.
     outcome, digits
         What a method gave, and its precision.
+    done
+        Counts the runs.
     """
-    met, left = _left_at(simulation, outcome, digits)
-    if met and simulation.request.method == "auto" and not is_sharp(outcome):
-        simulation.most_steps = TIMES * outcome.run.steps
-        found, with_digits = attempt(simulation, SHARPER, modes, SHARP)
-        if found is not None:  # steps of a usual tolerance pass over a bend
-            outcome, digits = found, with_digits
-            met, left = _left_at(simulation, found, with_digits)
-    return (outcome if left is None else ended(outcome, left)), digits
+    remark = ""
+    met, left = _left_at(setup, outcome, digits)
+    if met and setup.request.method == "auto" and not is_sharp(outcome):
+        most = TIMES * outcome.run.steps
+        sharper = attempt(setup, SHARPER, modes, done, first=SHARP, most=most)
+        remark = sharper.remark
+        if sharper.outcome is not None:  # steps of a usual tolerance pass over a bend
+            outcome = sharper.outcome
+            met, left = _left_at(setup, outcome, sharper.precision)
+    return (outcome if left is None else ended(outcome, left)), remark
 
 
 def is_sharp(outcome: Outcome) -> bool:
@@ -76,26 +80,24 @@ def is_met(outcome: Outcome) -> bool:
     return bool(met) and met[0].begin <= outcome.lost_at
 
 
-def _left_at(
-    simulation: Setup, outcome: Outcome, digits: Precision
-) -> tuple[bool, RankPlace | None]:
+def _left_at(setup: Setup, outcome: Outcome, digits: Precision) -> tuple[bool, RankPlace | None]:
     """Whether there are such places, and the first at which the run may have left its branch."""
     with digits():
         run, marks = outcome.run, outcome.run.marks[: outcome.good_rows + _BEYOND]
         few = not is_sharp(outcome) and len(run.marks) < _IN_STEP * run.steps
         if few and varies(run, marks):
             count, until = min(_IN_STEP * run.steps, _MOST), marks[-1].t
-            run = _again(simulation, outcome, [until * k / count for k in range(1, count + 1)])
+            run = _again(setup, outcome, [until * k / count for k in range(1, count + 1)])
             marks = run.marks
         met = places(run, marks)
         if not met:
             return False, None
         times = [_about(place.begin, place.end) for place in met]
-        run = _again(simulation, outcome, [t for each in times for t in each])
+        run = _again(setup, outcome, [t for each in times for t in each])
         left = (
             place
             for place, each in zip(met, times, strict=True)
-            if not _is_passed(simulation, outcome, place, run, each)
+            if not _is_passed(setup, outcome, place, run, each)
         )
         return True, next(left, None)
 
@@ -104,18 +106,14 @@ def _about(begin: float, end: float) -> list[float]:
     return [begin + (end - begin) * k / _ROWS for k in range(_ROWS + 1)]
 
 
-def _again(simulation: Setup, outcome: Outcome, times: Sequence[float]) -> Run:
+def _again(setup: Setup, outcome: Outcome, times: Sequence[float]) -> Run:
     """The same run with more rows, up to the last of these."""
-    usual, end = simulation.times, max(times)
-    simulation.times = sorted({*(t for t in usual if t < end), *times})
-    try:
-        return outcome.run.again()
-    finally:
-        simulation.times = usual
+    end = max(times)
+    return outcome.run.again(sorted({*(t for t in setup.times if t < end), *times}))
 
 
 def _is_passed(
-    simulation: Setup, outcome: Outcome, place: RankPlace, run: Run, times: Sequence[float]
+    setup: Setup, outcome: Outcome, place: RankPlace, run: Run, times: Sequence[float]
 ) -> bool:
     """Whether a run passes a place on its branch."""
     least = _KNOWN * math.sqrt(2.0 ** -BITS.get(run.method_name, DOUBLES))
@@ -133,7 +131,7 @@ def _is_passed(
         if smooth and max(roots[max(0, k - 4) : k + 5]) <= 2 * roots[k]:
             return True
         times = _about(marks[max(0, k - 2)].t, marks[min(len(marks) - 1, k + 2)].t)
-        run = _again(simulation, outcome, times)
+        run = _again(setup, outcome, times)
     return False
 
 

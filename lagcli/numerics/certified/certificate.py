@@ -29,18 +29,19 @@ _BOUNDED = 1e3
 _SIDES, _SMOOTH = (1e-4, 1e-6), 1e-3
 
 
-def result_of(simulation: Setup, motion: Motion, outcome: Outcome) -> Result:
-    """The table with its certificate."""
-    request, run = simulation.request, outcome.run
-    outcome = replace(outcome, rows=with_digits(simulation, outcome))
-    outcome = replace(outcome, rows=at_written_times(simulation, outcome))
+def result_of(setup: Setup, motion: Motion, outcome: Outcome, remark: str) -> Result:
+    """The table with its certificate; a remark on the methods stands with the reason for one."""
+    request, run = setup.request, outcome.run
+    outcome = replace(outcome, rows=with_digits(setup, outcome))
+    outcome = replace(outcome, rows=at_written_times(setup, outcome))
     names = tuple(column.name for column in request.columns)
     kept = len(outcome.rows) if outcome.reached else outcome.good_rows
     rows: list[tuple[float | None, ...]] = []
     for place, mark in enumerate(run.marks[:kept]):
         ends = run.event is not None and place == len(run.marks) - 1
         if mark.sample >= 0:
-            regular = mark.sample < simulation.regular and mark.sample % simulation.every == 0
+            is_usual = outcome.looked_at is None or mark.sample < outcome.looked_at
+            regular = is_usual and mark.sample % setup.every == 0
             shown = regular or (place == kept - 1 and not outcome.reached)
         else:
             shown = ends and (not rows or rows[-1][0] != mark.t)
@@ -51,7 +52,7 @@ def result_of(simulation: Setup, motion: Motion, outcome: Outcome) -> Result:
     events = _events(outcome, names, kept)
     refusal = ""
     if not outcome.reached:
-        refusal = refusal_of(simulation, motion, outcome, holds_until)
+        refusal = refusal_of(setup, motion, outcome, holds_until)
         if run.stop is not None and _is_known(outcome, holds_until):
             what = "grazes" if isinstance(run.stop, Grazes) else "singularity"
             events.append(Event(run.stop.t, what, why_stopped(motion, run.stop)))
@@ -69,29 +70,29 @@ def result_of(simulation: Setup, motion: Motion, outcome: Outcome) -> Result:
             },
             scales=tuple(outcome.held_scales),
             estimated_by=_estimated_by(outcome),
-            charges=_drifts(simulation, outcome, kept),
-            constraints=_residuals(outcome, simulation),
+            charges=_drifts(setup, outcome, kept),
+            constraints=_residuals(outcome, setup),
         ),
         method=run.method_name or "dop853",
-        reason=METHODS[run.method_name or "dop853"].reason + _apart(run) + simulation.remark,
+        reason=METHODS[run.method_name or "dop853"].reason + _apart(run) + remark,
         steps=run.steps,
         evaluations=outcome.evaluations,
         events=tuple(events),
-        warnings=tuple(_warnings(simulation, rows, events)),
-        cut=simulation.cut,
+        warnings=tuple(_warnings(setup, rows, events)),
+        cut=setup.cut,
         refusal=refusal,
     )
 
 
-def requested_rows(simulation: Setup, outcome: Outcome) -> list[tuple[float | None, ...]]:
+def requested_rows(setup: Setup, outcome: Outcome) -> list[tuple[float | None, ...]]:
     """The rows of a run at the times of the output, certified or not, if they are requested."""
-    if not simulation.request.beyond:
+    if not setup.request.beyond:
         return []
-    count = len(simulation.request.columns)
+    count = len(setup.request.columns)
     return [
         _floats(row[:count])
         for mark, row in zip(outcome.run.marks, outcome.rows, strict=True)
-        if mark.sample >= 0 and mark.sample % simulation.every == 0
+        if mark.sample >= 0 and mark.sample % setup.every == 0
     ]
 
 
@@ -146,23 +147,23 @@ def _estimated_by(outcome: Outcome) -> str:
     )
 
 
-def _drifts(simulation: Setup, outcome: Outcome, kept: int) -> dict[str, float]:
+def _drifts(setup: Setup, outcome: Outcome, kept: int) -> dict[str, float]:
     """The largest change of each charge between events, relative to the sum of its terms."""
-    first = len(simulation.nodes)
+    first = len(setup.nodes)
     drifts: dict[str, float] = {}
-    for j, name in enumerate(simulation.charges):
+    for j, name in enumerate(setup.charges):
         values = [row[first + j] for row in outcome.rows[:kept]]
         for _, found, scale in changes(outcome.run, j, values):
             drifts[name] = max(drifts.get(name, 0.0), relative(max(map(abs, found)), scale))
     return drifts
 
 
-def _residuals(outcome: Outcome, simulation: Setup) -> dict[str, tuple[float | None, float]]:
+def _residuals(outcome: Outcome, setup: Setup) -> dict[str, tuple[float | None, float]]:
     """The largest residual of each constraint while it acts, and of its rate.
 
     One that was solved for a coordinate holds by itself.
     """
-    solved = simulation.cut.eliminated if simulation.cut else ()
+    solved = setup.cut.eliminated if setup.cut else ()
     found: dict[str, tuple[float | None, float]] = {s.constraint: (0.0, 0.0) for s in solved}
     for phase in outcome.run.phases:
         if phase.surface is None:
@@ -177,9 +178,9 @@ def _residuals(outcome: Outcome, simulation: Setup) -> dict[str, tuple[float | N
     return found
 
 
-def refusal_of(simulation: Setup, motion: Motion, outcome: Outcome, holds_until: float) -> str:
+def refusal_of(setup: Setup, motion: Motion, outcome: Outcome, holds_until: float) -> str:
     """Why the accuracy is not reached to the end, and until when it holds."""
-    request, stop = simulation.request, outcome.run.stop
+    request, stop = setup.request, outcome.run.stop
     if stop is not None and _is_known(outcome, holds_until):
         why = why_stopped(motion, stop)
         return f"the motion stops at t = {stop.t:.13g}: {why}; shown until t = {holds_until:.6g}"
@@ -188,7 +189,7 @@ def refusal_of(simulation: Setup, motion: Motion, outcome: Outcome, holds_until:
         f"the accuracy {request.accuracy:g} is not reached until t = {request.until:g}: {why}"
     )
     held = f"it holds until t = {holds_until:.6g}"
-    in_doubles = simulation.goes_on or simulation.equations.kinks
+    in_doubles = setup.goes_on or setup.equations.kinks
     helps = request.digits is None and not in_doubles and not outcome.reason
     return f"{reason_of}; {held}" + ("; --precision carries more digits" if helps else "")
 
@@ -247,19 +248,19 @@ def _irregularity(motion: Motion, stop: CannotGoOn) -> str:
     return f"a function in the equations {what} there"
 
 
-def _warnings(simulation: Setup, rows: list[Any], events: list[Event]) -> list[str]:
-    found = list(simulation.notes)
+def _warnings(setup: Setup, rows: list[Any], events: list[Event]) -> list[str]:
+    found = list(setup.notes)
     found += [
         f"{event.name} comes to its limit at t = {event.t:.10g}: whether it is lost there is "
         "within the error; it is kept"
         for event in events
         if event.what == "touches"
     ]
-    for j, column in enumerate(simulation.request.columns):
+    for j, column in enumerate(setup.request.columns):
         empty = [row[0] for row in rows if row[j] is None]
         if empty and len(empty) == len(rows):
             why = "not determined: redundant constraints share a force"
-            shares = simulation.whole.constraints
+            shares = setup.whole.constraints
             found.append(f"{column.name} is {why if shares else 'not defined at any row'}")
         elif empty:
             found.append(f"{column.name} is not defined at t = {empty[0]:g}")

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from lagcli.numerics.certified.simulate import Simulation, simulate
+from lagcli.numerics.certified.ready_setup import check_start, ready_setup
+from lagcli.numerics.certified.simulate import certified_run, simulate
+from lagcli.numerics.equations.start import initial_state
+from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.numerics.hybrid.result import Result
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.problem_data import Problem
+from lagcli.record import replace
 
 
 class Ensemble:
@@ -29,12 +34,12 @@ class Ensemble:
 
     def __init__(self, problem: Problem, request: RunRequest) -> None:
         self._request = request
-        self._simulation = simulation = Simulation(problem, request)
-        plain = not (problem.constraints or problem.contacts or simulation.equations.kinks)
-        self._shares = plain and request.stop_when is None
-        if self._shares:
-            self._integrated, self._modes = simulation.ready()
-            self._shares = self._integrated is simulation
+        self._ready: tuple[Setup, Modes] | None = None
+        if problem.constraints or problem.contacts or request.stop_when is not None:
+            return
+        setup, modes = ready_setup(problem, request)
+        if setup.cut is None and not setup.equations.kinks:
+            self._ready = setup, modes
 
     def result(self, problem: Problem) -> Result:
         """The motion of a member.
@@ -44,7 +49,11 @@ class Ensemble:
         Refusal
             When it cannot be run.
         """
-        if not self._shares:
+        if self._ready is None:
             return simulate(problem, self._request)
-        self._simulation.restart(problem, self._modes)
-        return self._simulation.run(self._modes)
+        setup, modes = self._ready
+        motion = modes.first.motion
+        start = initial_state(motion, problem.initial, project=self._request.project)
+        check_start(motion, *start)
+        setup = replace(setup, problem=problem, whole=problem, start=start)
+        return certified_run(setup, modes.by(modes.make_method, setup))

@@ -35,25 +35,25 @@ _LOOKS = 10
 _LOST = 0.05
 
 
-def with_digits(simulation: Setup, outcome: Outcome) -> Rows:
+def with_digits(setup: Setup, outcome: Outcome) -> Rows:
     """The rows of a run, their columns as exact as their states.
 
     Parameters
     ----------
-    simulation
+    setup
         The request.
     outcome
         As it came; rows of more digits than doubles stay as they are.
     """
     run, rows = outcome.run, outcome.rows
-    state = simulation.equations.state
-    places = [j for j, node in enumerate(simulation.nodes) if node not in state]
+    state = setup.equations.state
+    places = [j for j, node in enumerate(setup.nodes) if node not in state]
     modes = {mark.phase: run.phases[mark.phase].mode for mark in run.marks}
     if not rows or not places or not modes[run.marks[0].phase].motion.arithmetic.ordered:
         return rows
     with precision(_DIGITS):
-        others, number = _exact(simulation)
-        n, dependent = len(simulation.equations.q), cache(_dependent)
+        others, number = _exact(setup)
+        n, dependent = len(setup.equations.q), cache(_dependent)
 
         def columns(mark: Mark, row: list[Any]) -> list[Any]:
             mode = modes[mark.phase]
@@ -83,12 +83,12 @@ def with_digits(simulation: Setup, outcome: Outcome) -> Rows:
             ),
             default=0.0,  # of columns that are defined nowhere
         )
-        if lost <= _LOST * simulation.request.accuracy:
+        if lost <= _LOST * setup.request.accuracy:
             return rows
         return [found.get(k) or columns(*pair) for k, pair in enumerate(pairs)]
 
 
-def at_written_times(simulation: Setup, outcome: Outcome) -> Rows:
+def at_written_times(setup: Setup, outcome: Outcome) -> Rows:
     """The rows of a run of more digits than doubles, moved from doubles to the times as written.
 
     A drive of 5000 cos(5000 t) makes x'(10.8) differ by 2e-12 from x' at the double next to 10.8.
@@ -97,9 +97,9 @@ def at_written_times(simulation: Setup, outcome: Outcome) -> Rows:
     if run.method_name not in BITS:
         return rows
     with precision(_DIGITS):
-        written = simulation.written_times(Balls())
+        written = setup.written_times(Balls())
         for place, mark in enumerate(run.marks[: len(rows)]):
-            row, between = divmod(mark.sample, simulation.every)
+            row, between = divmod(mark.sample, setup.every)
             if between or not 0 <= row < len(written):
                 continue
             late, mode = written[row] - mark.t, run.phases[mark.phase].mode
@@ -133,11 +133,11 @@ def _dependent(mode: Mode) -> Callable[[Mark], bool]:
     return vanishes
 
 
-def _exact(simulation: Setup) -> tuple[Modes, Callable[[float], Any]]:
+def _exact(setup: Setup) -> tuple[Modes, Callable[[float], Any]]:
     """The modes in balls, and what makes a ball of a double."""
     from lagcli.numerics.integrators.dop853 import dop853
 
     arithmetic = Balls()
-    constants = constants_of(simulation.equations, simulation.all_nodes, arithmetic)
-    modes = Modes(simulation, constants, arithmetic, dop853, 10.0**-_DIGITS)
+    constants = constants_of(setup.equations, setup.all_nodes, arithmetic)
+    modes = Modes(setup, constants, arithmetic, dop853, 10.0**-_DIGITS)
     return modes, arithmetic.ball

@@ -47,26 +47,26 @@ _MOST = 12
 
 
 def longest(
-    simulation: Setup, modes: Modes, outcome: Outcome, result: Result, run: MakeResult
+    setup: Setup, modes: Modes, outcome: Outcome, result: Result, run: MakeResult
 ) -> Result:
     """The result that holds longest, of the run over the whole span and of those of the grid.
 
     Parameters
     ----------
-    simulation, modes
+    setup, modes
         The problem with its options, and the modes in doubles.
     outcome, result
         The run over the whole span, which does not reach the accuracy to the end, or by chance.
     run
         Makes the result of another request.
     """
-    stop, until = outcome.run.stop, simulation.request.until
+    stop, until = outcome.run.stop, setup.request.until
     if stop is not None and _holds(result) >= _CLOSE * stop.t:
         return result
     found: dict[int, Result | None] = {}
 
     def reaches(k: int) -> bool:
-        found[k] = found.get(k) or _over(simulation, run, _span(k))
+        found[k] = found.get(k) or _over(setup, run, _span(k))
         return (each := found[k]) is not None and each.certificate.reached
 
     low, high = _below(max(_holds(result), _SHORTEST * until)), _below(until, math.ceil)
@@ -84,24 +84,22 @@ def longest(
     reaches(low + 1)
     high = low + 1
     kept = [each for k in (low, high) if (each := found.get(k)) is not None]
-    best = _up_to(max(kept, key=_holds, default=result), until, simulation.rows_at)
+    best = _up_to(max(kept, key=_holds, default=result), until, setup.rows_at)
     if reached := _holds(best) >= until * (1 - _SAME_TIME):
         if outcome.reached:
             return result
         refusal = ""
     else:
-        refusal = refusal_of(simulation, modes.first.motion, outcome, _holds(best))
+        refusal = refusal_of(setup, modes.first.motion, outcome, _holds(best))
     certificate = replace(best.certificate, reached=reached)
     return replace(best, certificate=certificate, refusal=refusal)
 
 
-def _over(simulation: Setup, run: MakeResult, span: float) -> Result | None:
+def _over(setup: Setup, run: MakeResult, span: float) -> Result | None:
     """The result over a span of the grid, up to one of its own rows; None where there is none."""
     own = [span * k / _ROWS for k in range(_ROWS)] + [span]
-    times = sorted({*own, *(t for t in simulation.rows_at if t < span)})
-    request = replace(
-        simulation.request, until=span, end=None, times=tuple(times), samples=len(times)
-    )
+    times = sorted({*own, *(t for t in setup.rows_at if t < span)})
+    request = replace(setup.request, until=span, end=None, times=tuple(times), samples=len(times))
     try:
         found = run(replace(request, furthest=False))
     except (Refusal, NotPossible):

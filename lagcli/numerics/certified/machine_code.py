@@ -6,11 +6,12 @@ import math
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
+from functools import cache
 from typing import Any
 from weakref import WeakKeyDictionary
 
 from lagcli.numerics.certified import perturbed_twin as twin
-from lagcli.numerics.certified.prepared import ROUNDED, Prepared
+from lagcli.numerics.certified.prepared import ROUNDED, Prepared, RunOrder
 from lagcli.numerics.compiled.engine import NoCompiler, engine
 from lagcli.numerics.compiled.machine import Machine, NotCompiled
 from lagcli.numerics.compiled.numbers import DOUBLE, EXTENDED, QUADRUPLE, Extended
@@ -47,7 +48,7 @@ _DIGITS_QUADRUPLE = 33
 LONG = 2_000_000
 #: So many times as many, foreseen on the way, are certainly too many.
 _CERTAINLY = 1.5
-_FIRST_OF_LONG = 1e-17
+FIRST_OF_LONG = 1e-17
 
 
 class RoundingAddsUp(NotPossible):
@@ -84,7 +85,7 @@ class Runs:
 
     Parameters
     ----------
-    simulation, modes
+    setup, modes
         The request, and the modes with the numbers of the machine code or better.
     machine
         The equations of the first mode.
@@ -96,19 +97,19 @@ class Runs:
 
     def __init__(
         self,
-        simulation: Setup,
+        setup: Setup,
         modes: Modes,
         machine: Machine,
         make: MakeMachine | None,
         otherwise: MakeMethod | None = None,
     ) -> None:
-        self.simulation, self._otherwise = simulation, otherwise
+        self.setup, self._otherwise = setup, otherwise
         self._machine, self._make = machine, make
         #: told how many steps a long run will take
         self.foreseen: Progress = None
         #: the subsystems, once it is known whether steps of their own pay
         self._apart: Apart | None = None
-        self._is_weighed = make is None or simulation.request.whole
+        self._is_weighed = make is None or setup.request.whole
         self._machines: dict[Motion, Machine | str] = {modes.first.motion: machine}
         self.modes = modes.by(self._method)
 
@@ -129,7 +130,7 @@ class Runs:
         if not self._is_weighed:
             assert self._make is not None
             self._is_weighed = True
-            mode, until = self.modes.first, self.simulation.request.until
+            mode, until = self.modes.first, self.setup.request.until
             self._apart = apart(mode, self._machine, self._make, state, bound, until)
         return self._apart
 
@@ -137,19 +138,18 @@ class Runs:
         self,
         state: tuple[Sequence[Any], Sequence[Any]],
         times: Sequence[Any],
-        bound: Tolerance,
-        every: int,
-        progress: Progress,
+        order: RunOrder,
     ) -> Run:
-        """One run from a state."""
-        request, mode = self.simulation.request, self.modes.first
+        """One run from a state, with rows at these times by the clock of the order."""
+        bound, progress = order.bound, order.progress
+        request, mode = self.setup.request, self.modes.first
         transitions = Transitions(self.modes, request.accuracy, request.until)
         run = Run(transitions, bound, request.accuracy)
         q, v = list(state[0]), list(state[1])
         if mode.conditions or mode.motion.kinks:
-            return run.go(q, v, times, probe_every=every, progress=progress)
+            return run.go(q, v, times, probe_every=order.every, progress=progress)
         surface = mode.surface()
-        probes = _PROBES if every else 0
+        probes = _PROBES if order.every else 0
         run.phases.append(Phase(mode, surface, 0.0))
         parts = self._parts((q, v), bound)
         if parts is not None:
@@ -158,47 +158,53 @@ class Runs:
             self._apart = None
         method = mode.method(surface)
         assert isinstance(method, CompiledTaylor)
-        most = self.simulation.most_steps
         return method.go(
-            run, q, v, times, probes=probes, progress=progress, most=most, foreseen=self.foreseen
+            run,
+            q,
+            v,
+            times,
+            probes=probes,
+            progress=progress,
+            most=order.most,
+            foreseen=self.foreseen,
         )
 
 
-def prepared_doubles(simulation: Setup, doubles: Modes) -> Prepared | str:
+def prepared_doubles(setup: Setup, doubles: Modes) -> Prepared | str:
     """Machine code in doubles made ready, or why there is none."""
     first = doubles.first
     independent = None
     if first.equations.rows and not first.conditions and not first.motion.kinks:
-        q, v = simulation.start
+        q, v = setup.start
         independent = first.motion.independent(0.0, *q, *v)
     machine = _machine(first.motion, independent)
     if isinstance(machine, str):
         return machine
     make = double_machine if independent is None else None
-    usual = Runs(simulation, doubles, machine, make, doubles.make_method)
+    usual = Runs(setup, doubles, machine, make, doubles.make_method)
+    has_more = cache(lambda: not isinstance(prepared_extended(setup, doubles), str))
 
     def prepared(other: Runs, beside: tuple[twin.State, twin.State]) -> Prepared:
-        both, states = (usual, other), (simulation.start, *beside)
+        both, states = (usual, other), (setup.start, *beside)
 
-        def run(bound: Tolerance, every: int, progress: Progress, *, moved: int) -> Run:
-            runs, times = both[moved != 0], twin.clocked(simulation.times, moved)
+        def run(order: RunOrder) -> Run:
+            runs = both[order.moved != 0]
             runs.foreseen = lambda steps: too_many(steps / _CERTAINLY)
-            done = runs.run(states[moved], times, bound, every, progress)
+            times = twin.clocked(order.times, order.moved)
+            done = runs.run(states[order.moved], times, order)
             too_many(done.steps)
             return done
 
         def too_many(steps: float) -> None:
-            if steps > LONG and simulation.request.method == "auto" and not simulation.is_long:
-                simulation.is_long = not isinstance(prepared_extended(simulation, doubles), str)
-                if simulation.is_long:
-                    raise RoundingAddsUp
+            if steps > LONG and setup.request.method == "auto" and has_more():
+                raise RoundingAddsUp
 
         def with_others(others: Modes) -> Prepared:
             found = _machine(others.first.motion, independent)
             if isinstance(found, str):
                 raise NotPossible(found)
-            runs = Runs(simulation, others, found, make, others.make_method)
-            return prepared(runs, twin.elsewhere(simulation))
+            runs = Runs(setup, others, found, make, others.make_method)
+            return prepared(runs, twin.elsewhere(setup))
 
         return Prepared(
             run=run,
@@ -207,50 +213,48 @@ def prepared_doubles(simulation: Setup, doubles: Modes) -> Prepared | str:
             with_others=with_others,
         )
 
-    return prepared(usual, twin.moved_states(simulation, doubles))
+    return prepared(usual, twin.moved_states(setup, doubles))
 
 
-def prepared_extended(simulation: Setup, doubles: Modes) -> Prepared | str:
+def prepared_extended(setup: Setup, doubles: Modes) -> Prepared | str:
     """Machine code in numbers of 80 bits made ready, or why there is none."""
-    if simulation.request.accuracy < _LEAST_EXTENDED:
+    if setup.request.accuracy < _LEAST_EXTENDED:
         return "80 bits claim nothing better than 1e-14"
-    return _beyond_doubles(simulation, doubles, EXTENDED, _FINEST_EXTENDED)
+    return _beyond_doubles(setup, doubles, EXTENDED, _FINEST_EXTENDED)
 
 
-def prepared_quadruple(simulation: Setup, doubles: Modes) -> Prepared | str:
+def prepared_quadruple(setup: Setup, doubles: Modes) -> Prepared | str:
     """Machine code in numbers of 128 bits made ready, or why there is none."""
-    request = simulation.request
+    request = setup.request
     if request.digits is not None and request.digits > _DIGITS_QUADRUPLE:
         return f"128 bits are {_DIGITS_QUADRUPLE} digits"
     if request.accuracy < _LEAST_QUADRUPLE:
         return f"128 bits claim nothing better than {_LEAST_QUADRUPLE:.0e}"
-    return _beyond_doubles(simulation, doubles, QUADRUPLE, _FINEST_QUADRUPLE)
+    return _beyond_doubles(setup, doubles, QUADRUPLE, _FINEST_QUADRUPLE)
 
 
 def _beyond_doubles(
-    simulation: Setup, doubles: Modes, numbers: Extended, finest: float
+    setup: Setup, doubles: Modes, numbers: Extended, finest: float
 ) -> Prepared | str:
-    has_events = simulation.equations.kinks or doubles.first.conditions or simulation.goes_on
+    has_events = setup.equations.kinks or doubles.first.conditions or setup.goes_on
     if has_events and numbers is not EXTENDED:
         return "events and switching functions are followed in up to 80 bits"
     try:
         with precision():
-            return _prepared(simulation, doubles, numbers, finest)
+            return _prepared(setup, doubles, numbers, finest)
     except (Refusal, NoCompiler, NotCompiled, OverflowError) as reason:
         return str(reason)
 
 
-def _prepared(
-    simulation: Setup, doubles: Modes, numbers: Extended, finest: float
-) -> Prepared | str:
+def _prepared(setup: Setup, doubles: Modes, numbers: Extended, finest: float) -> Prepared | str:
     from lagcli.numerics.equations.arithmetic import Balls
 
     if not (engine().extended if numbers is EXTENDED else engine().quadruple):
         return f"there are no numbers of {numbers.name.removeprefix('taylor')} bits here"
-    equations, request = simulation.equations, simulation.request
+    equations, request = setup.equations, setup.request
     arithmetic = Balls()
-    constants = constants_of(equations, simulation.all_nodes, arithmetic)
-    modes = Modes(simulation, constants, arithmetic, doubles.make_method, 2.0**-_BITS)
+    constants = constants_of(equations, setup.all_nodes, arithmetic)
+    modes = Modes(setup, constants, arithmetic, doubles.make_method, 2.0**-_BITS)
     modes.first.conserved = doubles.first.conserved
     motion = modes.first.motion
 
@@ -268,22 +272,24 @@ def _prepared(
     def runs_of(modes: Modes) -> Runs:
         motion = modes.first.motion
         if numbers is EXTENDED:
-            return Runs(simulation, modes, with_doubles(motion), with_doubles, in_python)
-        return Runs(simulation, modes, Machine(motion, numbers), None)
+            return Runs(setup, modes, with_doubles(motion), with_doubles, in_python)
+        return Runs(setup, modes, Machine(motion, numbers), None)
 
     def other_runs() -> Runs:
         beside = twin.BesideBalls(round(-math.log2(numbers.rounding)))
         try:
-            others = constants_of(equations, simulation.all_nodes, beside)
-            made = Modes(simulation, others, beside, doubles.make_method, modes.rounding)
+            others = constants_of(equations, setup.all_nodes, beside)
+            made = Modes(setup, others, beside, doubles.make_method, modes.rounding)
             made.first.conserved = doubles.first.conserved
             return runs_of(made)
         except (Refusal, NotCompiled, OverflowError) as reason:
             raise NotPossible(str(reason)) from None
 
-    q, v = simulation.start
-    exact_q, exact_v = refined_state(motion, modes.first.surface(), q, v, anew=not request.project)
-    inexact = rounded_components(motion, q, v)
+    q, v = setup.start
+    initial = setup.problem.initial
+    anew = {} if request.project else initial
+    exact_q, exact_v = refined_state(motion, modes.first.surface(), q, v, anew)
+    inexact = rounded_components(motion, initial, q, v)
     unit = arithmetic.ball(numbers.rounding) * 2
     beside = twin.by_turns(
         (*exact_q, *exact_v), inexact, motion.n, lambda x, sign: x * (1 + unit * sign)
@@ -293,20 +299,21 @@ def _prepared(
     usual, unit_of_doubles = runs_of(modes), numbers.rounding / DOUBLE.rounding
 
     def prepared(other: Runs) -> Prepared:
-        def run(bound: Tolerance, every: int, progress: Progress, *, moved: int) -> Run:
-            times: list[Any] = simulation.times
+        def run(order: RunOrder) -> Run:
+            moved = order.moved
+            times: list[Any] = [*order.times]
+            runs = other if moved else usual
             if moved:  # by a clock that is a rounding fast, or slow
                 clock = 1 + 2 * moved * Fraction(numbers.rounding)
                 times = [*(Fraction(t) * clock for t in times[:-1]), times[-1]]
-            bound.unit = unit_of_doubles
+            order.bound.unit = unit_of_doubles
             try:
-                return (other if moved else usual).run(states[moved], times, bound, every, progress)
+                return runs.run(states[moved], times, order)
             except (OverflowError, NotCompiled, Refusal) as reason:
                 raise NotPossible(str(reason)) from None
 
         return Prepared(
             run=run,
-            first=_FIRST_OF_LONG if simulation.is_long else math.inf,
             finest=finest,
             rounded=2 * ROUNDED * numbers.rounding,  # 1e-18 is 18 of those of 80 bits
             longest=LONGEST,

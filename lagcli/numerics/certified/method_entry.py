@@ -42,10 +42,10 @@ class MethodEntry:
     prepare: Prepare
 
 
-def without_switches(simulation: Setup) -> str:
+def without_switches(setup: Setup) -> str:
     """Why a method that does not stop at switching functions is not for this problem, or ""."""
     return (
         "it does not stop at the zeros of switching functions (abs, sign)"
-        if simulation.equations.kinks
+        if setup.equations.kinks
         else ""
     )

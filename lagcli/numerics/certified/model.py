@@ -17,7 +17,7 @@ from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node, Symbol, mask_of, with_values
 from lagcli.graph.sharing import written_out
 from lagcli.mechanics.identities import vanish
-from lagcli.numerics.certified.simulate import Simulation
+from lagcli.numerics.certified.ready_setup import ready_setup
 from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.contact import with_contacts
@@ -89,7 +89,7 @@ class _Model:
         columns += [Column(q.name, Name(q.name, k)) for k in (0, 1) for q in e.q]
         request = RunRequest(until=1.0, accuracy=1e-9, samples=2, columns=tuple(columns))
         with suppress(Refusal):
-            return Simulation(self.problem, request).ready()[0].cut is not None
+            return ready_setup(self.problem, request)[0].cut is not None
         try:
             return cut(e, self.constants, [*e.q, *e.qdot], given) is not None
         except (ArithmeticError, UndefinedFunction):

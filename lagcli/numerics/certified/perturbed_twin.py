@@ -22,6 +22,7 @@ from lagcli.graph.nodes import Symbol
 from lagcli.numerics.certified.accuracy import Outcome
 from lagcli.numerics.equations.arithmetic import Balls, Doubles
 from lagcli.numerics.equations.constants import constants_of
+from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import rounded_components
 from lagcli.numerics.hybrid.modes import Modes
@@ -98,13 +99,13 @@ class BesideBalls(Balls):
         return super().number(nearest + side * steps * unit)
 
 
-def moved_states(simulation: Setup, modes: Modes) -> tuple[State, State]:
+def moved_states(setup: Setup, modes: Modes) -> tuple[State, State]:
     """The next doubles to the initial state: all above, and above and below by turns.
 
     What it is rounded by must not matter; in one of them its parts may cancel.
     """
-    motion, (q, v) = modes.first.motion, simulation.start
-    rounded = rounded_components(motion, q, v)
+    motion, (q, v) = modes.first.motion, setup.start
+    rounded = rounded_components(motion, setup.problem.initial, q, v)
 
     return by_turns((*q, *v), rounded, motion.n, lambda x, sign: math.nextafter(x, sign * math.inf))
 
@@ -121,9 +122,9 @@ def by_turns(
     return above, both
 
 
-def elsewhere(simulation: Setup) -> tuple[State, State]:
+def elsewhere(setup: Setup) -> tuple[State, State]:
     """The initial state with all its components a few roundings away, to one side or the other."""
-    q, v = simulation.start
+    q, v = setup.start
     return (_turned(q, 1), _turned(v, -1)), (_turned(q, -1), _turned(v, -1))
 
 
@@ -140,27 +141,26 @@ def clocked(times: Sequence[float], moved: int) -> list[float]:
     return [*(t * (1 + moved * _EPSILON) for t in times[:-1]), times[-1]]
 
 
-#: Those of modes that are still there: an ensemble runs the same ones many times.
-_OTHERS: WeakKeyDictionary[Modes, tuple[Setup, Modes | None]] = WeakKeyDictionary()
+#: Those of motions that are still there: an ensemble runs one many times.
+_OTHERS: WeakKeyDictionary[Motion, Modes | None] = WeakKeyDictionary()
 
 
-def other_parameters(simulation: Setup, modes: Modes) -> Modes | None:
+def other_parameters(setup: Setup, modes: Modes) -> Modes | None:
     """The same modes with parameters beside those of the file; None where all are exact."""
-    known = _OTHERS.get(modes)
-    if known is None or known[0] is not simulation:
-        known = _OTHERS[modes] = simulation, _other_parameters(simulation, modes)
-    return known[1]
+    motion = modes.first.motion
+    if motion not in _OTHERS:
+        _OTHERS[motion] = _other_parameters(setup, modes)
+    known = _OTHERS[motion]
+    return None if known is None else known.by(modes.make_method, setup)
 
 
-def _other_parameters(simulation: Setup, modes: Modes) -> Modes | None:
-    arithmetic = BesideDoubles(exact=not simulation.equations.rows)
+def _other_parameters(setup: Setup, modes: Modes) -> Modes | None:
+    arithmetic = BesideDoubles(exact=not setup.equations.rows)
     try:
-        constants: Mapping[Symbol, Any] = constants_of(
-            simulation.equations, simulation.all_nodes, arithmetic
-        )
+        constants: Mapping[Symbol, Any] = constants_of(setup.equations, setup.all_nodes, arithmetic)
     except Refusal:  # at the end of what is allowed
         return None
-    others = Modes(simulation, constants, arithmetic, modes.make_method, modes.rounding)
+    others = Modes(setup, constants, arithmetic, modes.make_method, modes.rounding)
     others.first.conserved = modes.first.conserved
     return others
 
@@ -186,8 +186,8 @@ def are_felt(outcome: Outcome, modes: Modes, others: Modes, accuracy: float, uni
     looks = [*run.marks[::every]]
     if run.narrowest is not None:
         looks.append(run.narrowest)
-    n, columns = len(run.peaks) // 2, len(others.simulation.nodes)
-    least = [peak / others.simulation.request.until for peak in run.peaks[n:]]
+    n, columns = len(run.peaks) // 2, len(others.setup.nodes)
+    least = [peak / others.setup.request.until for peak in run.peaks[n:]]
     sizes, changes = least, [0.0] * n
     moves = [0.0] * columns
     for mark in looks:

@@ -6,18 +6,17 @@ import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from lagcli.numerics.certified.prepared import Prepared
+from lagcli.numerics.certified.prepared import Prepared, RunOrder
 from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import refined_state
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.modes import Mode, Modes
-from lagcli.numerics.hybrid.request import Progress
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.hybrid.transitions import Transitions
-from lagcli.numerics.integrators.steps import Method, Tolerance
+from lagcli.numerics.integrators.steps import Method
 from lagcli.numerics.integrators.taylor import Taylor
 
 _DIGITS = 30
@@ -36,20 +35,21 @@ def precision(digits: int) -> Iterator[None]:
         yield
 
 
-def prepared(simulation: Setup, doubles: Modes, digits: int | None = None) -> Prepared | str:
+def prepared(setup: Setup, doubles: Modes, digits: int | None = None) -> Prepared | str:
     """Power series with this number of digits made ready, or why only doubles can do it.
 
     Parameters
     ----------
-    simulation, doubles
+    setup, doubles
         The request, and the modes in doubles.
     digits
         The requested ones, or 30, without it.
     """
-    equations, request = simulation.equations, simulation.request
+    equations, request = setup.equations, setup.request
+    given = setup.problem.initial
     if equations.kinks:
         return "abs and sign have no power series"
-    if simulation.goes_on:
+    if setup.goes_on:
         return "contacts that close or are released are followed in doubles only"
     limit = _UNASKED if request.digits is None and digits is None else _ASKED
     carried = digits or request.digits or _DIGITS
@@ -57,21 +57,22 @@ def prepared(simulation: Setup, doubles: Modes, digits: int | None = None) -> Pr
     try:
         with precision(carried):
             arithmetic = Balls()
-            constants = constants_of(equations, simulation.all_nodes, arithmetic)
-            modes = Modes(simulation, constants, arithmetic, _taylor, rounding)
+            constants = constants_of(equations, setup.all_nodes, arithmetic)
+            modes = Modes(setup, constants, arithmetic, _taylor, rounding)
             modes.first.conserved = doubles.first.conserved
             surface = modes.first.surface()
             state = refined_state(
-                modes.first.motion, surface, *simulation.start, anew=not request.project
+                modes.first.motion, surface, *setup.start, {} if request.project else given
             )
     except Refusal as refusal:
         return str(refusal)
 
-    def run(bound: Tolerance, every: int, progress: Progress, *, moved: bool) -> Run:
-        del every, moved  # nothing lies between its stages, and its rounding is its own
-        made = Run(Transitions(modes, request.accuracy, request.until), bound, request.accuracy)
-        made.step_limit = min(limit, simulation.most_steps or limit)
-        return made.go(*state, simulation.times, progress=progress)
+    def run(order: RunOrder) -> Run:
+        # nothing is probed or moved: nothing lies between its stages, and its rounding is its own
+        transitions = Transitions(modes, request.accuracy, request.until)
+        made = Run(transitions, order.bound, request.accuracy)
+        made.step_limit = min(limit, order.most or limit)
+        return made.go(*state, order.times, progress=order.progress)
 
     return Prepared(
         run=run,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 
@@ -34,9 +33,49 @@ ROUNDED = 10.0
 _CHANCE = 8.0
 
 
-#: (bound: Tolerance, every: int, progress, *, moved: int) -> run: of the problem, or of one a
-#: rounding beside it, with a fast clock or a slow one (`moved` 1 or -1).
-OneRun = Callable[..., Run]
+@record(kw_only=True)
+class RunOrder:
+    """A run of a problem, or of one a rounding beside it.
+
+    Attributes
+    ----------
+    bound, times
+        The tolerance, and the rows.
+    every
+        At this interval of steps the defect is probed; 0 never.
+    progress
+        Called with the part that is done.
+    moved
+        1 or -1 with a fast clock or a slow one, and a rounding beside the problem.
+    most
+        Steps, where it has more digits than doubles.
+    """
+
+    bound: Tolerance
+    times: Sequence[float]
+    every: int = 0
+    progress: Progress = None
+    moved: int = 0
+    most: int | None = None
+
+
+OneRun = Callable[[RunOrder], Run]
+
+
+class RunsDone:
+    """The progress of runs of which there are two at least."""
+
+    def __init__(self, progress: Progress) -> None:
+        self._progress, self._done = progress, 0
+
+    def report(self, part: float) -> None:
+        """The part of a run that is done."""
+        if self._progress is not None:
+            self._progress((self._done + part) / max(2, self._done + 1))
+
+    def finish(self) -> None:
+        """One more is done."""
+        self._done += 1
 
 
 @record(kw_only=True)
@@ -47,8 +86,8 @@ class Prepared:
     ----------
     run : OneRun
         Makes a run.
-    first, finest
-        No run is made with a tolerance above, or below.
+    finest
+        No run is made with a tolerance below.
     rounded, chance
         Runs with a tolerance up to `rounded` meet rounding: `chance` differences bound the error.
     longest : tuple of float
@@ -64,7 +103,6 @@ class Prepared:
     """
 
     run: OneRun
-    first: float = math.inf
     finest: float = FINEST_DOUBLE
     rounded: float = 0.0
     chance: float = CHANCE
@@ -75,79 +113,101 @@ class Prepared:
     with_others: Callable[[Modes], Prepared] | None = None
 
 
-def in_doubles(make: MakeMethod, simulation: Setup, modes: Modes, rounded: float = 0.0) -> Prepared:
+def in_doubles(make: MakeMethod, setup: Setup, modes: Modes, rounded: float = 0.0) -> Prepared:
     """A method of the usual kind made ready: steps in Python, one state after the other.
 
     Parameters
     ----------
     make
         Makes the method of a mode.
-    simulation, modes
+    setup, modes
         The request, and the modes in doubles.
     rounded
         As for `Prepared`.
     """
-    request = simulation.request
+    request = setup.request
     usual = modes.by(make)
 
     def prepared(other: Modes, beside: tuple[State, State]) -> Prepared:
-        both, states = (usual, other), (simulation.start, *beside)
+        both, states = (usual, other), (setup.start, *beside)
 
-        def run(bound: Tolerance, every: int, progress: Progress, *, moved: int) -> Run:
+        def run(order: RunOrder) -> Run:
+            moved = order.moved
             made = Run(
                 Transitions(both[moved != 0], request.accuracy, request.until),
-                bound,
+                order.bound,
                 request.accuracy,
             )
             q, v = states[moved]
-            times = clocked(simulation.times, moved)
-            return made.go(q, v, times, probe_every=every, progress=progress)
+            times = clocked(order.times, moved)
+            return made.go(q, v, times, probe_every=order.every, progress=order.progress)
 
         return Prepared(
             run=run,
             rounded=rounded,
             chance=_CHANCE,
-            with_others=lambda others: prepared(others.by(make), elsewhere(simulation)),
+            with_others=lambda others: prepared(others.by(make), elsewhere(setup)),
         )
 
-    return prepared(usual, moved_states(simulation, modes))
+    return prepared(usual, moved_states(setup, modes))
 
 
-def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1.0) -> Outcome:
+def outcome_of(
+    setup: Setup,
+    modes: Modes,
+    made: Prepared,
+    done: RunsDone,
+    *,
+    first: float = 1.0,
+    most: int | None = None,
+) -> Outcome:
     """The runs of a method, compared until they agree within the accuracy.
 
     Parameters
     ----------
-    simulation, modes, made
+    setup, modes, made
         The request, the modes in doubles, and the method.
+    done
+        Counts the runs.
     first
         The first tolerance is no coarser.
+    most
+        Steps of a run with more digits than doubles.
     """
-    request = simulation.request
-    scales = Scales(simulation)
-    total = 2  # runs that progress counts
+    request, usual = setup.request, setup.times
+    scales = Scales(setup)
     count = 0
 
     def runner(
-        tolerance: float, longest: float, peaks: Sequence[float] | None, every: int, slow: bool
+        tolerance: float,
+        longest: float,
+        peaks: Sequence[float] | None,
+        every: int,
+        slow: bool,
+        times: Sequence[float] | None,
     ) -> Run:
-        n = len(simulation.equations.q)
+        n = len(setup.equations.q)
         nonlocal count
-        moved, done = -1 if slow else int(count % 2 == 0), simulation.finished
+        moved = -1 if slow else int(count % 2 == 0)
 
-        def report(part: float) -> None:
-            if simulation.progress is not None:
-                simulation.progress((done + part) / max(total, done + 1))
-
-        def again() -> Run:
+        def again(times: Sequence[float]) -> Run:
             bound = Tolerance(tolerance, n, request.until, longest, peaks, made.floor)
             bound.moved = moved != 0
-            return made.run(bound, every, report, moved=moved)
+            return made.run(
+                RunOrder(
+                    bound=bound,
+                    times=times,
+                    every=every,
+                    progress=done.report,
+                    moved=moved,
+                    most=most,
+                )
+            )
 
-        run = again()
+        run = again(times or usual)
         run.again = again
         count += 1
-        simulation.finished += 1
+        done.finish()
         return run
 
     def found() -> Outcome:
@@ -159,15 +219,15 @@ def outcome_of(simulation: Setup, modes: Modes, made: Prepared, first: float = 1
                 rounded=made.rounded,
                 chance=made.chance,
                 span=request.until,
-                charges=len(simulation.charges),
+                charges=len(setup.charges),
                 scales=scales,
                 longest=made.longest,
-                first=min(first, made.first),
+                first=first,
             ).outcome()
 
     outcome = found()
     if outcome.good_rows > 1 and made.with_others is not None:
-        others = other_parameters(simulation, modes)
+        others = other_parameters(setup, modes)
         if others is not None and are_felt(outcome, modes, others, request.accuracy, made.unit):
             with made.precision():
                 made = made.with_others(others)

@@ -38,21 +38,21 @@ _TIME, _FORMULA = -1, -2
 
 
 class Scales:
-    """The scales of the columns of a simulation.
+    """The scales of the columns of a setup.
 
     Parameters
     ----------
-    simulation
+    setup
         The request.
     """
 
-    def __init__(self, simulation: Setup) -> None:
-        self._simulation = simulation
-        e = simulation.equations
+    def __init__(self, setup: Setup) -> None:
+        self._setup = setup
+        e = setup.equations
         state: dict[Node, int] = {symbol: j for j, symbol in enumerate((*e.q, *e.qdot))}
         # the place of each column in the state
-        self._places = [state.get(node, _FORMULA) for node in simulation.nodes]
-        for j, column in enumerate(simulation.request.columns):
+        self._places = [state.get(node, _FORMULA) for node in setup.nodes]
+        for j, column in enumerate(setup.request.columns):
             if column.expression is None:
                 self._places[j] = _TIME
         self._sizes: tuple[Run, dict[int, float]] | None = None
@@ -75,7 +75,7 @@ class Scales:
         peaks = list(map(_peak, columns)) or [0.0] * len(self._places)
         if self._sizes is None or self._sizes[0] is not run:
             self._sizes = run, self._of_formulas(run)
-        accuracy, until = self._simulation.request.accuracy, self._simulation.request.until
+        accuracy, until = self._setup.request.accuracy, self._setup.request.until
         # near a singularity at which a run stops they are without bound; where rows are left out,
         # nothing is known of what lies behind them
         is_whole = run.stop is None and len(rows) == len(run.marks)
@@ -106,14 +106,14 @@ class Scales:
 
         What is solved for stands beside the forces that it follows from.
         """
-        simulation = self._simulation
+        setup = self._setup
         places = [j for j, place in enumerate(self._places) if place == _FORMULA]
         if not places or not run.marks:
             return {}
-        e, reading = simulation.equations, simulation.reading
+        e, reading = setup.equations, setup.reading
         solved = mask_of((*reading.accelerations, *reading.multipliers))
-        plain = [j for j in places if not simulation.nodes[j].mask & solved]
-        nodes = [*(simulation.nodes[j] for j in plain), *e.forcing]
+        plain = [j for j in places if not setup.nodes[j].mask & solved]
+        nodes = [*(setup.nodes[j] for j in plain), *e.forcing]
         sizes = Sizes(e, nodes, run.phases[0].mode.modes.constants)
         largest = sizes.largest(run.marks, range(len(run.marks)))
         forces = max(largest[len(plain) :], default=0.0)

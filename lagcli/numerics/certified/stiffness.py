@@ -30,10 +30,10 @@ _CLEARLY = 0.1
 _STEP = 1e-7
 
 
-def decay(simulation: Setup, modes: Modes) -> float:
+def decay(setup: Setup, modes: Modes) -> float:
     """Times of the fastest decay within the span; 0 where an oscillation is faster."""
-    motion, (q, v) = modes.first.motion, simulation.start
-    if _fastest(motion, q, v) * simulation.request.until < _CLEARLY * STIFF:
+    motion, (q, v) = modes.first.motion, setup.start
+    if _fastest(motion, q, v) * setup.request.until < _CLEARLY * STIFF:
         return 0.0
     try:
         by_q, by_v = jacobian(motion)(0.0, *q, *v)
@@ -41,7 +41,7 @@ def decay(simulation: Setup, modes: Modes) -> float:
         return 0.0
     n = motion.n
     rate = max(sum(map(abs, row)) for row in by_v)
-    if not STIFF < rate * simulation.request.until < math.inf:
+    if not STIFF < rate * setup.request.until < math.inf:
         return 0.0
     x = [1.0 + j / (7 * n) for j in range(2 * n)]  # not at right angles to anything in particular
     for _ in range(_ROUNDS):
@@ -53,7 +53,7 @@ def decay(simulation: Setup, modes: Modes) -> float:
         if not 0 < size < math.inf:
             return 0.0
         x = [b / size for b in moved]
-    return -along * simulation.request.until if settled and along < 0 else 0.0
+    return -along * setup.request.until if settled and along < 0 else 0.0
 
 
 def _fastest(motion: Motion, q: Sequence[float], v: Sequence[float]) -> float:

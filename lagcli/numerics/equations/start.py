@@ -15,7 +15,7 @@ from math import factorial
 from typing import Any
 
 from lagcli.diagnostics import NOWHERE, Diagnostic, Span
-from lagcli.expression import Name
+from lagcli.expression import Expression, Name
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Constant, Node, Symbol, mask_of
 from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
@@ -31,6 +31,9 @@ from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.numerics.equations.surface import Surface
 from lagcli.problem_data import Coordinate, Problem
 
+#: What a file gives of the state at t = 0.
+Initial = Mapping[Name, Expression]
+
 #: A given state may miss the constraints by so much, relative to their terms.
 _ON_SURFACE = 1e-12
 _HIGHEST_DEGREE = 6
@@ -41,11 +44,9 @@ _ZERO = 1e-14
 _LISTED = 8
 
 
-def given_values(motion: Motion) -> dict[Symbol, Any]:
+def given_values(motion: Motion, initial: Initial) -> dict[Symbol, Any]:
     """What the file gives."""
-    equations = motion.equations
-    graph, read = equations.graph, equations.form.read
-    initial = equations.problem.initial
+    graph, read = motion.equations.graph, motion.equations.form.read
     nodes = [read(value) for value in initial.values()]
     try:
         values = straight_line((), nodes, motion.constants, motion.arithmetic)()
@@ -58,13 +59,17 @@ def given_values(motion: Motion) -> dict[Symbol, Any]:
     return dict(zip(names, values, strict=True))
 
 
-def initial_state(motion: Motion, *, project: bool = False) -> tuple[list[float], list[float]]:
+def initial_state(
+    motion: Motion, initial: Initial, *, project: bool = False
+) -> tuple[list[float], list[float]]:
     """q and q' at t = 0 in doubles.
 
     Parameters
     ----------
     motion
         In doubles.
+    initial
+        What the file gives.
     project
         Take the nearest state on the constraints for one that is off.
 
@@ -73,7 +78,7 @@ def initial_state(motion: Motion, *, project: bool = False) -> tuple[list[float]
     Refusal
         When the state is off the constraints, or they leave several.
     """
-    return _Completion(motion).state(project=project)
+    return _Completion(motion, initial).state(project=project)
 
 
 def completed_state(problem: Problem) -> dict[str, float]:
@@ -90,15 +95,20 @@ def completed_state(problem: Problem) -> dict[str, float]:
     entries = [entry for row in (*e.mass, *e.rows) for entry in row]
     given = map(e.form.read, problem.initial.values())
     needed = [*entries, *e.bias, *e.positions, *e.rates, *given]
-    q, v = initial_state(Motion(e, constants_of(e, needed, Doubles()), Doubles()))
+    motion = Motion(e, constants_of(e, needed, Doubles()), Doubles())
+    q, v = initial_state(motion, problem.initial)
     names = [each.name for each in problem.coordinates]
     return dict(zip([*names, *(f"{name}'" for name in names)], [*q, *v], strict=True))
 
 
 def refined_state(
-    motion: Motion, surface: Surface | None, q: Sequence[float], v: Sequence[float], *, anew: bool
+    motion: Motion,
+    surface: Surface | None,
+    q: Sequence[float],
+    v: Sequence[float],
+    anew: Initial,
 ) -> tuple[list[Any], list[Any]]:
-    """The same state in the numbers of another motion, what the file gives worked out anew.
+    """The same state in the numbers of another motion, what is given worked out `anew`.
 
     Raises
     ------
@@ -106,8 +116,7 @@ def refined_state(
         Where balls cannot solve the constraints.
     """
     equations, number = motion.equations, motion.arithmetic.number
-    given = given_values(motion) if anew else {}
-
+    given = given_values(motion, anew) if anew else {}
     exact = [
         given.get(symbol, number(Fraction(value)))
         for symbol, value in zip((*equations.q, *equations.qdot), (*q, *v), strict=True)
@@ -124,12 +133,14 @@ def refined_state(
     return q, v
 
 
-def rounded_components(motion: Motion, q: Sequence[float], v: Sequence[float]) -> list[bool]:
+def rounded_components(
+    motion: Motion, initial: Initial, q: Sequence[float], v: Sequence[float]
+) -> list[bool]:
     """Which components of the initial state are not exactly the doubles that stand for them."""
     equations = motion.equations
     graph, read = equations.graph, equations.form.read
     exact: dict[Symbol, bool] = {}
-    for name, formula in equations.problem.initial.items():
+    for name, formula in initial.items():
         node = read(formula)
         known = isinstance(node, Constant) and Fraction(float(node.value)) == node.value
         exact[graph.symbol(name.name, name.primes)] = known
@@ -154,10 +165,10 @@ class OffConstraints(Refusal):
 class _Completion:
     """Fills in what the file leaves out, equation by equation, and then by several together."""
 
-    def __init__(self, motion: Motion) -> None:
-        self.motion = motion
+    def __init__(self, motion: Motion, initial: Initial) -> None:
+        self.motion, self.initial = motion, initial
         self.equations = motion.equations
-        self.values: dict[Symbol, float] = given_values(motion)
+        self.values: dict[Symbol, float] = given_values(motion, initial)
 
     def state(self, *, project: bool) -> tuple[list[float], list[float]]:
         e = self.equations
@@ -367,7 +378,7 @@ class _Completion:
             )
 
     def _span(self, symbol: Symbol) -> Span:
-        value = self.equations.problem.initial.get(Name(symbol.name, symbol.primes))
+        value = self.initial.get(Name(symbol.name, symbol.primes))
         return NOWHERE if value is None else value.span
 
     def _open(self, unknown: Symbol, which: int, why: str) -> Refusal:

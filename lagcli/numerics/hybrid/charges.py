@@ -30,29 +30,29 @@ _PROJECTIONS, _ON_SURFACE = 8, _ZERO**1.25
 _LOOKS = 8
 
 
-def conserved_charges(simulation: Setup, motion: Motion) -> set[str]:
-    """The names of those charges of the simulation that are conserved in one mode's motion."""
+def conserved_charges(setup: Setup, motion: Motion) -> set[str]:
+    """The names of those charges of a setup that are conserved in one mode's motion."""
     equations = motion.equations
-    found = set(equations.evident_charges) & set(simulation.charges)
-    request = [name for name in simulation.candidates if name in simulation.charges]
+    found = set(equations.evident_charges) & set(setup.charges)
+    request = [name for name in setup.candidates if name in setup.charges]
     if not request:
         return found
     graph = equations.graph
-    solved = simulation.reading.accelerations
+    solved = setup.reading.accelerations
     rates = [
         *((equations.t, graph.one),),
         *zip(equations.q, equations.qdot, strict=True),
         *zip(equations.qdot, solved, strict=True),
     ]
     terms = [
-        graph.product(partial(graph, x)(simulation.charges[name]), rate)
+        graph.product(partial(graph, x)(setup.charges[name]), rate)
         for name in request
         for x, rate in rates
     ]
     function = motion.function(terms, solved)
     signs = list(motion.signs)
     good, left = 0, set(request)
-    for t, q, v in _states(simulation, motion):
+    for t, q, v in _states(setup, motion):
         try:
             if motion.kinks:
                 motion.set_signs(t, q, v)
@@ -70,12 +70,12 @@ def conserved_charges(simulation: Setup, motion: Motion) -> set[str]:
     return found | left if good == _ENOUGH else found
 
 
-def _states(simulation: Setup, motion: Motion) -> Iterator[tuple[float, list[float], list[float]]]:
+def _states(setup: Setup, motion: Motion) -> Iterator[tuple[float, list[float], list[float]]]:
     """Random states near the initial one, on the constraints; the same ones in every run."""
-    q0, v0 = simulation.start
+    q0, v0 = setup.start
     number = Random(20011).random
     for _ in range(_ATTEMPTS):
-        t = simulation.request.until * number()
+        t = setup.request.until * number()
         q = [x + _SPREAD * (2 * number() - 1) * (abs(x) or 1.0) for x in q0]
         v = [x + _SPREAD * (2 * number() - 1) * max(abs(x), 1.0) for x in v0]
         if motion.equations.rows:
@@ -83,7 +83,7 @@ def _states(simulation: Setup, motion: Motion) -> Iterator[tuple[float, list[flo
             if state is None:
                 continue
             q, v = state
-        if all(c.allows(x) for c, x in zip(simulation.problem.coordinates, q, strict=True)):
+        if all(c.allows(x) for c, x in zip(setup.problem.coordinates, q, strict=True)):
             yield t, q, v
 
 

@@ -29,29 +29,40 @@ MakeMethod = Callable[["Mode", "Surface | None"], Method]
 class Mode:
     """The motion while some constraints act and some kinks stick."""
 
-    def __init__(self, modes: Modes, held: frozenset[int], stuck: frozenset[int]) -> None:
+    def __init__(
+        self,
+        modes: Modes,
+        held: frozenset[int],
+        stuck: frozenset[int],
+        motion: Motion | None = None,
+    ) -> None:
         self.modes, self.held, self.stuck = modes, held, stuck
         self.key = held, stuck
-        simulation = modes.simulation
-        every = len(simulation.equations.rows)
-        whole = simulation.equations
+        setup = modes.setup
+        every = len(setup.equations.rows)
+        whole = setup.equations
         self.equations = whole if len(held) == every else whole.holding(held)
-        arguments = (self.equations, modes.constants, modes.arithmetic)
-        self.motion = (
-            StuckMotion(*arguments, modes.signs, stuck)
-            if stuck
-            else Motion(*arguments, modes.signs or None)
-        )
-        self.motion.looked_at = self._looked_at()
+        self.motion = motion or self._motion()
         #: what a method has generated for this mode
         self.generated: Any = None
 
+    def _motion(self) -> Motion:
+        arguments = (self.equations, self.modes.constants, self.modes.arithmetic)
+        signs = self.modes.signs
+        motion = (
+            StuckMotion(*arguments, signs, self.stuck)
+            if self.stuck
+            else Motion(*arguments, signs or None)
+        )
+        motion.looked_at = self._looked_at()
+        return motion
+
     def _looked_at(self) -> tuple[Node, ...]:
         """The margins of the conditions."""
-        simulation = self.modes.simulation
-        margins = [node for k, node in simulation.margins.items() if k in self.held]
-        gaps = [node for k, node in simulation.gaps.items() if k not in self.held]
-        return (*margins, *gaps, *([] if simulation.stop is None else [simulation.stop]))
+        setup = self.modes.setup
+        margins = [node for k, node in setup.margins.items() if k in self.held]
+        gaps = [node for k, node in setup.gaps.items() if k not in self.held]
+        return (*margins, *gaps, *([] if setup.stop is None else [setup.stop]))
 
     def surface(self) -> Surface | None:
         """The constraints that act, nothing measured yet."""
@@ -70,11 +81,11 @@ class Mode:
     def conditions(self) -> list[Condition]:
         """What ends the mode, or the run."""
         modes = self.modes
-        simulation = modes.simulation
-        names = [c.name for c in simulation.whole.constraints]
+        setup = modes.setup
+        names = [c.name for c in setup.whole.constraints]
         found = [
             Condition(names[k], "contact lost", self._watched(node), "loss", k)
-            for k, node in simulation.margins.items()
+            for k, node in setup.margins.items()
             if k in self.held
         ]
         found += [
@@ -86,23 +97,21 @@ class Mode:
                 k,
                 exact_margin=self._exactly(node),
             )
-            for k, node in simulation.gaps.items()
+            for k, node in setup.gaps.items()
             if k not in self.held
         ]
         found += [
-            Condition(
-                modes.simulation.equations.kink_name(k), "slips", self._friction(place), "slip", k
-            )
+            Condition(modes.setup.equations.kink_name(k), "slips", self._friction(place), "slip", k)
             for place, k in enumerate(sorted(self.stuck))
         ]
-        if simulation.stop is not None:
-            name = simulation.request.stop_name
-            margin = self._watched(simulation.stop)
+        if setup.stop is not None:
+            name = setup.request.stop_name
+            margin = self._watched(setup.stop)
             found.append(Condition(name, "stopped", margin, two_sided=True))
         return found
 
     def _watched(self, node: Node) -> Callable[..., float]:
-        values = Values(self.motion, self.modes.simulation.reading, [node])
+        values = Values(self.motion, self.modes.setup.reading, [node])
 
         def margin(t: float, q: Sequence[Any], v: Sequence[Any]) -> float:
             [value] = values(t, q, v)
@@ -129,21 +138,21 @@ class Mode:
     @cached_property
     def conserved(self) -> list[bool]:
         """Which of the charges stay as they are in this mode."""
-        kept = conserved_charges(self.modes.simulation, self.motion)
-        return [name in kept for name in self.modes.simulation.charges]
+        kept = conserved_charges(self.modes.setup, self.motion)
+        return [name in kept for name in self.modes.setup.charges]
 
     @cached_property
     def sizes(self) -> Sizes:
         """What the charges are measured against."""
-        e, charges = self.equations, [*self.modes.simulation.charges.values()]
+        e, charges = self.equations, [*self.modes.setup.charges.values()]
         return Sizes(e, charges, self.modes.constants)
 
     @cached_property
     def tabulate(self) -> ColumnRows:
         """The columns and then the charges at a state."""
-        simulation = self.modes.simulation
-        nodes = [*simulation.nodes, *simulation.charges.values()]
-        return ColumnRows(self.motion, simulation.reading, nodes)
+        setup = self.modes.setup
+        nodes = [*setup.nodes, *setup.charges.values()]
+        return ColumnRows(self.motion, setup.reading, nodes)
 
 
 class Modes:
@@ -151,7 +160,7 @@ class Modes:
 
     Parameters
     ----------
-    simulation
+    setup
         The problem and the request.
     constants, arithmetic
         As for `Motion`.
@@ -163,27 +172,33 @@ class Modes:
 
     def __init__(
         self,
-        simulation: Setup,
+        setup: Setup,
         constants: Mapping[Symbol, Any],
         arithmetic: Arithmetic,
         make_method: MakeMethod,
         rounding: float,
     ) -> None:
-        self.simulation, self.constants, self.arithmetic = simulation, constants, arithmetic
+        self.setup, self.constants, self.arithmetic = setup, constants, arithmetic
         self.make_method, self.rounding = make_method, rounding
-        self.signs = [1.0] * len(simulation.equations.kinks)
+        self.signs = [1.0] * len(setup.equations.kinks)
         self._known: dict[tuple[frozenset[int], frozenset[int]], Mode] = {}
 
-    def by(self, make_method: MakeMethod) -> Modes:
-        """The same problem in the same numbers, by another method."""
-        arguments = (self.simulation, self.constants, self.arithmetic, make_method, self.rounding)
-        other = Modes(*arguments)
-        other.signs = self.signs
-        first = Mode(other, *self.first.key)
-        first.motion = self.first.motion
+    def by(self, make_method: MakeMethod, setup: Setup | None = None) -> Modes:
+        """The same columns and charges in the same numbers, by another method or elsewhere."""
+        other = self.of(setup or self.setup)
+        other.make_method = make_method
+        first = other.first
         first.conserved = self.first.conserved
         first.tabulate, first.sizes = self.first.tabulate, self.first.sizes
-        other._known[first.key] = first
+        return other
+
+    def of(self, setup: Setup) -> Modes:
+        """The same motion with another start or other charges."""
+        numbers = self.constants, self.arithmetic, self.make_method, self.rounding
+        other = Modes(setup, *numbers)
+        other.signs = self.signs
+        key = self.first.key
+        other._known[key] = Mode(other, *key, self.first.motion)
         return other
 
     def mode(self, held: frozenset[int], stuck: frozenset[int] = frozenset()) -> Mode:
@@ -196,10 +211,10 @@ class Modes:
     @cached_property
     def first(self) -> Mode:
         """The one of the file: its constraints, and no contact."""
-        return self.mode(self.simulation.given)
+        return self.mode(self.setup.given)
 
     @cached_property
     def whole(self) -> Motion:
         """The motion with every constraint, for its matrices only."""
-        every = frozenset(range(len(self.simulation.equations.rows)))
+        every = frozenset(range(len(self.setup.equations.rows)))
         return self.mode(every).motion

@@ -93,8 +93,8 @@ class Run:
         self.events: list[tuple[int, Event]] = []
         self.event: Event | None = None
         self.stop: CannotGoOn | None = None
-        #: makes the same run once more
-        self.again: Callable[[], Run] = lambda: self
+        #: makes the same run once more, with rows at these times
+        self.again: Callable[[Sequence[float]], Run] = lambda _: self
         self.steps = 0
         self.defect = 0.0
         #: where the steps are shortest

@@ -2,111 +2,73 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from copy import copy
+from collections.abc import Mapping, Sequence
 from functools import lru_cache
 from itertools import pairwise
-from typing import Any, Self
+from typing import Any
 
 from lagcli.graph.nodes import Node
 from lagcli.numerics.equations.columns import Reading
-from lagcli.numerics.equations.contact import one_sided, with_contacts
+from lagcli.numerics.equations.contact import OneSided, one_sided, with_contacts
 from lagcli.numerics.equations.equations import Equations
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import straight_line
-from lagcli.numerics.hybrid.request import Progress, RunRequest
+from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.numerics.hybrid.result import Cut
 from lagcli.problem_data import Problem, charge_of
-from lagcli.reader.columns import Column
+from lagcli.record import record
 
 #: The least number of intervals at which two runs are compared.
 _COMPARED = 100
 _GOLDEN = 0.6180339887498949
-#: Intervals that are compared between two rows where the accuracy is lost.
-_CLOSER = 64
 
 
+@record(kw_only=True)
 class Setup:
-    """One problem with its columns and conditions as nodes."""
+    """One problem with its columns and conditions as nodes.
 
-    def __init__(self, problem: Problem, request: RunRequest, progress: Progress = None) -> None:
-        self.problem, self.request, self.progress = problem, request, progress
-        #: with the contacts among the constraints
-        self.whole = with_contacts(problem)
-        self.equations = equations = Equations(self.whole)
-        self.reading = Reading(equations)
-        #: the constraints that act at the beginning, whatever the contacts do
-        self.given = frozenset(range(len(problem.constraints)))
-        self.contacts = one_sided(self.whole, len(problem.constraints))
-        try:
-            self.stop = None if request.stop_when is None else self.reading(request.stop_when)
-            self.nodes = [self._column(column) for column in request.columns]
-            self.margins = {
-                k: self._margin(c.holds_while)
-                for k, c in enumerate(self.whole.constraints)
-                if c.holds_while is not None
-            }
-            self.gaps = self._gaps()
-            self.charges = dict(equations.holding(frozenset()).evident_charges)
-            self.candidates = self._candidates()
-        except ArithmeticError as error:
-            raise Refusal(f"a column is not defined: {error}") from None
-        #: the requested rows are those at multiples of this
-        self.every = _parts_of_rows(request)
-        self.notes: list[str] = []
-        #: what the model was cut by
-        self.cut: Cut | None = None
-        #: the state at t = 0, once it is found
-        self.start: tuple[list[float], list[float]] = [], []
-        self.begin()
+    Attributes
+    ----------
+    problem, request
+        As given; of `whole` the contacts are among the constraints.
+    equations, reading
+        Of what is integrated, and how columns are read there.
+    given : frozenset of int
+        The constraints that act at the beginning, whatever the contacts do.
+    contacts : mapping of int to OneSided
+        By the place of the constraint.
+    nodes : tuple of Node
+        The columns.
+    stop : Node or None
+        Where it changes its sign the run stops.
+    margins, gaps : mapping of int to Node
+        Of constraints that hold while it is positive; of contacts that can be open.
+    charges : mapping of str to Node
+        What may be conserved; `candidates` are those of the file, which need not be.
+    start : (q, q')
+        The state at t = 0, once it is found.
+    notes : tuple of str
+        Warnings of the result.
+    cut : Cut or None
+        What the model was cut by.
+    """
 
-    def begin(self) -> None:
-        """Nothing has been run."""
-        self.times = self._times()
-        #: how many of the times are the requested ones, and what lies between them
-        self.regular = len(self.times)
-        self.finished = 0
-        #: whether a run was so long that doubles were left for numbers of more bits
-        self.is_long = False
-        #: of one run with more digits than doubles, where it is an attempt
-        self.most_steps: int | None = None
-        #: what is said beside the reason for the method
-        self.remark = ""
-        #: the rows of the run over the whole span, certified or not, where they are requested
-        self.whole_span: list[tuple[float | None, ...]] = []
-
-    def _column(self, column: Column) -> Node:
-        if column.expression is None:
-            return self.equations.t
-        return self.reading(column.expression)
-
-    def _times(self) -> list[float]:
-        """The rows, and between them what two runs are compared at as well."""
-        return [*_grid(self.request.until, self.request.samples, self.request.times, self.every)]
-
-    def _gaps(self) -> dict[int, Node]:
-        """Of the contacts that can be open."""
-        e = self.equations
-        gaps = {}
-        for k, contact in self.contacts.items():
-            position = e.constraints[k].position
-            if not contact.stops and position is not None:
-                gaps[k] = e.graph.scaled(position, contact.sign)
-        return gaps
-
-    def _candidates(self) -> list[str]:
-        """The names of the candidates' charges, which are added to the charges."""
-        names = []
-        for symmetry in self.problem.symmetries:
-            name = symmetry.name
-            while name in self.charges:
-                name += "*"
-            self.charges[name] = self.reading(charge_of(symmetry))
-            names.append(name)
-        return names
-
-    def _margin(self, condition: Any) -> Node:
-        return self.equations.graph.difference(*map(self.reading, condition.larger_first))
+    problem: Problem
+    request: RunRequest
+    whole: Problem
+    equations: Equations
+    reading: Reading
+    given: frozenset[int]
+    contacts: Mapping[int, OneSided]
+    nodes: tuple[Node, ...]
+    stop: Node | None
+    margins: Mapping[int, Node]
+    gaps: Mapping[int, Node]
+    charges: Mapping[str, Node]
+    candidates: tuple[str, ...]
+    start: tuple[list[float], list[float]] = ([], [])
+    notes: tuple[str, ...] = ()
+    cut: Cut | None = None
 
     @property
     def all_nodes(self) -> list[Node]:
@@ -126,19 +88,21 @@ class Setup:
             *(e.form.read(c.restitution) for c in self.contacts.values() if c.restitution),
         ]
 
-    def over(self, request: RunRequest) -> Self:
-        """The same motion from the same state with other rows."""
-        other = copy(self)
-        other.request = request
-        other.every = _parts_of_rows(request)
-        other.begin()
-        other.finished = self.finished
-        return other
+    @property
+    def every(self) -> int:
+        """The requested rows are those at multiples of this."""
+        return max(1, -(-_COMPARED // (self.request.samples - 1)))
+
+    @property
+    def times(self) -> list[float]:
+        """The rows, and between them what two runs are compared at as well."""
+        request = self.request
+        return [*_grid(request.until, request.samples, request.times, self.every)]
 
     @property
     def rows_at(self) -> list[float]:
         """The times of the requested rows."""
-        return self._times()[:: self.every]
+        return self.times[:: self.every]
 
     def written_times(self, arithmetic: Any) -> list[Any]:
         """The times of the requested rows in balls: 0.1 and pi/3 are not doubles."""
@@ -150,24 +114,74 @@ class Setup:
             [end] = straight_line((), [self.equations.form.read(request.end)], {}, arithmetic)()
         return [end * k / count for k in range(count + 1)]
 
-    def look_between(self, good: float, bad: float) -> None:
-        """Rows as they were up to a time, then many up to another."""
-        kept = [t for t in self.times if t <= good]
-        self.regular = len(kept)
-        step = (bad - good) / _CLOSER
-        self.times = [*kept, *(good + step * k for k in range(1, _CLOSER)), bad]
-        if bad < self.request.until:
-            self.times.append(self.request.until)
-
     @property
     def goes_on(self) -> bool:
         """Whether the motion may go on in another mode than the first."""
         return bool(self.gaps) or any(c.on_loss == "release" for c in self.problem.constraints)
 
 
-def _parts_of_rows(request: RunRequest) -> int:
-    """Into how many intervals of comparison that between two rows is divided."""
-    return max(1, -(-_COMPARED // (request.samples - 1)))
+def setup_of(problem: Problem, request: RunRequest) -> Setup:
+    """A problem and a request as nodes; its state at t = 0 is still to be found.
+
+    Raises
+    ------
+    Refusal
+        When a column is not defined.
+    """
+    whole = with_contacts(problem)
+    equations = Equations(whole)
+    reading = Reading(equations)
+    contacts = one_sided(whole, len(problem.constraints))
+    try:
+        charges = dict(equations.holding(frozenset()).evident_charges)
+        return Setup(
+            problem=problem,
+            request=request,
+            whole=whole,
+            equations=equations,
+            reading=reading,
+            given=frozenset(range(len(problem.constraints))),
+            contacts=contacts,
+            nodes=tuple(
+                equations.t if column.expression is None else reading(column.expression)
+                for column in request.columns
+            ),
+            stop=None if request.stop_when is None else reading(request.stop_when),
+            margins={
+                k: equations.graph.difference(*map(reading, c.holds_while.larger_first))
+                for k, c in enumerate(whole.constraints)
+                if c.holds_while is not None
+            },
+            gaps=_gaps(equations, contacts),
+            candidates=_with_candidates(charges, problem, reading),
+            charges=charges,
+        )
+    except ArithmeticError as error:
+        raise Refusal(f"a column is not defined: {error}") from None
+
+
+def _gaps(equations: Equations, contacts: Mapping[int, OneSided]) -> dict[int, Node]:
+    """Of the contacts that can be open."""
+    gaps = {}
+    for k, contact in contacts.items():
+        position = equations.constraints[k].position
+        if not contact.stops and position is not None:
+            gaps[k] = equations.graph.scaled(position, contact.sign)
+    return gaps
+
+
+def _with_candidates(
+    charges: dict[str, Node], problem: Problem, reading: Reading
+) -> tuple[str, ...]:
+    """The names of the candidates' charges, which are added to the charges."""
+    names = []
+    for symmetry in problem.symmetries:
+        name = symmetry.name
+        while name in charges:
+            name += "*"
+        charges[name] = reading(charge_of(symmetry))
+        names.append(name)
+    return tuple(names)
 
 
 @lru_cache(maxsize=4)

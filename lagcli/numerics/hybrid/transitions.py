@@ -69,7 +69,7 @@ class Transitions:
     def __init__(self, modes: Modes, accuracy: float, until: float) -> None:
         self.modes = modes
         self.accuracy, self.until = accuracy, until
-        self.contacts = modes.simulation.contacts
+        self.contacts = modes.setup.contacts
         #: of each component at a time; the run that this is for says it
         self.rounding: Callable[[float], Sequence[float]] = lambda _: ()
         #: impacts take place some such parts of a rounding of doubles away
@@ -82,7 +82,7 @@ class Transitions:
         """The mode at t = 0: contacts that are open, closed, or struck at once."""
         modes = self.modes
         first = modes.first
-        opened = [k for k in modes.simulation.gaps if k not in first.held]
+        opened = [k for k in modes.setup.gaps if k not in first.held]
         if not opened:
             return self._stand(0.0, q, v, first.held)
         gaps, sizes = self._gaps(0.0, q, v)
@@ -101,7 +101,7 @@ class Transitions:
     def _apart(self, k: int) -> Refusal:
         from lagcli.diagnostics import Diagnostic
 
-        constraint = self.modes.simulation.whole.constraints[k]
+        constraint = self.modes.setup.whole.constraints[k]
         message = f"the initial state is on the wrong side of the contact '{constraint.name}'"
         return Refusal((Diagnostic(message, constraint.equation.span),))
 
@@ -128,7 +128,7 @@ class Transitions:
             return self._stand(t, q, v, mode.held, slips=k, before=mode)
         if condition.kind == "gap":
             return self.closes(mode, t, k, q, v)
-        if self.modes.simulation.whole.constraints[k].on_loss == "stop":
+        if self.modes.setup.whole.constraints[k].on_loss == "stop":
             return Turn(q=q, v=v, mode=None, events=(Event(t, name, "contact lost"),))
         return self._settled(t, q, v, mode.held, frozenset(), frozenset(), lost=k)
 
@@ -188,9 +188,7 @@ class Transitions:
         if (gone := self._stopping((candidates & held) - carried)) is not None:
             return Turn(q=q, v=v, mode=None, events=(Event(t, gone, "contact lost"),))
         if lost is not None:
-            events.append(
-                Event(t, self.modes.simulation.whole.constraints[lost].name, "contact lost")
-            )
+            events.append(Event(t, self.modes.setup.whole.constraints[lost].name, "contact lost"))
         events += [
             Event(t, self.contacts[k].name, "contact lost")
             for k in sorted((candidates & held) - carried)
@@ -280,7 +278,7 @@ class Transitions:
         self, t: float, q: Vector, v: Vector, hinge: Hinge, known: frozenset[int | None]
     ) -> frozenset[int]:
         """Other open contacts that close at the same time, within rounding."""
-        opened = [k for k in self.modes.simulation.gaps if k not in known]
+        opened = [k for k in self.modes.setup.gaps if k not in known]
         if not opened:
             return frozenset()
         gaps, _ = self._gaps(t, q, v)
@@ -343,7 +341,7 @@ class Transitions:
                 break
             stuck.discard(k)
             modes.signs[k] = 1.0 if value > 0 else -1.0
-        name = modes.simulation.equations.kink_name
+        name = modes.setup.equations.kink_name
         events = [Event(t, name(k), "sticks") for k in sorted(stuck - was)]
         events += [Event(t, name(k), "slips") for k in sorted(was - stuck)]
         return Turn(q=q, v=v, mode=modes.mode(held, frozenset(stuck)), events=tuple(events))
@@ -374,7 +372,7 @@ class Transitions:
         modes = self.modes
         formula = self.contacts[k].restitution
         assert formula is not None
-        node = modes.simulation.equations.form.read(formula)
+        node = modes.setup.equations.form.read(formula)
         [value] = straight_line((), [node], modes.constants, modes.arithmetic)()
         if not 0 <= value <= 1:
             from lagcli.diagnostics import Diagnostic

@@ -21,11 +21,12 @@ from typing import Any
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Node, Symbol
 from lagcli.graph.substitution import Substitution
-from lagcli.numerics.certified.ready_setup import ReadySetup
+from lagcli.numerics.certified.ready_setup import ready_setup
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.start import given_values
 from lagcli.numerics.hybrid.request import RunRequest
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.pivoting import reduced
 from lagcli.problem_data import Problem
 from lagcli.record import replace
@@ -58,7 +59,7 @@ def initial_state(
     number = motion.arithmetic.number
     symbols = (*equations.q, *equations.qdot)
     doubles = dict(zip(symbols, (*start[0], *start[1]), strict=True))
-    state = given_values(motion)
+    state = given_values(motion, motion.equations.problem.initial)
     assumed: list[str] = []
     for kind, rows in ((equations.q, equations.positions), (equations.qdot, equations.rates)):
         unknown = [s for s in kind if s not in state]
@@ -155,15 +156,15 @@ def _solve(
     return {i for i, _ in pivots}
 
 
-def setup_of(problem: Problem, request: RunRequest) -> tuple[ReadySetup, frozenset[int]]:
+def setup_of(problem: Problem, request: RunRequest) -> tuple[Setup, frozenset[int]]:
     """What is integrated, and the constraints that the others imply at the beginning."""
-    setup, modes = ReadySetup(problem, request).ready()
+    setup, modes = ready_setup(problem, request)
     symbols = (*setup.equations.q, *setup.equations.qdot)
     given = {(name.name, name.primes) for name in problem.initial}
     values = zip(symbols, (*setup.start[0], *setup.start[1]), strict=True)
     if any(x and (s.name, s.primes) not in given for s, x in values):
         # what a constraint gives is enclosed with that constraint
-        setup, modes = ReadySetup(problem, replace(request, whole=True)).ready()
+        setup, modes = ready_setup(problem, replace(request, whole=True))
     implied: frozenset[int] = frozenset()
     if setup.equations.rows:
         first = modes.first

@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
-from lagcli.numerics.certified.ready_setup import ReadySetup
 from lagcli.numerics.equations.arithmetic import Balls
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.hybrid.request import Progress, RunRequest
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.rigorous.accumulation import rest_after
 from lagcli.numerics.rigorous.crossings import UndecidedCrossing, Watched, behind, when
 from lagcli.numerics.rigorous.enclosure import NotEnclosed, ShortSteps, Singularity
@@ -116,7 +116,7 @@ class Attempt:
 
     def __init__(
         self,
-        setup: ReadySetup,
+        setup: Setup,
         implied: frozenset[int],
         bits: int,
         most: float,

@@ -83,7 +83,7 @@ class ExtremeScene:
     def _state(self, state: tuple[Vector, Vector] | None) -> tuple[Vector, Vector]:
         if self.problem.initial:
             try:
-                return initial_state(self.motion, project=True)
+                return initial_state(self.motion, self.problem.initial, project=True)
             except Refusal:
                 if state is None:
                     raise

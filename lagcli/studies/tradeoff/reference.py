@@ -13,13 +13,15 @@ from decimal import Context, Decimal, localcontext
 from time import process_time
 from typing import TYPE_CHECKING, Any
 
-from lagcli.numerics.certified.prepared import Prepared
+from lagcli.numerics.certified.prepared import Prepared, RunOrder
+from lagcli.numerics.certified.ready_setup import ready_setup
 from lagcli.numerics.certified.scales import relative
-from lagcli.numerics.certified.simulate import Simulation, simulate
+from lagcli.numerics.certified.simulate import simulate
 from lagcli.numerics.equations.coupling import coupling, groups
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.request import RunRequest
+from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.steps import Tolerance, component_scales
 from lagcli.record import record, replace
 from lagcli.studies.tradeoff.trial import DIGITS, LimitReached, decimal_of, rows_shown, until
@@ -124,13 +126,13 @@ def reference(problem: Problem, request: RunRequest, limit: float) -> ReferenceM
     """
     begun = process_time()
     # of the model as it stands in the file: what was cut from it is checked too
-    simulation, modes = Simulation(problem, replace(request, whole=True)).ready()
-    less, _ = Simulation(problem, request).ready()
+    setup, modes = ready_setup(problem, replace(request, whole=True))
+    less, _ = ready_setup(problem, request)
     e = less.equations
     parts = groups(*coupling(e.graph, e.q, e.mass, e.forcing, e.constraints))
-    cut = len(e.q) < len(simulation.equations.q) or len(parts) > 1
+    cut = len(e.q) < len(setup.equations.q) or len(parts) > 1
     warnings: list[str] = []
-    found = _exact(simulation, modes, warnings) or _precise(simulation, modes, limit, warnings)
+    found = _exact(setup, modes, warnings) or _precise(setup, modes, limit, warnings)
     if found is None:
         found = _doubles(problem, request, limit)
     seconds = process_time() - begun
@@ -141,7 +143,7 @@ def reference(problem: Problem, request: RunRequest, limit: float) -> ReferenceM
 
 
 def _precise(
-    simulation: Simulation, modes: Modes, limit: float, warnings: list[str]
+    setup: Setup, modes: Modes, limit: float, warnings: list[str]
 ) -> ReferenceMotion | None:
     from lagcli.numerics.certified.precise import prepared
 
@@ -149,11 +151,11 @@ def _precise(
     for digits, coarse, fine in _LADDER:
         runs = []
         for carried, tolerance in ((digits - _BETWEEN, coarse), (digits, fine)):
-            made = prepared(simulation, modes, carried)
+            made = prepared(setup, modes, carried)
             if isinstance(made, str):
                 warnings.append(f"no reference with more digits than doubles: {made}")
                 return None
-            found = _run(simulation, made, tolerance, limit)
+            found = _run(setup, made, tolerance, limit)
             if found is None:
                 return best
             rows, scales = found
@@ -181,30 +183,30 @@ def precise_rows(problem: Problem, request: RunRequest, digits: int, limit: floa
     """
     from lagcli.numerics.certified.precise import prepared
 
-    simulation, modes = Simulation(problem, replace(request, whole=True)).ready()
-    made = prepared(simulation, modes, digits)
+    setup, modes = ready_setup(problem, replace(request, whole=True))
+    made = prepared(setup, modes, digits)
     if isinstance(made, str):
         return None
-    found = _run(simulation, made, 10.0 ** (_BETWEEN - digits), limit)
+    found = _run(setup, made, 10.0 ** (_BETWEEN - digits), limit)
     return None if found is None else found[0]
 
 
 def _run(
-    simulation: Simulation, made: Prepared, tolerance: float, limit: float
+    setup: Setup, made: Prepared, tolerance: float, limit: float
 ) -> tuple[Rows, list[float]] | None:
     """The rows of one run, and the scales; None where it stops or takes too long."""
     ticked = until(process_time() + limit)
-    request, n = simulation.request, len(simulation.equations.q)
+    request, n = setup.request, len(setup.equations.q)
     with made.precision():
         longest = request.until / made.longest[0]
         bound = Tolerance(tolerance, n, request.until, longest, None, made.floor)
         try:
-            run = made.run(bound, 0, ticked, moved=0)
+            run = made.run(RunOrder(bound=bound, times=setup.times, progress=ticked))
         except LimitReached:
             return None
         if run.stop is not None:
             return None
-        rows = _decimals(rows_shown(simulation, run, run.rows()))
+        rows = _decimals(rows_shown(setup, run, run.rows()))
     return rows, [request.until, *component_scales(run.peaks, request.until)]
 
 
@@ -215,7 +217,7 @@ def _decimals(rows: Sequence[Sequence[Any]]) -> Rows:
 # -- the formulas of the file --------------------------------------------------------------------
 
 
-def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> ReferenceMotion | None:
+def _exact(setup: Setup, modes: Modes, warnings: list[str]) -> ReferenceMotion | None:
     """`expect: trajectory`, where it gives every coordinate."""
     from lagcli.expression import Name
     from lagcli.graph.derivative import partial
@@ -224,10 +226,10 @@ def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> Referen
     from lagcli.numerics.equations.constants import constants_of
     from lagcli.numerics.equations.straight_line import straight_line
 
-    known = simulation.problem.expect.trajectory
+    known = setup.problem.expect.trajectory
     if known is None:
         return None
-    e, read = simulation.equations, simulation.reading
+    e, read = setup.equations, setup.reading
     formulas = {each.column: read(each.value) for each in known.formulas}
     names = [Name(q.name) for q in e.q]
     if any(name not in formulas for name in names):
@@ -240,7 +242,7 @@ def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> Referen
             arithmetic = Balls()
             constants = constants_of(e, nodes, arithmetic)
             at = straight_line((e.t,), nodes, constants, arithmetic)
-            times = [arithmetic.ball(t) for t in simulation.times[:: simulation.every]]
+            times = [arithmetic.ball(t) for t in setup.rows_at]
             found = [at(t) for t in times]
             bound = max((float(x.rad()) for row in found for x in row), default=0.0)
             rows = _decimals(found)
@@ -249,9 +251,9 @@ def _exact(simulation: Simulation, modes: Modes, warnings: list[str]) -> Referen
         return None
     from lagcli.numerics.certified.methods import METHODS
 
-    made = METHODS["dop853"].prepare(simulation, modes)
+    made = METHODS["dop853"].prepare(setup, modes)
     assert not isinstance(made, str)
-    near = _run(simulation, made, 1e-12, float("inf"))
+    near = _run(setup, made, 1e-12, float("inf"))
     if near is None or not difference(rows, *near) <= _FOLLOWS:
         warnings.append("the motion does not follow the formulas of `expect: trajectory`")
         return None

@@ -132,21 +132,24 @@ def _single(
     problem: Problem, request: RunRequest, given: Given, ticked: Callable[[float], None]
 ) -> dict[str, Any]:
     from lagcli.numerics.certified.methods import METHODS
-    from lagcli.numerics.certified.simulate import Simulation
+    from lagcli.numerics.certified.prepared import RunOrder
+    from lagcli.numerics.certified.ready_setup import ready_setup
     from lagcli.numerics.integrators.steps import Tolerance
 
-    simulation, modes = Simulation(problem, request).ready()
-    made = METHODS[given.method].prepare(simulation, modes)
+    setup, modes = ready_setup(problem, request)
+    made = METHODS[given.method].prepare(setup, modes)
     if isinstance(made, str):
         return {"why": made, "unsuited": True}
     assert given.tolerance is not None
     tolerance = max(given.tolerance, made.finest)
-    n, longest = len(simulation.equations.q), request.until / _PARTS
+    n, longest = len(setup.equations.q), request.until / _PARTS
 
     def once() -> tuple[Run, float]:
         bound = Tolerance(tolerance, n, request.until, longest, None, made.floor)
         before = process_time()
-        return made.run(bound, 0, ticked, moved=0), process_time() - before
+        return made.run(
+            RunOrder(bound=bound, times=setup.times, progress=ticked)
+        ), process_time() - before
 
     with made.precision():
         run, integration = once()
@@ -169,7 +172,7 @@ def _single(
             "drift": _drift(run, rows, len(request.columns)),
             "residual": _residual(run),
             "method": run.method_name,
-            "rows": _texts(rows_shown(simulation, run, rows)),
+            "rows": _texts(rows_shown(setup, run, rows)),
         }
 
 
@@ -224,13 +227,13 @@ def _claimed(
     }
 
 
-def rows_shown(simulation: Setup, run: Run, rows: Sequence[Sequence[Any]]) -> list[Sequence[Any]]:
+def rows_shown(setup: Setup, run: Run, rows: Sequence[Sequence[Any]]) -> list[Sequence[Any]]:
     """The requested columns, at the requested times."""
-    count = len(simulation.request.columns)
+    count = len(setup.request.columns)
     return [
         row[:count]
         for mark, row in zip(run.marks, rows, strict=True)
-        if mark.sample >= 0 and mark.sample % simulation.every == 0
+        if mark.sample >= 0 and mark.sample % setup.every == 0
     ]
 
 

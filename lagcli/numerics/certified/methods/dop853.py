@@ -11,10 +11,10 @@ from lagcli.numerics.hybrid.setup import Setup
 _ROUNDED = 1e-14
 
 
-def _prepare(simulation: Setup, modes: Modes) -> Prepared | str:
+def _prepare(setup: Setup, modes: Modes) -> Prepared | str:
     from lagcli.numerics.integrators.dop853 import dop853
 
-    return in_doubles(dop853, simulation, modes, _ROUNDED)
+    return in_doubles(dop853, setup, modes, _ROUNDED)
 
 
 METHOD = MethodEntry(

@@ -8,10 +8,10 @@ from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.setup import Setup
 
 
-def _prepare(simulation: Setup, modes: Modes) -> Prepared | str:
+def _prepare(setup: Setup, modes: Modes) -> Prepared | str:
     from lagcli.numerics.integrators.gauss8 import gauss8
 
-    return without_switches(simulation) or in_doubles(gauss8, simulation, modes)
+    return without_switches(setup) or in_doubles(gauss8, setup, modes)
 
 
 METHOD = MethodEntry(

@@ -8,12 +8,12 @@ from lagcli.numerics.hybrid.modes import Modes
 from lagcli.numerics.hybrid.setup import Setup
 
 
-def _prepare(simulation: Setup, modes: Modes) -> Prepared | str:
+def _prepare(setup: Setup, modes: Modes) -> Prepared | str:
     from lagcli.numerics.integrators.yoshida8 import separates, yoshida8
 
-    if not separates(simulation.equations) or simulation.contacts:
+    if not separates(setup.equations) or setup.contacts:
         return "it does not separate: it needs a constant M, forces of q and t, no constraints"
-    return without_switches(simulation) or in_doubles(yoshida8, simulation, modes)
+    return without_switches(setup) or in_doubles(yoshida8, setup, modes)
 
 
 METHOD = MethodEntry(
