@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from fractions import Fraction
 
 import sympy
-from sympy import Expr, Pow
+from sympy import Expr
 
 from lagcli.algebra.build import CIRCULAR, UNREAL, without_jumps
 from lagcli.algebra.field import Element
@@ -74,7 +74,7 @@ class Field(ExpressionField):
                 self.hyperbolic.prepare(node.args[0])
             elif isinstance(node, sympy.exp):
                 self.exponential.prepare(node.args[0])
-            elif node.is_Pow and not node.exp.is_number:
+            elif node.is_Pow:
                 self._power_family(node.base).prepare(node.exp)
 
     def __call__(self, expression: Expr) -> Element:
@@ -124,8 +124,6 @@ class Field(ExpressionField):
             result = rational_power(self, inside, Fraction(int(exponent.p), int(exponent.q)))
             self._note_radicand(base, inside)
             return result
-        if exponent.is_number:
-            return self.opaque(Pow(self.to_sympy(self(base)), exponent))
         constant, rest = exponent.as_coeff_Add()
         if not constant.is_Rational:
             constant, rest = sympy.S.Zero, exponent

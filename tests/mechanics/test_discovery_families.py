@@ -194,6 +194,8 @@ CHANGING = {
     "t^2*(x'^2/2 - k*x)": "Lane and Emden, index 0",
     "m*(x'^2/2 - 3*x^2/(32*t^2))": "Euler",
     "t^4*x'^2/2 - 35*t^2*x^2/32": "Euler, with a growing mass",
+    "m*(x'^2/2 + 5*x^2/(2*(2*t + 3)^2))": "Euler, irrational powers",
+    "t^3*(m*x'^2/2 - k*x^2/(2*t^2))": "Euler, any strength",
 }
 
 
@@ -205,6 +207,21 @@ def test_linear_equations_whose_coefficients_change_have_five(L):
     assert len(found.charges) == 5, CHANGING[L]
     assert found.stopped == []
     assert summary(derive(one_coordinate(L)).discovery).name.startswith("Schrödinger sch(1)")
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("B", ["b/t", "b/(2*c + t)"])
+@pytest.mark.parametrize("V", ["0", "k*(x^2 + y^2)/(2*t^2)"])
+def test_a_field_that_falls_as_the_time_leaves_eight(B, V):
+    """In log(t) the coefficients are constant; Lewis and Riesenfeld, J. Math. Phys. 10 (1969) 1458."""
+    if V != "0" and "c" in B:
+        V = V.replace("t^2", "(2*c + t)^2")
+    given = ", ".join(f"{p}: {POS}" for p in "mbkc")
+    derivation = derive(f"{{coordinates: [x, y], parameters: {{{given}}}, "
+                        f'L: "m*(x\'^2 + y\'^2)/2 + {B}*(x*y\' - y*x\')/2 - {V}"}}')  # fmt: skip
+    found = summary(derivation.discovery)
+    assert (found.dimension, found.independent, found.integrable) == (8, 4, True)
+    assert min(digits_of(derivation).values()) > 20
 
 
 @pytest.mark.parametrize("L", ["x'^2 - t*x^2", "x'^2 - cosh(t)*x^2", "t*x'^2 - (t - 1/t)*x^2"])

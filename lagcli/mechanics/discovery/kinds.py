@@ -26,6 +26,7 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.spectrum import exponents
+from lagcli.mechanics.discovery.time_dependent import of_euler
 
 
 @dataclass(slots=True)
@@ -106,15 +107,15 @@ def kinds(
         x for x in found.lengths
         if any(x in inertia[y].free_symbols for y in found.angles)
     ]  # fmt: skip
+    found.waves = _waves(equations)
+    found.angles += [x for x in found.waves if x not in found.angles]
+    not_waves = [x for x in found.lengths if x not in found.waves]
     in_inertia = {s for row in equations.mass for m in row for s in m.free_symbols}
-    found.curved = set(found.angles) <= set(found.lengths) and not in_inertia.isdisjoint(
-        found.lengths
-    )
+    found.curved = set(found.angles) <= set(not_waves) and not in_inertia.isdisjoint(found.lengths)
     found.powers = len(found.lengths) == len(equations.q) == 1 and not free_of(
         equations.mass[0][0], equations.v
     )
     found.exponentials = _exponentials(equations)
-    found.waves = _waves(equations, found.cyclic)
     found.lengths += [x for x in found.waves if x not in found.lengths]
     found.parts = [factor.q for factor in Metric(equations.q, equations.mass).factors]
     found.latitudes = [x for x in found.angles if _in_determinant(x, equations)]
@@ -171,10 +172,11 @@ def _exponentials(equations: SlotEquations) -> list[Expr]:
     return list(dict.fromkeys(sympy.exp(k * x) for x in inside for k in powers))
 
 
-def _waves(equations: SlotEquations, cyclic: Sequence[Symbol]) -> dict[Symbol, list[Expr]]:
+def _waves(equations: SlotEquations) -> dict[Symbol, list[Expr]]:
     """Functions of a u that grows uniformly, as time does: p_v = c u' of a plane wave.
 
-    With u' = 1, x'' = k x + c x' has the exponents by which a Killing vector f(u) d/dx changes.
+    With u' = 1, x'' = k x + c x' has the exponents by which a Killing vector f(u) d/dx changes, and
+    x'' = k x/u^2 + c x'/u those in log(u), f' with it as f/u.
     """
     q, v, mass = equations.q, equations.v, equations.mass
     found: dict[Symbol, list[Expr]] = {}
@@ -183,16 +185,18 @@ def _waves(equations: SlotEquations, cyclic: Sequence[Symbol]) -> dict[Symbol, l
         if force != 0 or len(driven) != 1 or not free_of(row[driven[0]], q):
             continue
         [c] = driven
-        if (u := q[c]) not in cyclic:
-            continue
+        u = q[c]
         beside = [[m for i, m in enumerate(own) if i not in (k, c)] for k, own in enumerate(mass)]
         alone = [k for k, m in enumerate(beside) if k != c and not any(m)]
         alone = [k for k in alone if mass[k][k] != 0 and free_of(mass[k][k], q)]
         time = {v[c]: sympy.S.One}
         forces = [sympy.expand(equations.forcing[k].xreplace(time) / mass[k][k]) for k in alone]
-        each = exponents(forces, [q[k] for k in alone], [v[k] for k in alone], u)
+        motion = forces, [q[k] for k in alone], [v[k] for k in alone], u
+        each = [f for exponent in exponents(*motion) for f in exponent.functions(u)]
+        tau, scaled, _ = of_euler(*motion)
+        each += [f / tau for exponent in scaled for f in exponent.functions(sympy.log(tau))]
         if each:
-            found[u] = [f for exponent in each for f in exponent.functions(u)]
+            found[u] = each
     return found
 
 

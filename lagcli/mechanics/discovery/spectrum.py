@@ -30,9 +30,11 @@ class Exponent:
     frequency: Expr
     repeated: bool = False  # then t times the functions is a solution too
 
-    def functions(self, t: Symbol) -> list[Expr]:
-        """Real functions of time: exp(growth t) times sine and cosine."""
+    def functions(self, t: Expr) -> list[Expr]:
+        """Real functions of time, or of log(tau): exp(growth t) times sine and cosine."""
         envelope = sympy.exp(self.growth * t)
+        if isinstance(t, sympy.log):  # SymPy does not know that the two are the same
+            envelope = t.args[0] ** self.growth
         if self.frequency == 0:
             plain = [] if self.growth == 0 else [envelope]
         else:
@@ -184,15 +186,20 @@ def _blocks(rows: Sequence[dict[int, Expr]], n: int) -> list[list[int]]:
 
 
 def _roots(poly: sympy.Poly) -> list[Exponent]:
-    """Of a linear, a quadratic or an even quartic factor."""
+    """Of a linear factor, a quadratic one, or a quartic one that is even about its mean root."""
     zero = sympy.S.Zero
     c = [simplify(x) for x in reversed(poly.all_coeffs())]
     if poly.degree() == 1:
         return [Exponent(simplify(-c[0] / c[1]), zero)]
     if poly.degree() == 2:
         return _quadratic(simplify(c[1] / c[2]), simplify(c[0] / c[2]))
-    if poly.degree() == 4 and is_zero(c[1]) and is_zero(c[3]):
-        return _biquadratic(simplify(c[2] / c[4]), simplify(c[0] / c[4]))
+    if poly.degree() == 4:
+        mean = simplify(-c[3] / (4 * c[4]))
+        about = poly.compose(sympy.Poly(poly.gen + mean, poly.gen)).monic()
+        constant, odd, square, *_ = [simplify(x) for x in reversed(about.all_coeffs())]
+        if is_zero(odd):
+            found = _biquadratic(square, constant)
+            return [Exponent(simplify(mean + e.growth), e.frequency) for e in found]
     return []
 
 

@@ -1,9 +1,12 @@
 """Functions of time for linear equations x'' + p(t) x' + q(t) x = f whose coefficients change.
 
-With mu = exp of the integral of p, x = y/sqrt(mu) and y'' + I y = 0, I = q - p'/2 - p^2/4.  Where
-I is constant, c/t^2, or K/Q^2 with Q of second degree in t, the solutions Y are elementary.  A
-translation then is Y/sqrt(mu), and the stretching of time a product of two Y (Lane-Emden of index
-1, Euler's equation, growing masses).
+Equations x'' = K x/tau^2 + C x'/tau, tau = a t + b, have constant coefficients in log(tau) (Euler),
+where the stretching of time is tau times a function with a difference of two exponents.
+
+Of one other equation, with mu = exp of the integral of p, x = y/sqrt(mu) and y'' + I y = 0,
+I = q - p'/2 - p^2/4.  Where I is constant, or K/Q^2 with Q of second degree in t, the solutions Y
+are elementary.  A translation then is Y/sqrt(mu), and the stretching of time a product of two Y
+(Lane-Emden of index 1, growing masses).
 
 References
 ----------
@@ -19,9 +22,10 @@ from itertools import combinations_with_replacement
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import simplify
+from lagcli.algebra import dot, simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of
+from lagcli.mechanics.discovery.spectrum import Exponent, differences, exponents
 
 _MOST_OPERATIONS = 200  # measured: at most 25
 
@@ -38,18 +42,57 @@ def of_changing_coefficients(
     solved = True
     time, t = t, sympy.Dummy("t", positive=True)  # for t < 0 the functions differ by a sign
     moving = {*q, *v}
-    for given, x, rate in zip(accelerations, q, v, strict=True):
-        acceleration = given.xreplace({time: t})
-        solved = solved and not _changes_by(acceleration, moving - {x, rate}, moving, t)
-        found = _of_equation(acceleration, x, rate, moving, t)
-        if found is None:
+    given = [acceleration.xreplace({time: t}) for acceleration in accelerations]
+    tau, found, rows = of_euler(given, q, v, t)
+    s = sympy.log(tau)
+    translations += [f for each in found for f in each.functions(s)] + ([s] if rows else [])
+    between = [f for each in differences(found) for f in each.functions(s)]
+    others += [g for f in [*between, *([s, s**2] if rows else [])] for g in (tau * f, f)]
+    for k, (acceleration, x, rate) in enumerate(zip(given, q, v, strict=True)):
+        if k in rows:
             continue
-        root, Y, p = found
+        solved = solved and not _changes_by(acceleration, moving - {x, rate}, moving, t)
+        solution = _of_equation(acceleration, x, rate, moving, t)
+        if solution is None:
+            continue
+        root, Y, p = solution
         solved = solved and bool(Y)
         translations += [simplify(y / root) for y in Y]
         for stretch in _products(Y):
             others += [stretch, simplify(stretch.diff(t)), simplify(p * stretch)]
     return _distinct(translations, t, time), _distinct(others, t, time), solved
+
+
+def of_euler(
+    accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
+) -> tuple[Expr, list[Exponent], list[int]]:
+    """tau, the exponents in s = log(tau), and which equations have them: x_ss = x_s + tau^2 x''."""
+    moving, tau = {*q, *v}, t
+    linear: list[Expr] = []
+    for acceleration in accelerations:
+        terms = _terms(acceleration)
+        factors = [sympy.cancel(sympy.Add(*_factors(terms, x, moving))) for x in (*q, *v)]
+        changing = [f for f in factors if not free_of(f, [t])]
+        below = sympy.denom(changing[0]) if changing else sympy.S.One
+        below = sympy.factor_list(below, t)[1] if below.is_polynomial(t) else []
+        if len(below) == 1 and sympy.degree(below[0][0], t) == 1 and tau == t:
+            tau = _positive(below[0][0], t)
+        linear.append(dot(factors, [*q, *v]) if changing else sympy.S.Zero)
+    slope = tau.diff(t)
+    stretch = {rate: slope * rate / tau for rate in v}
+    scaled = [sympy.expand(simplify((tau / slope) ** 2 * x.xreplace(stretch))) for x in linear]
+    rows = [k for k, x in enumerate(scaled) if x != 0 and free_of(x, [t])]
+    inside = {y for k in rows for y in (q[k], v[k])}
+    if any(scaled[k].free_symbols & (moving - inside) for k in rows):
+        return tau, [], []
+    chosen = [scaled[k] + v[k] for k in rows], [q[k] for k in rows], [v[k] for k in rows]
+    return tau, exponents(*chosen, t), rows
+
+
+def _terms(acceleration: Expr) -> Sequence[Expr]:
+    """Of a sum, none where it is too long to be looked through."""
+    short = sympy.count_ops(acceleration) <= _MOST_OPERATIONS
+    return sympy.Add.make_args(sympy.expand(acceleration)) if short else ()
 
 
 def _products(Y: Sequence[Expr]) -> list[Expr]:
@@ -65,9 +108,7 @@ def _of_equation(
     acceleration: Expr, x: Symbol, rate: Symbol, moving: set[Symbol], t: Symbol
 ) -> tuple[Expr, list[Expr], Expr] | None:
     """sqrt(mu), the two Y, if known, and p, by the terms of x'' that are linear in x and x'."""
-    if sympy.count_ops(acceleration) > _MOST_OPERATIONS:
-        return None
-    terms = sympy.Add.make_args(sympy.expand(acceleration))
+    terms = _terms(acceleration)
     p, own = (-simplify(sympy.Add(*_factors(terms, y, moving))) for y in (rate, x))
     if free_of(p, [t]) and free_of(own, [t]):
         return None
@@ -91,9 +132,7 @@ def _positive(u: Expr, t: Symbol) -> Expr:
 
 def _changes_by(acceleration: Expr, others: set[Symbol], moving: set[Symbol], t: Symbol) -> bool:
     """Whether the coefficient of another coordinate depends on time: no formula is sought then."""
-    if sympy.count_ops(acceleration) > _MOST_OPERATIONS or t not in acceleration.free_symbols:
-        return False
-    terms = sympy.Add.make_args(sympy.expand(acceleration))
+    terms = _terms(acceleration) if t in acceleration.free_symbols else ()
     return any(not free_of(c, [t]) for y in others for c in _factors(terms, y, moving))
 
 
@@ -119,24 +158,7 @@ def _elementary(I: Expr, t: Symbol, p: Expr) -> list[Expr]:  # noqa: E741
     _, Q = Q.as_independent(t, as_Add=False)
     if Q.is_polynomial(t) and sympy.degree(Q, t) == 2:
         return _of_square(simplify(I * Q**2), Q, t)
-    inverse = simplify(1 / I)  # (t + b)^2/c
-    if not inverse.is_polynomial(t) or sympy.degree(inverse, t) != 2:
-        return []
-    square, linear, _ = sympy.Poly(inverse, t).all_coeffs()
-    shifted = _positive(sympy.numer(sympy.together(t + linear / (2 * square))), t)
-    square = simplify(inverse / shifted**2)  # 1/I = square shifted^2
-    if not free_of(square, [t]):
-        return []
-    slope = shifted.diff(t)
-    power = simplify(sympy.Rational(1, 4) - 1 / (square * slope**2))
-    if power == 0:
-        return [sympy.sqrt(shifted), sympy.sqrt(shifted) * sympy.log(shifted)]
-    if power.is_positive:
-        s = sympy.sqrt(power)
-        rational = s.is_Rational  # as the values modulo a prime need it
-        return [shifted ** (sympy.S.Half + e) for e in (s, -s)] if rational else []
-    inside = sympy.sqrt(-power) * sympy.log(shifted)
-    return [sympy.sqrt(shifted) * sympy.sin(inside), sympy.sqrt(shifted) * sympy.cos(inside)]
+    return []
 
 
 def _of_square(K: Expr, Q: Expr, t: Symbol) -> list[Expr]:
