@@ -62,6 +62,8 @@ def _files_of(path: str) -> list[str]:
 def _input(name: str) -> Input:
     try:
         return name, read_input(name)
+    except IsADirectoryError as error:  # without a problem, see above
+        return name, type(error)(error.errno, "no problem (*.yaml) in this folder")
     except OSError as error:
         return name, error
 

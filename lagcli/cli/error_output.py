@@ -12,6 +12,8 @@ if TYPE_CHECKING:
     from lagcli.diagnostics import Diagnostic, Source
     from lagcli.numerics.equations.refusal import Refusal
 
+_COLUMNS = 80
+
 
 def report(source: Source, diagnostics: Sequence[Diagnostic]) -> str:
     """Show the mistakes (and warnings) of one file, and give the text that was shown."""
@@ -43,8 +45,19 @@ def report_line(line: str) -> None:
     """Show one sentence that has no place in a file."""
     from lagcli.diagnostics import printable
 
-    sys.stderr.write(printable(line) + "\n")
+    sys.stderr.write(within_a_terminal(printable(line)) + "\n")
     sys.stderr.flush()
+
+
+def within_a_terminal(line: str) -> str:
+    """A sentence on lines of 80 columns where a person reads it; a program gets one line."""
+    if len(line) <= _COLUMNS or not sys.stderr.isatty():
+        return line
+    from textwrap import fill
+
+    return fill(
+        line, _COLUMNS, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+    )
 
 
 def _report_in_colour(text: str) -> None:

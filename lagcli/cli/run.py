@@ -57,7 +57,9 @@ def run(arguments: Sequence[str]) -> int:
             )
             sys.stdout.flush()
         except ClickException as mistake:
-            mistake.show()
+            from lagcli.cli.usage import report_mistake
+
+            report_mistake(mistake, arguments)
             return Status.USAGE
         except Abort:
             return Status.INTERRUPTED

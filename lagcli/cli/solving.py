@@ -95,7 +95,10 @@ def _start_algebra(*, needed: bool) -> None:
 
 def _read(name: str, data: bytes | OSError, request: Request, tally: Tally) -> Problem | None:
     if isinstance(data, OSError):
-        report_line(f"{name}: error: {reason(data)}")
+        from lagcli.statements.registry import section_names
+
+        hint = f"; sections are joined by commas, as in --show energy,{name}"
+        report_line(f"{name}: error: {reason(data)}{hint if name in section_names() else ''}")
         tally.wrong = tally.unreadable = True
         return None
     found = read(name, data, request)

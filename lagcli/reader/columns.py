@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import starmap
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -73,6 +74,12 @@ def phase_columns(coordinate: str) -> list[Column]:
 
 def read_along(problem: Problem, text: str, option: str) -> Expression:
     """An expression along the motion, such as that of `--stop-when`."""
+    left, equals, right = (each.strip() for each in text.replace("==", "=").partition("="))
+    if equals:
+        zero = right if re.fullmatch(r"[\w.*/^]*", right) else f"({right})"
+        hint = f"write {left if zero in {'', '0'} else f'{left} - {zero}'}"
+        mistake = Diagnostic("the function that is 0 is written without '='", hint=hint)
+        raise ProblemError(Source(option, ""), (mistake,))
     return _read(text, option, scope_of(problem), ALONG)
 
 

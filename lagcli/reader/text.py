@@ -62,6 +62,9 @@ def decode(name: str, data: bytes) -> tuple[Source, list[Diagnostic]]:
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         message = "the file is UTF-16; only UTF-8 can be read"
         return Source(name, ""), [Diagnostic(message, Span(1, 1, 1, 1), "save it as UTF-8")]
+    if b"\0" in data[:1024]:
+        hint = "a problem is a page of YAML"
+        return Source(name, ""), [Diagnostic("this is not a text file", Span(1, 1, 1, 1), hint)]
     data = data.removeprefix(BYTE_ORDER_MARK)
     data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     try:

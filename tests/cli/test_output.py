@@ -128,3 +128,11 @@ def test_the_problem_on_standard_input_is_not_replaced(
         assert run([*command, "-", "-o", str(problem)]) == 2
     assert b"is the problem itself" in capsysbinary.readouterr().err
     assert problem.read_bytes() == (FILES / "pendulum.yaml").read_bytes()
+
+
+def test_what_is_not_a_problem_is_named(tmp_path, capsys):
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "program.yaml").write_bytes(b"\x7fELF\0\1\xc0")
+    for name, said in (("empty", "no problem (*.yaml)"), ("program.yaml", "not a text file")):
+        assert run(["solve", str(tmp_path / name)]) == 2
+        assert said in capsys.readouterr().err

@@ -113,7 +113,10 @@ def test_a_run_without_a_result_is_told_everywhere():
 
 
 def test_text_has_at_most_80_columns():
-    assert max(map(len, to_text(study_of(points=(*POINTS, LOST))).splitlines())) <= 80
+    lost = replace(LOST, why="it takes more than 10 s, which " + "is more than it may take " * 4)
+    study = study_of(points=(*POINTS, lost), name="a/long/path/" * 4 + "to/a/problem.yaml")
+    study = replace(study, unsuited={"yoshida8": "it does not separate: " + "it needs M " * 12})
+    assert max(map(len, to_text(study).splitlines())) <= 80
 
 
 def test_the_difference_is_relative_to_the_peak():

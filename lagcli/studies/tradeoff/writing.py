@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Sequence
+from textwrap import fill
 from typing import Any
 
 from lagcli.formatters.json_values import fields_of
@@ -12,6 +13,7 @@ from lagcli.studies.tradeoff.front import AS_GOOD, AccuracyVerdict, RunPoint
 from lagcli.studies.tradeoff.inside import trades
 from lagcli.studies.tradeoff.study import Study
 
+_WIDTH = 80
 _HEAD = (
     "method", "tolerance", "true error", "integration", "total", "evaluations", "drift", "residual",
 )  # fmt: skip
@@ -55,7 +57,16 @@ def to_text(study: Study) -> str:
         for point in study.broken
     ]
     lines += [f"warning: {warning}" for warning in known.warnings]
-    return "".join(f"{line.rstrip()}\n" for line in _without_double_blanks(lines))
+    shown = [line for each in _without_double_blanks(lines) for line in each.split("\n")]
+    return "".join(f"{_within_a_terminal(line.rstrip())}\n" for line in shown)
+
+
+def _within_a_terminal(line: str) -> str:
+    if len(line) <= _WIDTH:
+        return line
+    return fill(
+        line, _WIDTH, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False
+    )
 
 
 def line_of(point: RunPoint) -> str:
