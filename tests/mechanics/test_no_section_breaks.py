@@ -197,3 +197,11 @@ def test_a_section_that_takes_too_much_work_is_null(monkeypatch: pytest.MonkeyPa
 def test_a_high_power_ends_the_search_for_special_values_with_a_sentence(power: int) -> None:
     found = answers(f"{HEAD}V: k*x^{power} + c*y^2\n", ["algebra"])
     assert not [w for w in found.warnings if "bug" in w]
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("force", ["-c*sign(x')", "-c*x'*abs(x')", "-c*sign(x' + y')*abs(y')"])
+@pytest.mark.parametrize("side", ["y = 0", "y = x", "x^2 + y^2 = c^2"])
+def test_signs_of_velocities_on_a_constraint_break_no_section(force: str, side: str) -> None:
+    text = f"{HEAD}V: k*y\nforces: {{x: {force}}}\nconstraints: {{surface: {side}}}\n"
+    assert_sound(answers(text, ["discovered"]))

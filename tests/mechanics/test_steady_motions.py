@@ -447,3 +447,14 @@ def test_a_squared_frequency_that_is_not_real_says_so(damped):
         f"L: m*x'*y' - k*x*y{turning}\n"
     )
     assert rest.may_be_complex is damped
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("potential", ["sin(psi)", "cos(psi)"])
+def test_what_grows_at_every_spin_is_unstable(potential):
+    """Kowalevski's top with its centre of mass above: ω² = −k/(2 C) does not depend on the spin."""
+    top = TOP.replace("I1", "2*I3").replace("2*I3: POSITIVE, ", "")
+    found = motions(top.replace("k*cos(theta)", f"k*sin(theta)*{potential}"))
+    growing = [m for m in found if any(to_grammar(w) == "-k/(2*I3)" for w in m.frequencies_squared)]
+    assert growing
+    assert all(m.verdict.stable is False for m in growing)

@@ -356,3 +356,28 @@ def test_where_a_potential_is_constant_every_position_is_an_equilibrium(seed):
     assert level.verdict.critical == 0
     bent = equilibria(derive(text.replace("BESIDE", "- x^4")).dynamics).equilibria
     assert {e.verdict.critical for e in bent if to_grammar(e.at["x"]) == "0"} == {4}
+
+
+@pytest.mark.parametrize("length", ["R - r", "R - 2*r", "2*R + r"])
+def test_without_inertia_nothing_is_called_an_equilibrium_for_special_values(length):
+    """A cylinder in a pipe of its own radius: the potential is constant, and so is T."""
+    parameters = "{m: {assume: positive}, R: {assume: positive}, r: {assume: positive}}"
+    energy = f"T: m*({length})^2*x'^2/2\nV: -m*({length})*cos(x)"
+    found = equilibria(derive(f"coordinates: [x]\nparameters: {parameters}\n{energy}").dynamics)
+    assert found.equilibria
+    assert all(each.verdict.critical is None for each in found.equilibria)
+
+
+@pytest.mark.parametrize("drag", ["x'*abs(x')", "x'^3", "x'*(1 + x'^2)"])
+def test_a_steady_motion_is_listed_once(drag):
+    section, _ = steady_motions(
+        derive(f"coordinates: [x]\nparameters: [c]\nT: x'^2/2\nforces: {{x: -c*{drag}}}")
+    )
+    assert len(section.motions) == 1
+
+
+@pytest.mark.parametrize("root", ["sqrt(R^2 - l^2/4)", "sqrt(4*R^2 - l^2)", "sqrt(R - l)"])
+def test_where_the_lagrangian_is_not_real_nothing_is_said_to_be_conserved(root):
+    parameters = "{R: {assume: positive}, l: {assume: positive}}"
+    text = f"coordinates: [x]\nparameters: {parameters}\nT: x'^2/2\nV: -{root}*cos(x)\n"
+    assert "imaginary" not in said(text, "Discovered symmetries", "discovered")

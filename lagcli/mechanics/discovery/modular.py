@@ -72,9 +72,9 @@ class ModularPoints:
             for g, (power, rule) in field.ring.rules.items()
         }
         self._either = False  # whether roots of constants are drawn with either sign
-        self._signs: dict[int, Terms] = {}  # s f - |f|
+        self.signs: dict[int, Terms] = {}  # s f - |f|
         for g, rule in reversed(field.ring.mixed):
-            self._signs[g] = self.terms(rule)
+            self.signs[g] = self.terms(rule)
         self.constants = self._drawn({}, wanted=True)
 
     def point(self) -> list[int]:
@@ -131,11 +131,11 @@ class ModularPoints:
             other = self._either and power % 2 == 0 and self._source.random() < 0.5
             values[g] = PRIME - root if other else root
             return True
-        if g in self._signs:
+        if g in self.signs:
             point = [values.get(k, 0) for k in range(len(self.field.generators))]
-            size = -evaluated(self._signs[g], point)  # at s = 0
+            size = -evaluated(self.signs[g], point)  # at s = 0
             point[g] = 1
-            u = size * pow(evaluated(self._signs[g], point) + size, -1, PRIME) % PRIME
+            u = size * pow(evaluated(self.signs[g], point) + size, -1, PRIME) % PRIME
         values[g] = u
         return True
 

@@ -198,7 +198,8 @@ class FormulaSurface:
         values = dict(points.constants)
         roots = [
             g for g, x in enumerate(generators)
-            if g in points.rules and x.kind not in ("sin", "sinh") and g not in values
+            if (g in points.rules or g in points.signs)
+            and x.kind not in ("sin", "sinh") and g not in values
         ]  # fmt: skip
         solved = {g for _, pivots in plan for g in pivots}
         waiting = solved | {self._partner(g) for g in solved} | set(roots) | set(self._last)

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import sympy
-from sympy import Expr
+from sympy import Expr, S
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
@@ -68,11 +68,14 @@ def order_of_minimum(derivatives: Sequence[Expr], positive: Sequence[Expr]) -> i
 
 
 def order_at_critical_values(
-    derivatives: Sequence[Expr], positive: Sequence[Expr], force: Expr | None = None
+    derivatives: Sequence[Expr],
+    positive: Sequence[Expr],
+    force: Expr | None = None,
+    mass: Expr = S.One,
 ) -> int | None:
     """The same where a condition makes the second derivative vanish: one symbol is solved for.
 
-    0 where the `force` vanishes everywhere then.
+    0 where the `force` vanishes everywhere then, unless the `mass` does.
     """
     curvature = derivatives[0] if derivatives else None
     for symbol in sorted(curvature.free_symbols, key=str) if curvature is not None else ():
@@ -81,6 +84,8 @@ def order_at_critical_values(
             continue
         [root] = roots.values
         if symbol.is_positive and sign_of(root, positive) in (0, -1):
+            continue
+        if is_zero(mass.xreplace({symbol: root})) is not False:
             continue
         if force is not None and is_zero(force.xreplace({symbol: root})) is True:
             return 0

@@ -77,7 +77,7 @@ def by_minimum(near: Near) -> Stability | None:
         minimum=shortest,
         reverses=near.potential_decides,
         across=near.dimension_released > 0,
-        critical=order_at_critical_values(derivatives, near.positive, force),
+        critical=order_at_critical_values(derivatives, near.positive, force, near.linear.M[0][0]),
     )
 
 

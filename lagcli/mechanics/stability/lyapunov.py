@@ -34,11 +34,13 @@ def by_a_growing_root(near: Near) -> Stability | None:
     others, positive = near.others, near.positive
     if len(others) > 1 and sign_of(others[0], positive) == -1:
         return unstable(_by_potential(near) or f"{_ROOT} is positive")
-    if -1 in near.signs(near.conditions or ()) or any(map(_not_real, _squares(near))):
+    conditions, squares = near.conditions or (), _squares(near)
+    real = [W for W in squares if not W.has(I)]
+    if -1 in near.signs([*conditions, *real]) or any(map(_not_real, squares)):
         return growing(near)
     if reason := _by_potential(near):
         return unstable(reason)
-    candidates = [*others[: len(others) > 1], *(near.conditions or ()), *_squares(near)]
+    candidates = [*others[: len(others) > 1], *conditions, *squares]
     weak = [e for e in candidates if weak_sign(e, positive) == -1]
     return Stability(growing=-weak[0]) if weak else None
 

@@ -359,8 +359,8 @@ class RollingMotions:
 
 
 def _within(one: RollingMotion, other: RollingMotion) -> bool:
-    """Whether a motion is one of a family with more that is free."""
-    if len(one.values) <= len(other.values):
+    """Whether a motion is one of a family, or that family solved for something else."""
+    if len(one.values) < len(other.values) or not {*other.positive} <= {*one.positive}:
         return False
     try:
         return all(
