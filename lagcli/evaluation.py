@@ -112,6 +112,16 @@ def value_of(node: Expression) -> Constant | None:
     return value
 
 
+def finite_value(node: Expression) -> Constant | None:
+    """`value_of`, and None also where there is no finite number, or too large a one on the way."""
+    try:
+        value = value_of(node)
+    except (ArithmeticError, ValueError):
+        return None
+    finite = isinstance(value, Fraction) or (value is not None and math.isfinite(value))
+    return value if finite else None
+
+
 def _power(base: Constant, exponent: Constant) -> Constant:
     if isinstance(exponent, Fraction) and exponent.denominator == 1 and abs(exponent) < 1000:
         return base ** int(exponent)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 from lagcli.algebra.circular_factors import single_angles, tangents, upright
-from lagcli.evaluation import value_of
+from lagcli.evaluation import finite_value
 from lagcli.expression import (
     ONE,
     ZERO,
@@ -203,7 +203,7 @@ class Writer:
                 continue
             negatives = sum(isinstance(term, Negative) for term in base.terms)
             mostly = isinstance(base.terms[0], Negative) and len(base.terms) <= 2 * negatives + 1
-            if mostly or (value_of(base) or 0) < 0:
+            if mostly or (finite_value(base) or 0) < 0:
                 turned = self.negative_sum(base)
                 return -coefficient, [*pairs[:position], (turned, exponent), *pairs[position + 1 :]]
         return coefficient, pairs

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable
 from decimal import Context, Decimal
 from fractions import Fraction
 from typing import Any
 
-from lagcli.evaluation import Constant, value_of
+from lagcli.evaluation import Constant, finite_value
 from lagcli.expression import (
     ONE,
     Expression,
@@ -31,7 +30,7 @@ _ROUNDING = Context(prec=DIGITS)
 
 def with_decimals(node: Expression) -> Expression:
     """The expression with its constants worked out, each product with one in front."""
-    constant = _known(node)
+    constant = finite_value(node)
     if constant is not None:
         return number(constant)
     match node:
@@ -160,26 +159,13 @@ def number(value: Constant) -> Expression:
     return signed(rounded, decimal=True)
 
 
-def _known(node: Expression) -> Constant | None:
-    """`value_of`, and None also where there is no finite number."""
-    try:
-        value = value_of(node)
-    except (ArithmeticError, ValueError):
-        return None
-    return (
-        value
-        if isinstance(value, Fraction) or (value is not None and math.isfinite(value))
-        else None
-    )
-
-
 def _sum(terms: Iterable[Expression]) -> Expression:
     """The terms with the constants among them added, where the first of them stood."""
     kept: list[Expression] = []
     constant: Constant = Fraction(0)
     place: int | None = None
     for term in terms:
-        value = _known(term)
+        value = finite_value(term)
         if value is None:
             kept.append(term)
             continue
@@ -192,7 +178,7 @@ def _sum(terms: Iterable[Expression]) -> Expression:
 
 def _term(node: Expression) -> Expression:
     """c a b / (d e), with every constant of the term in c."""
-    constant, above, below = _factors(node, _known, with_decimals)
+    constant, above, below = _factors(node, finite_value, with_decimals)
     head = number(constant)
     sign = isinstance(head, Negative)
     magnitude = head.operand if isinstance(head, Negative) else head

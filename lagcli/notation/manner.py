@@ -13,7 +13,7 @@ from collections import Counter
 from collections.abc import Iterator
 from fractions import Fraction
 
-from lagcli.evaluation import sign_at_random, value_of
+from lagcli.evaluation import finite_value, sign_at_random
 from lagcli.expression import (
     ONE,
     ZERO,
@@ -263,7 +263,7 @@ class Manner:
         if below and (positive := _determinant(node)) is not None:
             return not positive
         number = next((t for t in node.terms if _is_number(t)), None)
-        if number is not None and (value := value_of(node)) is not None:
+        if number is not None and (value := finite_value(node)) is not None:
             return value < 0  # sqrt(33) - 1
         if number is not None:
             return isinstance(number, Negative)

@@ -45,6 +45,31 @@ def test_a_minimum_and_what_is_none_are_told_apart(seed):
     assert verdict_of(V, ", dissipation: x'^2 + y'^2").asymptotic is bool(told.stable)
 
 
+@pytest.mark.first_quick
+@pytest.mark.parametrize("seed", range(8))
+def test_curved_coordinates_in_which_V_is_a_sum_of_powers_change_nothing(seed):
+    """V = b Y² + a X^d at X = 0 + ..., Y = 0 + ...: of d even and a > 0 alone a minimum."""
+    source = random.Random(seed)
+    a, b, d = source.choice([-2, -1, 1, 3]), source.randint(1, 3), source.choice([3, 4, 4, 6])
+    p, q, r, s = (source.randint(-2, 2) for _ in range(4))
+    X, Y = f"(x + ({p})*x*y)", f"(y + ({q})*x + ({r})*x^2 + ({s})*x*y)"
+    told = verdict_of(f"{b}*{Y}^2 + ({a})*{X}^{d}")
+    assert told.stable is (d % 2 == 0 and a > 0)
+
+
+NEUTRAL = {"x^4 - x^2*y^2 + y^4": True, "x^4 - 3*x^2*y^2 + y^4": False, "x*y*z + x^4 + y^4": True}
+
+
+@pytest.mark.parametrize(("more", "stable"), NEUTRAL.items())
+def test_two_neutral_directions_beside_a_stiff_one(more, stable):
+    """x⁴ + y⁴ + c x² y² is positive for c > -2; the last one is lowest at z = x y/2."""
+    text = f"{{coordinates: [x, y, z], T: x'^2 + y'^2 + z'^2, V: (z - x*y)^2 + {more}}}"
+    found = equilibria(derive(text).dynamics).equilibria or ()
+    assert [e.verdict.stable for e in found if {*map(to_grammar, e.at.values())} == {"0"}] == [
+        stable
+    ]
+
+
 @pytest.mark.parametrize("V", ["x^3 - 3*x*y^2", "x^2*y + y^4 + x^4", "x^4 - y^4", "y^2 - x^5"])
 def test_what_takes_lower_values_leaves(V):
     told = verdict_of(V)

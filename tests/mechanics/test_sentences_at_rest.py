@@ -567,3 +567,20 @@ def test_a_constraint_that_moves_with_the_body_is_not_said_to_do_work(constraint
     told = said(text, "The energy")
     assert "is conserved" in told
     assert "does work" not in told
+
+
+HELD_TWICE = "{coordinates: [x, y], L: (x'^2 + y'^2)/2 - x^2, constraints: {a: %s, b: %s}}"
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "{coordinates: [x], H: p_x^4/4 + x^2/2}",
+        HELD_TWICE % ("x*(y - 2*x) = 0", "(x^2 + 1)*(y - 2*x) = 0"),
+    ],
+)
+def test_where_the_equations_have_no_linear_form_rest_is_undecided(text):
+    """L grows as x'^(4/3) there; the rows of both constraints vanish, or are one."""
+    dynamics = derive(text).dynamics
+    assert all(e.verdict.stable is None for e in equilibria(dynamics).equilibria)
+    assert "singular" in modes(dynamics).reason

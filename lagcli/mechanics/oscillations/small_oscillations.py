@@ -45,6 +45,7 @@ from lagcli.mechanics.stability.judge import (
     DRIFTS,
     EXCLUDED,
     GRAZES,
+    NO_MOTION,
     judge,
     judge_on_average,
     judge_on_meridians,
@@ -122,6 +123,8 @@ def _why_none(places: Sequence[Place]) -> str:
         return f"{singular(places[0].linear.dynamics)} singular at the equilibria"
     if not all(place.linear.smooth for place in places):
         return _NO_LINEAR_PART
+    if any(place.verdict.reason == NO_MOTION for place in places):
+        return NO_MOTION
     pairs = [(r, p.point.positive) for p in places for r, *_ in p.characteristic.squares or ()]
     open_ = [r for r, positive in pairs if r is None or not never_oscillates(r, positive)]
     if pairs and all(r is not None and all(W.has(I) for W in r) for r in open_):
@@ -162,7 +165,7 @@ class Place:
         if (held := self.held).firmly and not self.linear.M:
             reason = _STICKS if held.sticking else _KINK if held.kinked else _PRESSED
             return Stability(stable=True, reason=reason)
-        if is_singular(self.linear):
+        if self.at_singular_coordinates:
             return judge_on_meridians(OnMeridians(self.linear))
         found = judge(self.linear, self.characteristic)
         return replace(found, asymptotic=False) if self.held.firmly else found

@@ -42,7 +42,7 @@ class OnMeridians(Linearization):
 
     def __init__(self, whole: Linearization) -> None:
         super().__init__(whole.rest, whole.point)
-        self.basis = _complement(whole.basis, nullspace(whole.M))
+        self.basis = complement(whole.basis, nullspace(whole.M))
 
     @property
     def damped(self) -> bool:
@@ -66,7 +66,7 @@ class OnMeridians(Linearization):
         return any(is_zero(p) is not True for p in momenta)
 
 
-def _complement(basis: Matrix, null: Matrix) -> Matrix:
+def complement(basis: Matrix, null: Matrix) -> Matrix:
     """The columns of the basis without those that the null vectors express by the others."""
     gone = set()
     for vector in null:

@@ -43,7 +43,7 @@ EXCLUDED = "the constraints exclude every displacement"
 ACCELERATES = "near it there are motions with a constant acceleration"
 _EVERYWHERE = "every position along them is an equilibrium, and the kinetic energy does not grow"
 _POWERS = "all roots are 0, and to first order displacements grow in proportion to a power of t"
-_NO_MOTION = "the equations of motion are singular there"
+NO_MOTION = "the equations of motion are singular there"
 _JUMPS = "a force jumps there, or its derivative does"
 
 
@@ -64,7 +64,7 @@ def judge(linear: Linearization, characteristic: Characteristic | None = None) -
         open_ = found.is_open or (found.exact and found.across and not linear.damped)
         return _among_equilibria(near) or found if open_ else found
     except ZeroDivisionError:
-        return undecided(_NO_MOTION)
+        return undecided(NO_MOTION)
 
 
 def judge_on_average(linear: Linearization) -> Stability | None:
@@ -92,7 +92,7 @@ def judge_on_meridians(linear: OnMeridians) -> Stability:
             return unstable(FALLS)
         found = by_minimum(near)
     except ZeroDivisionError:
-        return undecided(_NO_MOTION)
+        return undecided(NO_MOTION)
     if found is None:
         return undecided(no_coordinates)
     along = {*linear.point.free} - {linear.system.q[j] for j in linear.indeterminate}

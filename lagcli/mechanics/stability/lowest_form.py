@@ -1,6 +1,8 @@
 """Where V has no definite second derivatives: its terms of lowest degree decide.
 
-About the equilibrium V is a polynomial in the displacements u and terms of higher degree.  With
+About the equilibrium V is a polynomial in the displacements u and terms of higher degree.  The
+displacements w along which the second derivatives are definite are given by the others, z, as
+those of the lowest V at z (the splitting lemma): V(z, w(z)) decides.  With
 weights 1/d_i, u_i^(d_i) the first pure power of u_i, the terms of weight 1 decide on a strict
 minimum where no term weighs less: those that weigh more are small beside them.
 
@@ -24,12 +26,13 @@ from collections.abc import Sequence
 import sympy
 from sympy import Expr, Poly, S, Symbol
 
-from lagcli.algebra import dot, simplify
+from lagcli.algebra import dot, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of
+from lagcli.mechanics.rest.singular import complement
 from lagcli.mechanics.stability.higher import HIGHEST, bent_there
-from lagcli.mechanics.stability.near import Near
+from lagcli.mechanics.stability.near import Near, positive_definite
 from lagcli.mechanics.stability.verdict import Stability, unstable
 from lagcli.mechanics.theorems import KOZLOV, LAGRANGE_DIRICHLET, LASALLE
 
@@ -43,7 +46,7 @@ def by_lowest_form(near: Near) -> Stability | None:
     terms = {} if near.hypotheses.lacking else _terms(near)
     if not terms:
         return None
-    first = _first_powers(terms, len(near.linear.system.q))
+    first = _first_powers(terms)
     if first is None or min(_weight(e, first) for e in terms) < 1:
         degree = min(map(sum, terms))
         form = {e: c for e, c in terms.items() if sum(e) == degree}
@@ -110,10 +113,40 @@ def _terms(near: Near) -> _Terms:
         there = at(power.xreplace({s: S.Zero}), values)
         if not free_of(there, q) or there.has(sympy.nan, sympy.zoo, sympy.oo):
             return {}
-        for exponents, c in Poly(-there / sympy.factorial(degree), *u).terms():
-            if (known := simplify(c)) != 0:
-                found[exponents] = known
-    return found
+        found |= _powers(-there / sympy.factorial(degree), u, degree)
+    return _at_lowest(found, near)
+
+
+def _at_lowest(terms: _Terms, near: Near) -> _Terms:
+    """V(z, w(z)) by exponents of z, where the second derivatives with respect to w are definite."""
+    K = near.linear.K
+    null, n = nullspace(K), len(K)
+    across = complement([[S(int(i == j)) for j in range(n)] for i in range(n)], null)
+    second = [[dot(a, [dot(row, b) for row in K]) for b in across] for a in across]
+    if not (null and across and positive_definite(second, near.positive)):
+        return terms
+    z = [Symbol(f"#z{k}", real=True) for k in range(len(null))]
+    w = [Symbol(f"#w{k}", real=True) for k in range(len(across))]
+    u = [sympy.Add(*(x * v[i] for x, v in zip([*z, *w], [*null, *across], strict=True)))
+         for i in range(n)]  # fmt: skip
+    V = _polynomial(terms, u)
+    lowest = dict.fromkeys(w, S.Zero)
+    for _ in range(HIGHEST // 2 - 1):  # Newton: errors of degree k in w are of 2 k in V
+        solution = solve_linear(second, [V.diff(x).xreplace(lowest) for x in w])
+        assert solution is not None
+        steps = zip(w, solution.values, strict=True)
+        lowest = {x: _polynomial(_powers(lowest[x] - s, z, HIGHEST // 2), z) for x, s in steps}
+    return _powers(V.xreplace(lowest), z, HIGHEST)
+
+
+def _polynomial(terms: _Terms, u: Sequence[Expr]) -> Expr:
+    return sympy.Add(*(c * sympy.Mul(*map(sympy.Pow, u, e)) for e, c in terms.items()))
+
+
+def _powers(f: Expr, z: Sequence[Symbol], highest: int) -> _Terms:
+    """A polynomial by exponents, to a degree."""
+    terms = ((e, simplify(c)) for e, c in Poly(f, *z).terms() if sum(e) <= highest)
+    return {e: c for e, c in terms if c != 0}
 
 
 def _is_pure(exponents: Sequence[int]) -> bool:
@@ -121,8 +154,8 @@ def _is_pure(exponents: Sequence[int]) -> bool:
     return sum(map(bool, exponents)) == 1
 
 
-def _first_powers(terms: _Terms, n: int) -> list[int] | None:
-    pure = [[sum(e) for e in terms if e[i] == sum(e)] for i in range(n)]
+def _first_powers(terms: _Terms) -> list[int] | None:
+    pure = [[sum(e) for e in terms if e[i] == sum(e)] for i in range(len(min(terms)))]
     return [min(powers) for powers in pure] if all(pure) else None
 
 
