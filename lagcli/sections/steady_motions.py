@@ -37,6 +37,7 @@ from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     conditions,
     in_moving_frames,
+    in_polar_coordinates,
     linear_equations,
     listed,
     none_found,
@@ -68,10 +69,12 @@ def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
     if section.conditions:
         wanted = unlike(section.conditions.values())
         held = "The conditions of a steady motion hold everywhere."
-        lead = "A state of rest has" if section.resting else "A steady motion has"
-        yield Paragraph((lead if wanted else held,))
+        here = " in these coordinates" * bool(section.plane)
+        lead = "A state of rest" if section.resting else f"A steady motion{here}"
+        yield Paragraph((f"{lead} has" if wanted else held,))
         if wanted:
             yield vanishing(wanted)
+    yield from in_polar_coordinates(section)
     if section.motions is None:
         yield Paragraph((f"Not found: {section.reason}.",))
         return

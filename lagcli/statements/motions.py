@@ -138,6 +138,7 @@ class SteadySection:
     What is not `complete` was not sought where each of `singular_where` vanishes.
     `where` restricts what was sought, in words; of what is `resting` the conditions are of rest.
     All hold in each of the `frames`, too: velocities that are common to all in terms of one.
+    Nothing changes when the two coordinates of a `plane` turn about the origin.
 
     Under velocity constraints, and where a force acts along what L does not contain, the
     conditions are what is left of the equations of motion (`acting`: "inertia"), along the
@@ -156,6 +157,7 @@ class SteadySection:
     where: str = ""
     resting: bool = False
     frames: tuple[Mapping[str, Expression], ...] = ()
+    plane: tuple[str, ...] = ()
 
     @property
     def sought(self) -> str:

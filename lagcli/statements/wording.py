@@ -312,6 +312,15 @@ def in_moving_frames(section: SteadySection) -> Iterator[Paragraph]:
         yield Paragraph((*parts, ": the equations of motion hold in a frame that moves along."))
 
 
+def in_polar_coordinates(section: SteadySection) -> Iterator[Paragraph]:
+    """That steady rotations are found in other coordinates."""
+    if section.plane:
+        x, y = map(Name, section.plane)
+        lead = "The system is symmetric under rotations of ("
+        rest = "Steady rotations are found in polar coordinates, whose angle is cyclic."
+        yield Paragraph((lead, x, ", ", y, f") about the origin. {rest}"))
+
+
 def none_found(
     what: str,
     vanishing: Sequence[Expression] | None,

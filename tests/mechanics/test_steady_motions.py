@@ -458,3 +458,20 @@ def test_what_grows_at_every_spin_is_unstable(potential):
     growing = [m for m in found if any(to_grammar(w) == "-k/(2*I3)" for w in m.frequencies_squared)]
     assert growing
     assert all(m.verdict.stable is False for m in growing)
+
+
+@pytest.mark.parametrize(
+    ("file", "plane"),
+    [
+        ("V: k*z\nconstraints: {bowl: x^2 + y^2 = k^2*z^2}", ("x", "y")),
+        ("V: k*z\nconstraints: {bowl: z = x^2/k + y^2}", ()),
+        ("V: -k/sqrt(x^2 + y^2) + k*z^2", ("x", "y")),
+        ("V: k*(y^2 + z^2)", ("y", "z")),
+        ("V: k*(y^2 + z^2)\nforces: {x: k}", ()),
+        ("V: k*z", ()),
+    ],
+)
+def test_where_rotations_change_nothing_steady_ones_are_not_denied(file, plane):
+    head = "coordinates: [x, y, z]\nparameters: {k: POSITIVE}\nT: (x'^2 + y'^2 + z'^2)/2\n"
+    text = f"{head}{file}".replace("POSITIVE", "{assume: positive}")
+    assert steady_motions(derive(text))[0].plane == plane

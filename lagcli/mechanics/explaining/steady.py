@@ -22,6 +22,7 @@ from lagcli.statements.wording import (
     POTENTIAL,
     conditions,
     in_moving_frames,
+    in_polar_coordinates,
     linear_equations,
     place_rows,
     there_may_be_others,
@@ -106,6 +107,7 @@ def _steady_states(explainer: Explainer, found: SteadySection) -> Iterator[Block
         yield vanishing(wanted)
     elif found.conditions and not found.eliminated:
         yield says("These are 0 everywhere.")
+    yield from in_polar_coordinates(found)
     if found.motions is None:
         yield says(f"No steady motion was found: {found.reason}.")
         return

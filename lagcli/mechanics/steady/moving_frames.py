@@ -6,6 +6,9 @@ Of M(q) q'' = F(q, q') these are the constant c with
 
 so that with q(t) also q(t) + u c t is a motion: two masses that a spring joins, two coupled discs.
 
+Where L and all constraints keep their values when one pair (x, y) of coordinates turns about its
+origin, steady rotations have x and y that are not constant: polar coordinates are needed.
+
 References
 ----------
 Landau, Lifshitz, *Mechanics*, 3rd ed., section 3.
@@ -13,11 +16,12 @@ Landau, Lifshitz, *Mechanics*, 3rd ed., section 3.
 
 from __future__ import annotations
 
-from itertools import chain
+from itertools import chain, combinations
 
 from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero
+from lagcli.algebra.build import free_of
 from lagcli.mechanics.rest.rest_conditions import RestConditions
 
 
@@ -34,3 +38,19 @@ def moving_frames(rest: RestConditions) -> dict[Symbol, list[Expr]]:
         if sum(x != 0 for x in c) > 1 and all(each is True for each in same):
             found[free] = c
     return found
+
+
+def plane_of_rotation(rest: RestConditions) -> tuple[str, ...]:
+    """The names of x and y, where nothing changes as (x, y) turns about the origin; else ()."""
+    system, equations = rest.system, rest.dynamics.constraints.equations
+    if any(is_zero(f) is not True for f in system.applied_forces) or rest.depends_on_time:
+        return ()
+    if not all(e.holonomic for e in equations):
+        return ()
+    kept = [system.L, *(e.f for e in equations)]
+    for pair in combinations(range(len(system.q)), 2):
+        (x, y), (u, v) = ([s[j] for j in pair] for s in (system.q, system.qdot))
+        turned = (x * f.diff(y) - y * f.diff(x) + u * f.diff(v) - v * f.diff(u) for f in kept)
+        if all(is_zero(change) is True for change in turned):
+            return () if all(free_of(f, (x, y)) for f in kept) else (x.name, y.name)
+    return ()

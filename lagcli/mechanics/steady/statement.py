@@ -37,7 +37,7 @@ from lagcli.mechanics.stability.judge import GRAZES, judge
 from lagcli.mechanics.stability.lagrange_dirichlet import by_routh
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.mechanics.stability.verdict import Stability, undecided
-from lagcli.mechanics.steady.moving_frames import moving_frames
+from lagcli.mechanics.steady.moving_frames import moving_frames, plane_of_rotation
 from lagcli.mechanics.steady.rolling import RollingMotions
 from lagcli.mechanics.steady.rolling_statement import applies, rolling_section
 from lagcli.notation.manner import Manner
@@ -96,6 +96,7 @@ class _SteadyStatement:
             else {}
         )
         resting = steady.only_rest_is_sought
+        plane = plane_of_rotation(RestPoints(self.routh.full.dynamics))
         if found is None:
             return (
                 SteadySection(
@@ -106,6 +107,7 @@ class _SteadyStatement:
                     acting=steady.acting,
                     momenta=cyclic,
                     resting=resting,
+                    plane=plane,
                 ),
                 [("the steady motions", steady.reason)],
             )
@@ -124,6 +126,7 @@ class _SteadyStatement:
                 unless=() if found else unless_written(steady.unless, self.order),
                 where=steady.rest.restricted_to + _OPEN * bool(steady.full.problem.contacts),
                 frames=self._frames if found and not steady.full.problem.contacts else (),
+                plane=plane,
             ),
             [],
         )
