@@ -14,6 +14,8 @@ from lagcli.numerics.hybrid.result import Cut, Result
 _LISTED = 5
 #: Marks a row of a table, and names the column that marks it elsewhere.
 _BEYOND, _CERTIFIED = "  ~", "certified"
+#: Of what is told under a table.
+_WIDTH = 80
 
 
 def to_json(result: Result) -> str:
@@ -135,8 +137,15 @@ def to_table(result: Result) -> str:
     lines[certified:] = [line + _BEYOND for line in lines[certified:]]
     if result.beyond:
         lines.append(f"{_BEYOND.strip()} after t = {held.holds_until:.6g}: not certified")
-    lines.append("")
-    lines += _told(result.events)
+    return "".join(f"{line}\n" for line in (*lines, "", *_certificate(result)))
+
+
+def _certificate(result: Result) -> list[str]:
+    """What holds of the rows, in lines of 80 columns."""
+    from textwrap import wrap
+
+    held = result.certificate
+    lines = _told(result.events)
     bound = max(held.global_error.values(), default=0.0)
     word = "reached" if held.reached else f"held until t = {held.holds_until:g} only"
     lines.append(f"accuracy {held.accuracy:g} {word}; global error at most {bound:.1e},")
@@ -151,7 +160,7 @@ def to_table(result: Result) -> str:
     lines.append(f"method {result.method}: {work}")
     lines.append(f"  {result.reason}")
     lines += [f"warning: {warning}" for warning in result.warnings]
-    return "".join(f"{line}\n" for line in lines)
+    return [part for line in lines for part in wrap(line, _WIDTH, subsequent_indent="  ")]
 
 
 def _model_lines(cut: Cut) -> list[str]:
