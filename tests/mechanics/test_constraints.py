@@ -121,6 +121,7 @@ def test_a_constraint_on_which_full_newton_steps_diverge_is_satisfied(constraint
 
 
 @pytest.mark.first_quick
+@pytest.mark.first_quick
 @pytest.mark.parametrize(
     "constraints",
     [
@@ -138,6 +139,7 @@ def test_contradictory_constraints_are_an_error_that_names_one(constraints: str)
     assert diagnostic.span.line == 4
 
 
+@pytest.mark.long
 def test_a_constraint_without_an_equation_says_what_it_means():
     text = "coordinates: [x, y]\nT: (x'^2 + y'^2)/2\nconstraints: {rod: 1 + x^2 + y^2}"
     with pytest.raises(ProblemError, match="without '=' it means = 0"):

@@ -191,7 +191,7 @@ def test_a_scaled_solution_has_no_factor_of_constants_left(seed: int):
     assert all(is_zero(f - v) is True for f, v in zip(found, values, strict=True))
 
 
-@pytest.mark.first_quick
+@pytest.mark.long
 @pytest.mark.parametrize("inertia", ["L, M", "M, L"])
 @pytest.mark.parametrize("coupling", ["(x - y)^2/(2*C)", "x*y/C"])
 def test_like_circuits_have_both_amplitudes_of_both_modes(inertia: str, coupling: str):

@@ -232,6 +232,7 @@ def test_symmetries_that_no_formula_is_known_for_are_said_not_to_have_been_sough
     assert any("not sought: no formula" in reason for reason in found.stopped)
 
 
+@pytest.mark.long
 def test_an_oscillator_driven_at_resonance_is_searched_without_a_function_twice():
     """sin(2 w t) and sin(w t) cos(w t) are one: apart, they made a symmetry that is 0."""
     derivation = derive(one_coordinate("x'^2/2 - 2*x^2 + m*x*cos(2*t)"))

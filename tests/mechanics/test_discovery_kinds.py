@@ -104,6 +104,7 @@ NAMES = {
 }  # fmt: skip
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("case", NAMES)
 def test_charges_are_named_by_what_they_are(case):
     letters, more, expected = NAMES[case]
@@ -151,7 +152,7 @@ def test_the_energy_in_an_expanding_space_is_no_damped_one():
     assert names == ["p_x", "charge_1", "charge_2"]
 
 
-@pytest.mark.first_quick
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("a", "c", "b"), [(4, -1, 1), (-4, -1, 1), (3, 1, 1), (2, -3, 1), (-5, 2, 2)]
 )

@@ -32,7 +32,7 @@ def lowest_on_curves(V: str, weights: tuple[int, int]) -> float:
     return lowest
 
 
-@pytest.mark.first_quick
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(8))
 def test_a_minimum_and_what_is_none_are_told_apart(seed):
     """V of random degrees, mixed terms and higher ones, against its values close by."""

@@ -58,6 +58,7 @@ def test_a_reduced_mass_keeps_its_name():
     assert "parameters m₁, m₂, G;" in text
 
 
+@pytest.mark.long
 def test_distances_keep_their_names():
     text = text_of(answers_of(THREE_BODIES, "lagrangian", "accelerations"))
     assert "+ (1 − μ)/r₁ + μ/r₂" in text

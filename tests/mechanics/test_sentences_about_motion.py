@@ -57,7 +57,7 @@ def test_where_no_root_oscillates_there_are_no_modes():
     assert "real and positive" in section.reason
 
 
-@pytest.mark.first_quick
+@pytest.mark.long
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_pole_has_one_verdict_at_rest_and_among_the_steady_motions(seed):
     """A charge on a sphere: inverted it is held by the magnetic field where q B² R > 4 m E."""
@@ -85,6 +85,7 @@ def test_conditions_that_are_opposite_are_printed_once(n):
     assert told.count("0 = ") == (1 if n == 2 else 3)
 
 
+@pytest.mark.long
 def test_what_is_said_of_several_equilibria_is_said_once():
     """Two rods of a slider-crank, in which the two branches differ in more than a sign."""
     text = (
@@ -182,6 +183,7 @@ def test_a_negative_kinetic_energy_turns_about_the_maxima():
     assert "does not turn back" in told
 
 
+@pytest.mark.first_quick
 @pytest.mark.parametrize("drag", ["0", "a'^2 + sin(a)^2*b'^2"])
 def test_a_pole_is_no_family(drag):
     """At the pole of a sphere that turns the azimuth has no value: nothing is displaced along it."""
@@ -195,7 +197,7 @@ def test_a_pole_is_no_family(drag):
     assert "family" not in answered(text, "equilibria").split("a = 0:")[-1].split("a = π:")[0]
 
 
-@pytest.mark.first_quick
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(6))
 def test_a_sign_that_a_condition_gives_holds_where_the_condition_does(seed):
     """Random polynomials under a random condition, at random values that fulfil it."""
@@ -214,6 +216,7 @@ def test_a_sign_that_a_condition_gives_holds_where_the_condition_does(seed):
     assert decided
 
 
+@pytest.mark.long
 def test_no_condition_is_stated_that_existence_excludes():
     """Upside down in a turning frame it exists where k l > m g, and is never a minimum there."""
     text = (

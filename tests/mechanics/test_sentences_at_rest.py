@@ -293,7 +293,7 @@ def _lowest(V, spread=6.0, steps=40001):
     return min(points, key=V)
 
 
-@pytest.mark.first_quick
+@pytest.mark.long
 @pytest.mark.parametrize("seed", range(8))
 def test_rest_at_a_kink_is_the_minimum_of_a_convex_potential(seed):
     """c |x - a| + d |x - b| + k x^2/2 + f x has one minimum; it is found, at a kink or between."""

@@ -364,6 +364,7 @@ V: k1*(z - a*theta)^2/2 + k2*(z + b*theta)^2/2
 """
 
 
+@pytest.mark.long
 def test_the_shapes_of_bounce_and_pitch_need_a_coupling():
     """Thomson, Theory of Vibration, section 5.2: uncoupled for k1 a = k2 b, where it is 0/0."""
     found = modes(dynamics(CAR)).modes

@@ -295,7 +295,7 @@ def test_frequencies_of_a_chain_are_the_zeros_of_a_polynomial_of_laguerre(n):
     assert all(abs(mpmath.laguerre(n, 0, each)) < 1e-9 for each in squares)
 
 
-@pytest.mark.first_quick
+@pytest.mark.long
 @pytest.mark.parametrize(("a", "b"), [("a", "b"), ("a", "2*a"), ("a", "a")])
 def test_two_pendulums_joined_by_a_spring_are_never_stable_upside_down(a, b):
     """det K > 0 needs m g > k (a + b), and then the trace of K is negative."""

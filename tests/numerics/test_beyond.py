@@ -43,6 +43,7 @@ def test_the_rows_beyond_end_with_the_span(lost):
     assert any(abs(x - math.exp(-k * t)) > 1e-9 for t, x in result.beyond)
 
 
+@pytest.mark.first_quick
 def test_json_has_a_list_of_its_own(lost):
     _, plain, result = lost
     found = json.loads(to_json(result))
