@@ -42,6 +42,7 @@ from lagcli.statements.wording import (
     listed,
     none_found,
     place_rows,
+    the_equilibria,
     there_may_be_others,
 )
 
@@ -56,8 +57,11 @@ def derive(statements: Statements) -> SteadySection:
     return statements.noted(steady_motions(statements.derivation))
 
 
-def blocks(section: SteadySection, _: Answers) -> Iterator[Block]:
-    """Say the conditions, then each steady motion."""
+def blocks(section: SteadySection, answers: Answers) -> Iterator[Block]:
+    """Say the conditions, then each steady motion; equilibria that stand above are not repeated."""
+    if found := [*the_equilibria(section, answers.sections)]:
+        yield from found
+        return
     if section.eliminated:
         yield Paragraph(
             (

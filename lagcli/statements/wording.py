@@ -20,7 +20,13 @@ from lagcli.expression import (
     operation_count,
     walk,
 )
-from lagcli.statements.answers import QuantityUnit, Verification
+from lagcli.statements.answers import (
+    EquilibriaSection,
+    ModesSection,
+    QuantityUnit,
+    Section,
+    Verification,
+)
 from lagcli.statements.motions import Above, Irreducible, OneFreedom, SteadySection
 from lagcli.statements.questions import Answer, Solutions
 
@@ -319,6 +325,20 @@ def in_polar_coordinates(section: SteadySection) -> Iterator[Paragraph]:
         lead = "The system is symmetric under rotations of ("
         rest = "Steady rotations are found in polar coordinates, whose angle is cyclic."
         yield Paragraph((lead, x, ", ", y, f") about the origin. {rest}"))
+
+
+def the_equilibria(section: SteadySection, stated: Mapping[str, Section]) -> Iterator[Block]:
+    """One sentence where the steady motions stand above as equilibria, with their modes."""
+    rest, motions = stated.get("equilibria"), section.motions or ()
+    others = section.momenta, section.eliminated, section.frames, section.plane
+    modes = stated.get("modes")
+    if not motions or any(others) or not (isinstance(modes, ModesSection) and modes.modes):
+        return
+    known = rest.equilibria if isinstance(rest, EquilibriaSection) else None
+    states, places = ([(x.at, x.on, x.free) for x in each] for each in (motions, known or ()))
+    if all(x in places for x in states) and all(x in states for x in places):
+        lead = "No coordinate can be eliminated by a constant momentum"
+        yield Paragraph((f"{lead}: the steady motions are the equilibria.",))
 
 
 def none_found(

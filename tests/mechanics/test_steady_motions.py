@@ -9,8 +9,12 @@ from sympy import Matrix, Symbol, symbols
 from lagcli.algebra.signs import sign
 from lagcli.evaluation import FUNCTIONS, evaluated
 from lagcli.formatters.grammar import to_grammar
+from lagcli.formatters.options import Options
 from lagcli.mechanics.steady.statement import steady_motions
+from lagcli.pipeline import render
+from lagcli.reader import read_problem
 from lagcli.statements.motions import SteadyMotion
+from tests.solved import solve
 
 from .derived import derive
 from .formulas import formula, normal
@@ -475,3 +479,15 @@ def test_where_rotations_change_nothing_steady_ones_are_not_denied(file, plane):
     head = "coordinates: [x, y, z]\nparameters: {k: POSITIVE}\nT: (x'^2 + y'^2 + z'^2)/2\n"
     text = f"{head}{file}".replace("POSITIVE", "{assume: positive}")
     assert steady_motions(derive(text))[0].plane == plane
+
+
+@pytest.mark.parametrize(
+    ("also", "repeated"), [(["equilibria", "modes"], False), (["equilibria"], True), ([], True)]
+)
+@pytest.mark.parametrize("cyclic", [False, True])
+def test_equilibria_that_stand_with_their_modes_are_not_listed_again(also, repeated, cyclic):
+    potential = "k*x^2/2" if cyclic else "k*x^2/2 + k*y^2/2"
+    text = f"coordinates: [x, y]\nT: (x'^2 + y'^2)/2\nV: {potential}\nparameters: "
+    problem = read_problem("a.yaml", (text + "{k: {assume: positive}}").encode()).checked()
+    answers = solve(problem, [*also, "steady_motions"])
+    assert ("Steady motion 1" in render([answers], "text", Options())) == (repeated or cyclic)

@@ -7,6 +7,7 @@ from lagcli.expression import Name
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.explaining.words import Letters
 from lagcli.mechanics.readable import Readable
+from lagcli.statements.answers import Section
 
 
 class Explainer:
@@ -19,6 +20,8 @@ class Explainer:
         self.dynamics = derivation.dynamics
         self.readable = Readable(self.dynamics)
         self.letters = Letters(derivation.given)
+        #: the sections that have been explained
+        self.stated: dict[str, Section] = {}
         self.averaged = False  # whether the potential of the averaged motion has been stated
 
     @property

@@ -40,6 +40,8 @@ def further(explainer: Explainer, also: Sequence[str]) -> tuple[list[Explanation
         section = statements.answers([name]).sections.get(name)
         blocks = [says(_ABSENT)] if section is None else explained.blocks(explainer, section)
         steps.append(ExplanationStep(explained.title, tuple(blocks)))
+        if section is not None:
+            explainer.stated[name] = section
     missing = [each for each in statements.warnings if not each.endswith((ALL_CYCLIC, NONE_LEFT))]
     return steps, list(dict.fromkeys(missing))
 

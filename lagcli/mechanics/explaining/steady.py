@@ -25,6 +25,7 @@ from lagcli.statements.wording import (
     in_polar_coordinates,
     linear_equations,
     place_rows,
+    the_equilibria,
     there_may_be_others,
     unless,
 )
@@ -63,6 +64,9 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says(f"They were not found: {found.reason}.")
         return
     if not found.momenta and (found.conditions or found.motions):
+        if known := [*the_equilibria(found, explainer.stated)]:
+            yield from known
+            return
         lead = _steady_without_momenta(explainer, found)
         yield says(_NO_MOMENTUM, lead if found.conditions else f"{lead[:-1]}.")
         yield from _steady_states(explainer, found)
