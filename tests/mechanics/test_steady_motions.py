@@ -486,7 +486,7 @@ def test_where_rotations_change_nothing_steady_ones_are_not_denied(file, plane):
 )
 @pytest.mark.parametrize("cyclic", [False, True])
 def test_equilibria_that_stand_with_their_modes_are_not_listed_again(also, repeated, cyclic):
-    potential = "k*x^2/2" if cyclic else "k*x^2/2 + k*y^2/2"
+    potential = "k*x^2/2" if cyclic else "k*x^2/2 + k*y^2"
     text = f"coordinates: [x, y]\nT: (x'^2 + y'^2)/2\nV: {potential}\nparameters: "
     problem = read_problem("a.yaml", (text + "{k: {assume: positive}}").encode()).checked()
     answers = solve(problem, [*also, "steady_motions"])
