@@ -7,7 +7,7 @@ Roots may be complex for some values of the parameters: the caller tells which a
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import gcd
@@ -28,6 +28,12 @@ from lagcli.expression import Expression, signed
 
 _DECIMALS = 15
 _MAX_DEGREE = 24
+_INVERSES = {
+    sympy.log: sympy.exp,
+    sympy.asinh: sympy.sinh,
+    sympy.asin: sympy.sin,
+    sympy.atan: sympy.tan,
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +49,7 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
 
     The unknown occurs as a polynomial variable, or inside sines and cosines of integer multiples
     of it, or of one constant multiple of it, or inside hyperbolic ones or exponentials of integer
-    multiples of a (unknown - b).
+    multiples of a (unknown - b), or inside one logarithm, asinh, asin or atan.
     """
     for x, phase in phases([expression], [unknown]).items():
         plain = solve_for(without_phases(expression, {x: phase}), x)
@@ -68,6 +74,8 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
     if used == [field.number_of(unknown)]:
         found = polynomial_roots(field, poly, used[0])
         return None if found is None else Roots(tuple(found), angle=False)
+    if len(used) == 1 and first.expression.func in _INVERSES:
+        return _under_inverse(first.expression, polynomial_roots(field, poly, used[0]), unknown)
     if first.kind not in ("cos", "sin", "cosh", "sinh", "exp") or first.argument is None:
         return None
     cosine = first.partner if first.kind in ("sin", "sinh") else used[0]
@@ -83,7 +91,7 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
         return (
             None
             if values is None
-            else Roots(tuple(sympy.expand((v - offset) / factor) for v in values), angle=False)
+            else Roots(tuple(sympy.expand((rounded(v) - offset) / factor) for v in values), False)
         )
     if offset != 0:
         return None
@@ -99,6 +107,22 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
             tuple(a / factor for a in angles if -sympy.pi < a / factor <= sympy.pi), angle=True
         )
     return Roots(tuple(a / factor for a in angles), angle=False)
+
+
+def _under_inverse(node: Expr, values: list[Expr] | None, unknown: Symbol) -> Roots | None:
+    """Of ln(u) = v: u = exp(v); of asin and atan only where v is a number, whose range is known."""
+    found: list[Expr] = []
+    for v in values or ():
+        if isinstance(node, (sympy.asin, sympy.atan)):
+            if not v.is_number:
+                return None
+            if abs(v.evalf()) >= sympy.pi.evalf() / 2:  # asin(u) = pi/2 has u at its edge
+                continue
+        inner = solve_for(node.args[0] - _INVERSES[node.func](v), unknown)
+        if inner is None:
+            return None
+        found += inner.values
+    return None if values is None else Roots(tuple(dict.fromkeys(found)), angle=False)
 
 
 def _between_two_powers(expression: Expr, unknown: Symbol) -> Roots | None:
@@ -226,7 +250,7 @@ def _cubic_roots(a0: Rational, a1: Rational, a2: Rational) -> list[Expr]:
     return [sympy.real_root(-q / 2 + root, 3) + sympy.real_root(-q / 2 - root, 3) - a2 / 3]
 
 
-def _radicals(powers: Sequence[Expr], k: int) -> list[Expr] | None:
+def _radicals(powers: Sequence[Expr], k: int) -> list[Expr]:
     """The real x with x^k one of the given values."""
     roots: list[Expr] = []
     for value in map(simplify, powers):
@@ -242,7 +266,7 @@ def _radicals(powers: Sequence[Expr], k: int) -> list[Expr] | None:
         elif value.is_nonpositive:
             roots.append(-sympy.Pow(-value, Rational(1, k)))
         else:
-            return None
+            roots.append(sympy.sign(value) * sympy.Pow(sympy.Abs(value), Rational(1, k)))
     return roots
 
 
@@ -303,20 +327,17 @@ def _angles(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
     if swapped is not None:
         values = polynomial_roots(field, swapped, sine)
         return None if values is None else [a for s in values for a in _with_sine(s)]
-    free, along = coefficients(field, poly, sine)
-    ratio = free / (along * field.generator(cosine))
-    if not {cosine, sine} & {*ring.used(ratio.numerator), *ring.used(ratio.denominator)}:
-        # a cos + b sin = 0: tan = -a/b
+    if (ratio := _ratio(field, poly, cosine)) is not None:  # a cos + b sin = 0: tan = -a/b
         return _with_tangent(field.to_sympy(-ratio))
     return _by_half_angle(field, poly, cosine)
 
 
-def _without_cosine(field: Field, poly: Poly, cosine: int) -> Poly | None:
-    """The polynomial in the sine alone, with cos² = 1 - sin², where it is one."""
+def _without_cosine(field: Field, poly: Poly, cosine: int, side: int = -1) -> Poly | None:
+    """The polynomial in the sine alone: cos² = 1 - sin², cosh² = 1 + sinh²; None: it is not one."""
     ring = field.ring
     if any(power % 2 for power in ring.coefficients(poly, cosine)):
         return None
-    return substitute_square(field, poly, cosine, ring.one - ring.generator(cosine + 1) ** 2)
+    return substitute_square(field, poly, cosine, ring.one + side * ring.generator(cosine + 1) ** 2)
 
 
 def _logarithms(field: Field, poly: Poly, exponential: int) -> list[Expr] | None:
@@ -328,21 +349,27 @@ def _logarithms(field: Field, poly: Poly, exponential: int) -> list[Expr] | None
 
 
 def _hyperbolic(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
-    """The x at which a polynomial in cosh(x) and sinh(x) vanishes, each factor in one of them."""
+    """The x at which a polynomial in cosh(x) and sinh(x) vanishes."""
     ring = field.ring
     roots: list[Expr] = []
     for factor, _ in factorization(ring.lift(poly))[1]:
         used = {cosine, cosine + 1} & set(ring.used(factor))
         if not used:
             continue
-        values = polynomial_roots(field, ring.lift(factor), min(used))
-        if values is None or len(used) > 1:
-            return None
-        if cosine in used:
-            values = [v for v in values if not _below_zero(v - 1 if v.is_number else v)]
-            roots += [sign * sympy.acosh(v) for v in values for sign in (-1, 1)]
+        whole = ring.lift(factor)
+        alone = _without_cosine(field, whole, cosine, 1) if len(used) > 1 else whole
+        if alone is None:
+            values = _by_exponential(field, whole, cosine)
+        elif cosine in ring.used(alone):
+            values = polynomial_roots(field, alone, cosine)
+            apart = (v for v in values or () if not _below_zero(v - 1 if v.is_number else v))
+            values = values and [side * sympy.acosh(v) for v in apart for side in (-1, 1)]
         else:
-            roots += map(sympy.asinh, values)
+            values = polynomial_roots(field, alone, cosine + 1)
+            values = values and [sympy.asinh(v) for v in values]
+        if values is None:
+            return None
+        roots += values
     return list(dict.fromkeys(roots))
 
 
@@ -381,6 +408,29 @@ def _with_tangent(value: Expr) -> list[Expr]:
     return [angle, angle - sympy.pi if value.is_positive else angle + sympy.pi]
 
 
+def _by_exponential(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
+    """Of a cosh x + b sinh x = 0: tanh x = -a/b; else by exp(x) = cosh x + sinh x."""
+    ratio = _ratio(field, poly, cosine)
+    if ratio is not None:
+        return [sympy.atanh(sympy.factor_terms(field.to_sympy(-ratio)))]
+    E = field(Dummy("#E", positive=True))
+    half = field.rational(Fraction(1, 2))
+    images = {cosine: half * (E + E**-1), cosine + 1: half * (E - E**-1)}
+    return _logarithms(
+        field, _put_in(field, poly, images).numerator, field.ring.used(E.numerator)[0]
+    )
+
+
+def _ratio(field: Field, poly: Poly, cosine: int) -> Element | None:
+    """a/b of a polynomial a cos + b sin, else None."""
+    free, *along = coefficients(field, poly, cosine + 1)
+    if len(along) != 1:
+        return None
+    ratio = free / (along[0] * field.generator(cosine))
+    used = {*field.ring.used(ratio.numerator), *field.ring.used(ratio.denominator)}
+    return None if {cosine, cosine + 1} & used else ratio
+
+
 def _by_half_angle(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
     """With t = tan(angle/2): cos = (1 - t²)/(1 + t²), sin = 2 t/(1 + t²)."""
     ring, sine = field.ring, cosine + 1
@@ -391,7 +441,17 @@ def _by_half_angle(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
         cosine: (one - t * t) / (one + t * t),
         sine: (t + t) / (one + t * t),
     }
-    total = field.rational(0)
+    values = polynomial_roots(field, _put_in(field, poly, images).numerator, number)
+    if values is None:
+        return None
+    angles = [2 * sympy.atan(value) for value in values]
+    at_pi = ring.compose(poly, {cosine: ring.constant(-1), sine: ring.zero})
+    return [sympy.pi, *angles] if at_pi == 0 else angles
+
+
+def _put_in(field: Field, poly: Poly, images: Mapping[int, Element]) -> Element:
+    """A polynomial with values for some generators."""
+    ring, total = field.ring, field.rational(0)
     for monomial, coefficient in ring.terms(poly):
         rest = tuple(pair for pair in monomial if pair[0] not in images)
         term = field.polynomial(ring.build([(rest, coefficient)]))
@@ -399,9 +459,4 @@ def _by_half_angle(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
             if generator in images:
                 term = term * images[generator] ** exponent
         total = total + term
-    values = polynomial_roots(field, total.numerator, number)
-    if values is None:
-        return None
-    angles = [2 * sympy.atan(value) for value in values]
-    at_pi = ring.compose(poly, {cosine: ring.constant(-1), sine: ring.zero})
-    return [sympy.pi, *angles] if at_pi == 0 else angles
+    return total

@@ -24,7 +24,7 @@ def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
     if not present:
         return expression
     expression = without_jumps(expression)
-    if not expression.has(*CIRCULAR):
+    if not expression.has(*CIRCULAR, sympy.sinh, sympy.cosh):
         # one fraction of sums of roots would be long, and is needed where parts are infinite only
         there = expression.xreplace(present)
         if not there.has(S.NaN, S.ComplexInfinity, S.Infinity, S.NegativeInfinity):

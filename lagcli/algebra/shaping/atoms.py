@@ -120,7 +120,8 @@ class Atoms:
                 tree = self._with_short_arguments(tree, given)
             own = generator.argument  # SymPy writes exp(1) as a number, |sqrt(x)| as a power
             named = own is not None or generator.expression.is_Function
-            if generator.kind in _SHORTENED and isinstance(tree, Call) and named:
+            kinds = {generator.kind} & {*_SHORTENED}  # that of cosh(asinh(x)) is a root
+            if isinstance(tree, Call) and tree.function in kinds and named:
                 given = (own,) if own is not None else written_arguments(generator.expression)
                 return ((self._shortened(tree, given, generator.expression), 1),)
             return ((self.add(tree, generator.expression), 1),)
