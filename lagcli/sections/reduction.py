@@ -65,8 +65,8 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
     elif section.irreducible:
         yield Paragraph(("The Routhian is the Lagrangian.",))
     else:
-        which = "None of the others" if section.eliminated else "No coordinate"
-        yield Paragraph((f"{which} is cyclic: the Routhian is the Lagrangian.",))
+        other = " other" if section.eliminated else ""
+        yield Paragraph((f"No{other} coordinate is cyclic: the Routhian is the Lagrangian.",))
     if section.routhian is None:
         yield Paragraph((f"Not found: {section.reason}.",))
         return
@@ -79,7 +79,8 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
     yield Equations(tuple(rows))
     yield from _gyroscopic(section)
     if section.momenta or section.eliminated:  # else they are those of the file
-        yield Paragraph(("Its equations of motion:",))
+        s = "s" * (len(section.equations) > 1)
+        yield Paragraph((f"Its equation{s} of motion:",))
         yield equations_of((each.left, each.right) for each in section.equations)
         yield from with_constraints(section.constraints)
     if section.reconstruction:

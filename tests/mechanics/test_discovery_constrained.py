@@ -151,3 +151,17 @@ constraints: {rod: "%s"}
     found = [derive(text % each).discovery for each in (rod, squared)]
     assert not found[0].stopped
     assert len(found[0].charges) == len(found[1].charges) > 3
+
+
+@pytest.mark.parametrize("place", ["h = 0", "h = s - l"])
+def test_a_coordinate_that_is_0_on_the_constraints_ends_no_search(place):
+    """The ansatz has 1/h; on a circle of any distance from the axis the angle moves uniformly."""
+    text = (
+        "coordinates: {s: {assume: positive}, h: {}, phi: {}}\n"
+        "parameters: {m: {assume: positive}, l: {assume: positive}, k: {assume: positive}}\n"
+        "T: m*(s'^2 + h'^2 + (s + k*h)^2*phi'^2)/2\n"
+        f"constraints: {{string: s = l, cone: {place}}}\n"
+    )
+    found = derive(text).discovery
+    assert "boost_phi" in {each.name for each in found.charges}
+    assert not found.stopped

@@ -199,7 +199,7 @@ def test_what_the_constraints_eliminate_is_named_before_none_is_cyclic():
     )
     sentences = said(text, "The reduction", "reduction")
     assert "used to eliminate" in sentences
-    assert "None of the others is cyclic" in sentences
+    assert "No other coordinate is cyclic" in sentences
 
 
 # -- turning points -------------------------------------------------------------------------------
@@ -554,6 +554,31 @@ def test_a_search_that_left_something_out_does_not_say_that_there_is_nothing():
     derivation = derive(text)
     assert bool(derivation.discovery.stopped) is (not derivation.discovery.charges)
     assert "there is no symmetry" not in said(text, "Discovered symmetries", "discovered")
+
+
+def test_no_motion_is_called_steady_through_an_impact():
+    text = (
+        "{coordinates: [q, s], parameters: {e: {assume: positive}}, T: q'^2 + s'^2,"
+        " contacts: {buffer: {gap: s - q, restitution: e}}}"
+    )
+    told = words(explain(derive(text), ["steady_motions"]), "Steady motions")
+    assert "steady while the contacts are open" in told
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("wheels", ["J1*phi'^2", "J1*phi'^2/2 + J1*theta'^2/2"])
+def test_a_condition_that_always_holds_is_no_empty_formula(wheels):
+    """A snakeboard: nothing restores, so there is no condition for a steady motion."""
+    text = (
+        "coordinates: [x, y, theta, psi, phi]\nparameters: {m: {assume: positive}, "
+        "l: {assume: positive}, J0: {assume: positive}, J1: {assume: positive}}\n"
+        f"T: m*(x'^2 + y'^2 + l^2*theta'^2 + J0*psi'^2)/2 + J0*psi'*theta' + {wheels}\n"
+        "constraints:\n"
+        "  back: x'*sin(theta + phi) - y'*cos(theta + phi) - l*theta'*cos(phi) = 0\n"
+        "  front: x'*sin(theta - phi) - y'*cos(theta - phi) + l*theta'*cos(phi) = 0\n"
+    )
+    told = said(text, "Steady motions", "steady_motions")
+    assert "as constants, which they do everywhere." in told
 
 
 @pytest.mark.parametrize("growth", ["exp(a*t)", "1 + a*t", "1"])

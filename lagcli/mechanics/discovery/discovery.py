@@ -95,7 +95,9 @@ class Discovery(Setting):
             except NoPoint:
                 self.stopped.append(f"{what}: no sample point, so the search is incomplete")
             except ZeroDivisionError:
-                self.stopped.append(f"{what}: a formula is infinite, so the search is incomplete")
+                self.stopped.append(
+                    f"{what}: a formula has no value there, so the search is incomplete"
+                )
         if len(self.system.q) > 1 and not self.dynamics.constraints.equations:
             what = "those" if self._degree > 1 else "first integrals"
             self.words.append(f"{what} of degree {self._degree + 1} or higher were not sought")
@@ -130,7 +132,7 @@ class Discovery(Setting):
         if self.time_functions.unsolved:
             self.stopped.append(
                 "symmetries made of the solutions of the linear part, whose coefficients change, "
-                "were not sought: no formula is known for them"
+                "were not sought: it is not solved in elementary functions"
             )
         transformations = self._transformations(search)
         centre = centre_of(transformations, self.system, self.coordinate_kinds.lengths)

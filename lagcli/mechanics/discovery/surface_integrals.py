@@ -26,7 +26,7 @@ from dataclasses import dataclass
 
 import sympy
 from flint import nmod_mat
-from sympy import Expr
+from sympy import Expr, S
 
 from lagcli.algebra import dot
 from lagcli.mechanics.discovery.admissible import Vector
@@ -95,7 +95,11 @@ class SurfaceIntegrals:
         self.dynamics = noether.dynamics
         self.system = noether.system
         self.fields = list(fields)
-        self.terms = list(terms)
+        relations = noether.dynamics.constraints.relations
+        assert relations is not None
+        values = [relations.substitute(x.space) for x in terms]  # not 1/h on h = 0
+        infinite = (S.ComplexInfinity, S.NaN)
+        self.terms = [x for x, v in zip(terms, values, strict=True) if not v.has(*infinite)]
         self.allowed = allowed
         self.unsolved = 0
         self._same = same

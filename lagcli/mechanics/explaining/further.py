@@ -111,8 +111,8 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
             plural = "has no value" if len(each.indeterminate) == 1 else "have no values"
             yield says(names(each.indeterminate), f" {plural} there.")
         if lost := [name for name in each.open if name in given]:
-            yield says(f"Without {constraints_named('the constraint', lost)}, which it does not "
-                       "touch.")  # fmt: skip
+            verb = "is" if len(lost) == 1 else "are"
+            yield says(f"{constraints_named('The contact', lost)} {verb} open here.")
         if each.where:
             yield says("It exists for ", *inequalities(each.where), ".")
         firm = holding(each.touching, sticking=each.sticking)

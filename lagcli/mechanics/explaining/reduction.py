@@ -49,7 +49,8 @@ def reduction(explainer: Explainer, section: Section) -> Iterator[Block]:
                    "potential:")  # fmt: skip
         yield shows(POTENTIAL, reduced.effective_potential)
     if reduced.equations and (reduced.momenta or reduced.eliminated):
-        yield says("Lagrange's equations are then")
+        one = len(reduced.equations) == 1
+        yield says(f"Lagrange's equation{' is' if one else 's are'} then")
         yield equations_of((each.left, each.right) for each in reduced.equations)
     if reduced.one_freedom is not None:
         yield from _one_freedom(reduced.one_freedom)
@@ -72,8 +73,8 @@ def _cyclic(explainer: Explainer, reduced: ReductionSection) -> Iterator[Block]:
                    else " are cyclic, with the constant momenta")  # fmt: skip
         yield equations_of((Name(f"p_{name}"), value) for name, value in reduced.momenta.items())
     elif not reduced.irreducible and reduced.reason != NONE_LEFT:
-        which = "None of the others" if reduced.eliminated else "No coordinate"
-        yield says(f"{which} is cyclic, so the Routhian is ", explainer.letters.L, ".")
+        other = " other" if reduced.eliminated else ""
+        yield says(f"No{other} coordinate is cyclic, so the Routhian is ", explainer.letters.L, ".")
     for name, why in reduced.irreducible.items():
         yield says(*irreducible(name, why, explainer.letters.L))
 

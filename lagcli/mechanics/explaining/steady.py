@@ -55,7 +55,8 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
         constant = (
             "momenta are constant" if timed else "velocities are constant: every motion is steady"
         )
-        yield says(f"Every coordinate is cyclic, so all {constant}.")
+        between = " while the contacts are open" if explainer.derivation.problem.contacts else ""
+        yield says(f"Every coordinate is cyclic, so all {constant}{between}.")
         return
     if found.motions is None and found.reason == NONE_LEFT:
         yield says("The constraints leave no coordinate: they prescribe the motion.")
@@ -77,7 +78,8 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
         "equations are "
         "then 0, so the derivatives of ",
         POTENTIAL,
-        f" {_BALANCED[found.acting]}, with the momenta of the cyclic coordinates as constants:",
+        f" {_BALANCED[found.acting]}, with the momenta of the cyclic coordinates as constants"
+        f"{':' if found.conditions else ', which they do everywhere.'}",
     )
     yield from _steady_states(explainer, found)
 
