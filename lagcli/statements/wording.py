@@ -330,7 +330,7 @@ def in_polar_coordinates(section: SteadySection) -> Iterator[Paragraph]:
 def the_equilibria(section: SteadySection, stated: Mapping[str, Section]) -> Iterator[Block]:
     """One sentence where the steady motions stand above as equilibria, with their modes."""
     rest, motions = stated.get("equilibria"), section.motions or ()
-    others = section.momenta, section.eliminated, section.frames, section.plane
+    others = section.momenta, section.eliminated, section.frames, section.plane, section.resting
     modes = stated.get("modes")
     if not motions or any(others) or not (isinstance(modes, ModesSection) and modes.modes):
         return

@@ -556,6 +556,21 @@ def test_a_search_that_left_something_out_does_not_say_that_there_is_nothing():
     assert "there is no symmetry" not in said(text, "Discovered symmetries", "discovered")
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("back", ["(x' + a*s*b')*s = (y' - a*c*b')*c", "(x' - a*s*b')*s = y'*c"])
+def test_two_skates_on_a_rod_do_not_only_rest(back):
+    """With both blades along the rod it runs straight on: only states of rest are sought here."""
+    back = back.replace("*s", "*sin(b)").replace("*c", "*cos(b)")
+    text = (
+        "coordinates: [x, y, b, d]\nparameters: {a: {assume: positive}}\n"
+        "T: (x'^2 + y'^2 + b'^2 + d'^2)/2\n"
+        f"constraints: {{front: x'*sin(d) = y'*cos(d), back: {back}}}\n"
+    )
+    told = words(explain(derive(text), ["equilibria", "modes", "steady_motions"]), "Steady motions")
+    assert "the steady motions are the equilibria" not in told
+    assert "steady motions" in told
+
+
 def test_no_motion_is_called_steady_through_an_impact():
     text = (
         "{coordinates: [q, s], parameters: {e: {assume: positive}}, T: q'^2 + s'^2,"
