@@ -94,3 +94,17 @@ def test_products_of_spaces_have_the_isometries_of_each(L, coordinates, name, in
     assert (found.dimension, found.name, found.independent) == (7, name, independent)
     assert found.in_involution == 4
     assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.parametrize(
+    ("f", "g"), [("1 + a/r", "1/(1 + a/r)"), ("1/(1 - a^4/r^4)", "r^2*(1 - a^4/r^4)"), ("r", "r^4")]
+)
+@pytest.mark.long
+def test_a_twisted_circle_over_a_sphere_has_the_rotations(f, g):
+    """Gibbons, Manton, Nucl. Phys. B 274 (1986) 183 (Taub-NUT); Eguchi, Hanson, 1978."""
+    L = f"m*({f})*(r'^2 + r^2*(u'^2 + sin(u)^2*v'^2))/2 + m*({g})*(w' + cos(u)*v')^2/2"
+    derivation = derive(problem(L, "{r: {assume: positive}, u: {}, v: {}, w: {}}", "m a"))
+    found = summary(derivation.discovery)
+    assert (found.in_involution, found.integrable) == (4, True)
+    assert "so(3)" in found.name
+    assert min(digits_of(derivation).values()) > 20

@@ -148,3 +148,31 @@ def test_two_bodies_have_total_momentum_in_polar_coordinates(name, V):
         assert derivation.discovery.stopped == []
     assert (found.in_involution, found.integrable) == (4, True)
     assert min(digits_of(derivation).values()) > 20
+
+
+RAPID = {
+    "sqrt(a^2*x^2 - x'^2)": ("{x: {assume: positive}}", "iso(1,1)"),
+    "sqrt((3 + a*x)^2 - 4*x'^2)": ("{x: {assume: positive}}", "iso(1,1)"),
+    "sqrt(a^2*x^2 - x'^2 - y'^2)": ("{x: {assume: positive}, y: {}}", "iso(2,1)"),
+    "sqrt(1 - r'^2 - r^2*(phi' + a)^2)": (RADIAL, "iso(2,1)"),
+    "sqrt(exp(2*x) - x'^2*exp(2*x))": ("[x]", "iso(1,1)"),
+    "sqrt(1 - cosh(a*t)^2*x'^2)": ("[x]", "sl(2,R)"),
+    "sqrt(1 + y'^2)/y": ("{y: {assume: positive}}", "sl(2,R)"),
+}
+
+
+@pytest.mark.first_quick
+@pytest.mark.parametrize("root", RAPID)
+def test_a_length_has_the_isometries_of_space_and_time(root):
+    """Rindler's frame, one that turns, de Sitter's universe; light where n = 1/y.
+
+    Rindler, *Relativity*, 2nd ed., sections 3.8 and 16.4; Landau, Lifshitz, *The Classical Theory of
+    Fields*, section 87.
+    """
+    coordinates, name = RAPID[root]
+    derivation = derive(problem(f"-m*{root}", coordinates, "m a"))
+    n = len(derivation.system.q)
+    found = summary(derivation.discovery)
+    assert (found.dimension, found.independent) == ((n + 1) * (n + 2) // 2, 2 * n)
+    assert name in found.name
+    assert min(digits_of(derivation).values()) > 20

@@ -9,6 +9,9 @@ from random import Random
 import pytest
 import sympy
 
+from lagcli.algebra import is_zero
+from lagcli.reader import parse_text
+
 from .derived import derive
 
 POS = "{assume: positive}"
@@ -101,3 +104,28 @@ def test_the_cosine_of_a_slope_is_no_gyration(constraint, names):
     )
     assert names <= set(found)
     assert not [name for name in found if name.startswith(("gyration", "conformal_"))]
+
+
+SPHERES = {
+    "in a space-time": "-(1 - 2*a/r)*s'^2/2 + r'^2/(2*(1 - 2*a/r)) + r^2*({})/2",
+    "beside a plane": "r'^2/2 + r^2*s'^2/2 + b*({})/2",
+}
+
+
+@pytest.mark.parametrize("latitude", [False, True])
+@pytest.mark.parametrize("name", SPHERES)
+@pytest.mark.long
+def test_the_turns_of_a_sphere_are_named_beside_other_coordinates(name, latitude):
+    """L = r x p with z up: r cos(latitude) sin(phi) = y."""
+    theta = "cos(u)" if latitude else "sin(u)"
+    L = SPHERES[name].format(f"u'^2 + {theta}^2*phi'^2")
+    text = f"{{coordinates: {{s: {{}}, r: {POS}, u: {{}}, phi: {{}}}}, "
+    text += f'parameters: {{a: {POS}, b: {POS}}}, L: "{L}"}}'
+    derivation = derive(text)
+    charges = {c.name: c.charge for c in derivation.discovery.charges}
+    build = derivation.system.build
+    factor = "r^2" if name == "in a space-time" else "b"
+    side, up = ("-u'", "tan(u)") if latitude else ("u'", "1/tan(u)")
+    for name, along, across in (("L_x", "-sin(phi)", "cos(phi)"), ("L_y", "cos(phi)", "sin(phi)")):
+        known = f"{factor}*({along}*({side}) - {across}*phi'*{up}*{theta}^2)"
+        assert is_zero(charges[name] - build(parse_text(known))) is True

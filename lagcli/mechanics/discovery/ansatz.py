@@ -162,7 +162,8 @@ def _angle(x: Symbol, found: Kinds) -> list[Expr]:
     if x in found.waves:
         return [sympy.S.One, *found.waves[x]]
     s, c = sympy.sin(x), sympy.cos(x)
-    return [sympy.S.One, s, c, *([c / s, 1 / s] if x in found.latitudes else [])]
+    pole = found.latitudes.get(x)
+    return [sympy.S.One, s, c, *([pole.diff(x) / pole, 1 / pole] if pole is not None else [])]
 
 
 def _second(x: Symbol, found: Kinds) -> list[Expr]:
@@ -172,7 +173,8 @@ def _second(x: Symbol, found: Kinds) -> list[Expr]:
     if len(found.angles) == 1 and x not in found.cyclic:
         # parabolic coordinates of a plane: r (1 + cos phi) and r (1 - cos phi)
         return [s * c, s**2, sympy.sin(x / 2), sympy.cos(x / 2)]
-    return [s * c, s**2, *([c / s**2, s**-2] if x in found.latitudes else [])]
+    pole = found.latitudes.get(x)
+    return [s * c, s**2, *([pole.diff(x) / pole**2, pole**-2] if pole is not None else [])]
 
 
 def _size(groups: Sequence[Sequence[Expr]]) -> int:

@@ -16,7 +16,12 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero
 from lagcli.mechanics.discovery import point
-from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unknowns
+from lagcli.mechanics.discovery.ansatz import (
+    TimeFunctions,
+    affine,
+    point_unknowns,
+    quadratic_unknowns,
+)
 from lagcli.mechanics.discovery.centralizer import centralized, without_time
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import tangent
@@ -112,6 +117,10 @@ class Discovery(Setting):
             self.cartesian = tuple(isometries.functions) if isometries.flat else ()
             return isometries.search(times, allowed), isometries.words + _timed(times)
         slots = point_slots(equations)
+        if self.spacetime is not None:
+            unknowns = quadratic_unknowns(range(len(slots)), self.spacetime.terms)
+            words = "point transformations that are isometries of space and time"
+            return Search(equations, slots, unknowns, allowed), words
         spaces = affine(kinds)
         if kinds.powers:
             times = replace(times, others=(*times.others, self.system.t**3))

@@ -168,11 +168,11 @@ class HiddenNames:
             yield "x", r * sympy.cos(phi)
             yield "y", r * sympy.sin(phi)
         elif len(self.q) == 3 and len(kinds.latitudes) == 1 and len(kinds.angles) == 2:
-            [theta] = kinds.latitudes
+            [(theta, pole)] = kinds.latitudes.items()
             [phi] = [y for y in kinds.angles if y != theta]
-            yield "x", r * sympy.sin(theta) * sympy.cos(phi)
-            yield "y", r * sympy.sin(theta) * sympy.sin(phi)
-            yield "z", r * sympy.cos(theta)
+            yield "x", r * pole * sympy.cos(phi)
+            yield "y", r * pole * sympy.sin(phi)
+            yield "z", r * (sympy.sin if pole.func is sympy.cos else sympy.cos)(theta)
 
     def _is_central(self, r: Sequence[Expr]) -> bool:
         return len(r) > 1 and all(

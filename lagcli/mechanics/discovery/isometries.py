@@ -124,6 +124,13 @@ class Isometries:
         """All Killing vectors."""
         return [*self.translations, *self.rotations]
 
+    @property
+    def terms(self) -> list[Expr]:
+        """The functions that the components of the Killing vectors consist of."""
+        components = (simplify(x) for field in self.fields for x in field)
+        q = self.equations.q
+        return list(dict.fromkeys(term for x in components for term in bare_terms(x, q)))
+
     def beyond(self, kinds: Kinds) -> bool:
         """Whether they are there, and not all combinations of the functions of `affine`."""
         fields = [*self.fields, *([self.dilation] if self.functions and self.flat else [])]

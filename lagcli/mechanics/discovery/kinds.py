@@ -37,7 +37,7 @@ class Kinds:
     angles: list[Symbol] = field(default_factory=list)
     radii: list[Symbol] = field(default_factory=list)
     cyclic: list[Symbol] = field(default_factory=list)  # among the angles
-    latitudes: list[Symbol] = field(default_factory=list)  # angles in the inertia of others
+    latitudes: Mapping[Symbol, Expr] = field(default_factory=dict)  # with what is 0 at the poles
     alone: list[Symbol] = field(default_factory=list)  # cyclic, in no inertia with a latitude
     curved: bool = False
     powers: bool = False  # of one length whose inertia depends on its velocity: -2 to 3
@@ -58,7 +58,7 @@ class Kinds:
             lengths=lengths,
             angles=angles,
             radii=chosen(self.radii),
-            latitudes=chosen(self.latitudes),
+            latitudes={x: pole for x, pole in self.latitudes.items() if x in part},
             alone=chosen(self.alone),
             exponentials=[e for e in self.exponentials if e.free_symbols & set(part)],
             curved=len(part) > 1 and set(angles) <= set(lengths),
@@ -100,6 +100,7 @@ def kinds(
             angle
             and cyclic
             and unit is None
+            and not inertia[x].atoms(*CIRCULAR)
             and _is_of_no_circle(inertia[x][equations.q.index(x)], equations.q)
         ):
             found.lengths.append(x)
@@ -118,7 +119,8 @@ def kinds(
     found.exponentials = _exponentials(equations)
     found.lengths += [x for x in found.waves if x not in found.lengths]
     found.parts = [factor.q for factor in Metric(equations.q, equations.mass).factors]
-    found.latitudes = [x for x in found.angles if _in_determinant(x, equations)]
+    poles = {x: _at_poles(x, equations) for x in found.angles}
+    found.latitudes = {x: pole for x, pole in poles.items() if pole is not None}
     found.alone = [
         x for x in found.cyclic if inertia[x].free_symbols.isdisjoint(found.latitudes)
     ]  # fmt: skip
@@ -200,22 +202,25 @@ def _waves(equations: SlotEquations) -> dict[Symbol, list[Expr]]:
     return found
 
 
-def _in_determinant(x: Symbol, equations: SlotEquations) -> bool:
-    """Whether det M changes with the angle: there its chart has poles, as at theta = 0."""
+def _at_poles(x: Symbol, equations: SlotEquations) -> Expr | None:
+    """sin(x) or cos(x), where det M vanishes with it or changes with x at all; else None."""
     if not any(x in m.free_symbols for row in equations.mass for m in row):
-        return False
+        return None
     entries = Evaluator([m for row in equations.mass for m in row], 20)
     symbols = {s for row in equations.mass for m in row for s in m.free_symbols}
     source = random.Random("lagcli determinant")
     point = {s: mpf(source.randint(3000, 13000)) / 10007 for s in sorted(symbols, key=str)}
     with mpmath.workdps(20):
         values = []
-        for at in (mpf(2) / 7, mpf(11) / 9):
+        for at in (mpf(2) / 7, mpf(11) / 9, mpmath.pi / 2):
             try:
                 values.append(mpmath.det(_square(entries({**point, x: at}))))
             except (ArithmeticError, ValueError):
-                return True
-        return bool(abs(values[0] - values[1]) > mpf(10) ** -12 * (1 + abs(values[0])))
+                return sympy.cos(x) if len(values) == 2 else sympy.sin(x)
+        small = mpf(10) ** -12 * (1 + abs(values[0]))
+        if abs(values[2]) < small < abs(values[0]):
+            return sympy.cos(x)
+        return sympy.sin(x) if abs(values[0] - values[1]) > small else None
 
 
 def _square(entries: Sequence[mpf]) -> mpmath.matrix:

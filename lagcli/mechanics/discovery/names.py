@@ -191,34 +191,38 @@ class Naming:
 
     def _rotation_of_sphere(self, moved: Mapping[Symbol, Expr]) -> str:
         """L_x: dtheta = -sin phi; L_y: dtheta = cos phi, for latitude and longitude."""
-        if len(self.kinds.latitudes) != 1 or len(self.kinds.angles) != 2 or len(moved) != 2:
+        if not (sphere := self._sphere(moved)):
             return ""
-        [theta] = self.kinds.latitudes
-        [phi] = [y for y in self.kinds.angles if y != theta]
-        if set(moved) != {theta, phi}:
-            return ""
-        turn = moved[theta]
-        if turn in (sympy.sin(phi), -sympy.sin(phi)):
+        theta, phi = sphere
+        if moved[theta] in (sympy.sin(phi), -sympy.sin(phi)):
             return "L_x"
-        return "L_y" if turn in (sympy.cos(phi), -sympy.cos(phi)) else ""
+        return "L_y" if moved[theta] in (sympy.cos(phi), -sympy.cos(phi)) else ""
+
+    def _sphere(self, moved: Mapping[Symbol, Expr]) -> tuple[Symbol, ...]:
+        """Latitude and longitude, where these are what moves."""
+        angles = sorted(moved, key=lambda y: y not in self.kinds.latitudes)
+        if len(angles) != 2 or not set(angles) <= set(self.kinds.angles):
+            return ()
+        alone = angles[0] in self.kinds.latitudes and angles[1] not in self.kinds.latitudes
+        return tuple(angles) if alone else ()
 
     def orientation(self, name: str, charge: NoetherCharge) -> Expr:
         """The sign that turns a charge into the textbook's: L_y = z p_x - x p_z."""
-        moved = dict(zip(self.q, charge.transformation.changes, strict=True))
+        changes = zip(self.q, charge.transformation.changes, strict=True)
+        moved = {x: change for x, change in changes if change != 0}
         if name.startswith("L_") and name.endswith("_relative"):
-            one, *_, other = sorted((x for x in moved if moved[x] != 0), key=lambda x: x.name)
+            one, *_, other = sorted(moved, key=lambda x: x.name)
             slope = moved[other].diff(one)  # of y_2 by x_1: the other particle's is opposite
             backward = not slope.could_extract_minus_sign()
             return sympy.S.NegativeOne if backward != (name[2] == "y") else sympy.S.One
-        if name in ("moving_energy", "damped_energy", "energy_exp") and any(moved.values()):
+        if name in ("moving_energy", "damped_energy", "energy_exp") and moved:
             return sympy.S.NegativeOne  # p.xi - h tau: the textbook's is h
         name = name.removesuffix(MOVING)
         if name not in ("L_x", "L_y", "L_z"):
             return sympy.S.One
-        if len(self.kinds.latitudes) == 1 and moved[self.kinds.latitudes[0]] != 0:
-            [phi] = [y for y in self.kinds.angles if y not in self.kinds.latitudes]
-            wanted = -sympy.sin(phi) if name == "L_x" else sympy.cos(phi)
-            right = moved[self.kinds.latitudes[0]] == wanted
+        if sphere := self._sphere(moved):
+            at = dict.fromkeys(sphere, sympy.pi / 4)  # -cot(theta), or -tan of a latitude
+            right = bool(moved[sphere[1]].xreplace(at).is_negative)
         else:
             one, other = {"L_x": ("y", "z"), "L_y": ("z", "x"), "L_z": ("x", "y")}[name]
             slopes = (

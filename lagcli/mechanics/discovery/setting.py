@@ -174,6 +174,28 @@ class Setting:
         found = Isometries(self.equations, rest, self.allowed)
         return found if found.functions else None
 
+    @cached_property
+    def spacetime(self) -> Isometries | None:
+        """Those of g where L is the length sqrt(g) of the path (t, q), whatever its parameter.
+
+        Landau, Lifshitz, *The Classical Theory of Fields*, section 87.
+        """
+        t, q, v = self.system.t, self.system.q, self.system.qdot
+        square = self.system.L**2
+        if self.dynamics.constraints.equations or self.quadratic_mass or not self.canonical:
+            return None
+        if not square.is_polynomial(*v) or sympy.Poly(square, *v).total_degree() > 2:
+            return None
+        rate = sympy.Dummy("t'", real=True)
+        whole = sympy.Poly(square, *v).homogenize(rate).as_expr()
+        mass = tuple(tuple(whole.diff(a, b) / 2 for a in (rate, *v)) for b in (rate, *v))
+        forcing = (sympy.S.Zero,) * len(mass)
+        equations = SlotEquations(sympy.Dummy("s"), (t, *q), (rate, *v), mass, forcing)
+        if not Isometries.apply(equations):
+            return None
+        found = Isometries(equations, sympy.S.Zero, self.allowed)
+        return found if found.functions else None
+
     def _with_linear_terms(self, i: int) -> Expr:
         """A force in the form that has linear terms: simplified, or as it was derived.
 

@@ -145,8 +145,9 @@ class UnderConstraints:
         """Sine, cosine, cosecant and cotangent of one angle."""
         found = []
         for x in self.kinds.angles:
-            s, c = sympy.sin(x), sympy.cos(x)
-            found += [s, c, *([1 / s, c / s] if x in self.kinds.latitudes else [])]
+            found += [sympy.sin(x), sympy.cos(x)]
+            if (pole := self.kinds.latitudes.get(x)) is not None:
+                found += [1 / pole, pole.diff(x) / pole]
         return found
 
     def _still(self, spaces: Sequence[Expr]) -> list[Expr]:
