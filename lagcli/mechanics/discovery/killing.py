@@ -115,9 +115,9 @@ class KillingFrame:
 
     @property
     def degrees(self) -> Sequence[int]:
-        """Those that are searched after the second: in flat space the fourth takes too long."""
+        """Those that are searched after the second."""
         n = len(self.spanning[0])
-        return () if n not in _COORDINATES else (3, 4) if n == 2 or self.accelerations else (3,)
+        return (3, 4) if n in _COORDINATES else ()
 
     def products(self, degree: int) -> Iterable[tuple[Vector, ...]]:
         """Killing tensors as symmetric products A B ..."""
