@@ -81,6 +81,8 @@ SPECIAL = {
         ("k2", "k1"): (10, "L_z fradkin_xy"),
         ("k2", "k1/4"): (7, "L_z_p_y"),
         ("k2", "4*k1"): (7, "L_z_p_x"),
+        ("k2", "k1/9"): (7, "charge_1"),
+        ("k2", "9*k1"): (7, "charge_1"),
     },
     # Chang, Tabor and Weiss, J. Math. Phys. 23 (1982) 531: D/C = -1/6
     "discovery/henon-heiles-any-cubic": {("epsilon", "6"): (2, "charge_1")},

@@ -6,6 +6,7 @@ Ramani, Dorizzi, Grammaticos, Phys. Rev. Lett. 49 (1982) 1539 (fourth degree).
 """
 
 import pytest
+import sympy
 
 from lagcli.mechanics.discovery.summary import summary
 from tests.marks import mostly_long
@@ -123,3 +124,40 @@ def test_of_the_tops_that_lean_kovalevskayas_has_an_integral_of_fourth_degree(A,
 def test_third_degree_is_found_in_polar_coordinates(V):
     text = problem(f"m*(r'^2 + r^2*phi'^2)/2 - {V}", "{r: {assume: positive}, phi: {}}", "m k a d")
     assert summary(derive(text).discovery).integrable is True
+
+
+LATTICES = ("exp(x - y) + exp(y - z) + exp(y + z)", "a*exp(y - z) + exp(z - x) + 2*exp(x + z)")
+
+
+@pytest.mark.parametrize("V", LATTICES)
+def test_the_lattice_of_d3_is_integrable(V):
+    """Bogoyavlensky, Commun. Math. Phys. 51 (1976) 201: degrees 2, 3 and 4."""
+    derivation = derive(problem(f"{T3} - k*({V})", "[x, y, z]", "m k a"))
+    found = summary(derivation.discovery)
+    assert (found.independent, found.in_involution, found.integrable) == (3, 3, True)
+    assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.parametrize("masses", [("m", "m", "m"), ("m", "3*m", "m")])
+@pytest.mark.parametrize("spring", ["0", "k"])
+def test_what_is_integrable_has_its_last_integral_of_third_degree(spring, masses):
+    """Calogero, J. Math. Phys. 10 (1969) 2191: only of equal masses; Wojciechowski, 1983."""
+    a, b, c = masses
+    T = f"({a}*x'^2 + {b}*y'^2 + {c}*z'^2)/2"
+    V = f"g/(x - y)^2 + g/(y - z)^2 + g/(z - x)^2 + {spring}*({a}*x^2 + {b}*y^2 + {c}*z^2)/2"
+    derivation = derive(problem(f"{T} - ({V})", "[x, y, z]", "m k g"))
+    found = summary(derivation.discovery)
+    assert (found.independent, found.integrable) == (6 if a == b else 5, True)
+    assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.parametrize(("x", "y"), [("x", "y"), TURNED])
+def test_frequencies_one_to_three_have_an_integral_of_third_degree(x, y):
+    """Jauch and Hill, Phys. Rev. 57 (1940) 641."""
+    derivation = derive(problem(f"{T2} - k*({x}^2 + 9*{y}^2)/2", "[x, y]", "m k"))
+    assert [c for c in derivation.discovery.fixed_charges if _degree(c, derivation) == 3]
+    assert min(digits_of(derivation).values()) > 20
+
+
+def _degree(charge, derivation):
+    return sympy.Poly(charge.charge, *derivation.system.qdot).total_degree()

@@ -24,7 +24,7 @@ from lagcli.mechanics.discovery.ansatz import (
 )
 from lagcli.mechanics.discovery.centralizer import centralized, without_time
 from lagcli.mechanics.discovery.centre import centre_of
-from lagcli.mechanics.discovery.constrained import tangent
+from lagcli.mechanics.discovery.constrained import rank_on_surface, tangent
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, is_gyroscopic
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
 from lagcli.mechanics.discovery.killing import KillingFrame
@@ -204,16 +204,20 @@ class Discovery(Setting):
                 self._keep(timed.found(self.charges))
 
     def _of_higher_degree(self) -> None:
-        """Those of third and fourth degree, while fewer than n are known without the time."""
+        """Those of third degree beyond the known, and of fourth while fewer than n are known.
+
+        At most 2 n - 1 without the time are independent.
+        """
         if not (self.canonical and self.quadratic_mass and self.fixed_charges):
             return
         n = len(self.system.q)
-        if len(self.fixed_charges) >= n:
+        if self._independent() >= 2 * n - 1:
             return
         frame = KillingFrame.of(self.equations, self.isometries)
-        frame = frame or KillingFrame.found(self.equations, self.coordinate_kinds, self.allowed)
+        if frame is None and len(self.fixed_charges) < n:
+            frame = KillingFrame.found(self.equations, self.coordinate_kinds, self.allowed)
         for degree in frame.degrees if frame else ():
-            if frame is None or len(self.fixed_charges) >= n:
+            if frame is None or (degree > 3 and len(self.fixed_charges) >= n):
                 return
             self._degree = degree
             made = " made of Killing vectors of T" if frame.accelerations else ""
@@ -222,7 +226,14 @@ class Discovery(Setting):
                 "monomials in the lower parts"
             )
             found = self._of_frame(frame, degree)
-            self.listing.add_hidden(("", charge) for charge in found)
+            for charge in sorted(found, key=lambda c: sympy.count_ops(c.charge)):
+                if self._independent(charge) > self._independent():
+                    self.listing.add_hidden([("", charge)])
+
+    def _independent(self, *more: NoetherCharge) -> int:
+        """How many charges without the time are independent."""
+        charges = [c.charge for c in (*self.fixed_charges, *more)]
+        return rank_on_surface(self.dynamics, charges) or len(charges)
 
     def _by_killing_vectors(self) -> bool:
         """Those of T of constant curvature, which are all; else of T without a factor w(q)."""
