@@ -197,3 +197,37 @@ def test_what_repels_does_not_drift(V):
 def test_two_parameters_may_vanish_together():
     text = "{coordinates: [x, y], parameters: {A: {}, B: {}}, T: (x'^2 + y'^2)/2, V: A*x + B*y}"
     assert len(equilibria(derive(text).dynamics).unless or ()) == 2
+
+
+@pytest.mark.parametrize(
+    ("coupling", "stable"),
+    [("x*(y + z)", False), ("x*(y - z)", None), ("x^2*y + x*z", None), ("x*(z - 2*y)", None)],
+)
+def test_where_nothing_presses_a_motion_may_leave_along_the_contacts(coupling, stable):
+    """On x = e exp(t) the contacts press by dV/dy and dV/dz: both to one side, or nowhere."""
+    text = (
+        "coordinates: [x, y, z]\nT: (x'^2 + y'^2 + z'^2)/2\n"
+        f"V: -x^2/2 + {coupling}\nconstraints:\n"
+        "  first: {equation: y = 0, multiplier: N1, holds_while: N1 >= 0}\n"
+        "  second: {equation: z = 0, multiplier: N2, holds_while: N2 >= 0}\n"
+    )
+    [rest] = equilibria(derive(text).dynamics).equilibria or ()
+    [motion] = steady_motions(derive(text))[0].motions or ()
+    assert (rest.verdict.stable, motion.verdict.stable) == (stable, stable)
+
+
+@pytest.mark.parametrize("inertia", ["/24", "/30", "/7"])
+def test_a_ladder_that_stands_at_the_wall_falls(inertia):
+    """The foot slides out while both contacts press: N_w = 3 m g sin(theta)/4 + … at first."""
+    ladder = (
+        "coordinates: [x, y, b]\n"
+        "parameters: {m: {assume: positive}, g: {assume: positive}, l: {assume: positive}}\n"
+        f"T: m*(x'^2 + y'^2)/2 + m*l^2*b'^2{inertia}\nV: m*g*y\nconstraints:\n"
+        "  wall: {equation: x = l*sin(b)/2, multiplier: N, holds_while: N >= 0}\n"
+        "  floor: {equation: y = l*cos(b)/2, multiplier: F, holds_while: F >= 0}\n"
+    )
+    verdicts = {
+        to_grammar(e.at["b"]): e.verdict.stable
+        for e in equilibria(derive(ladder).dynamics).equilibria
+    }
+    assert verdicts == {"0": False, "pi": None}

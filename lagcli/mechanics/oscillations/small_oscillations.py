@@ -16,11 +16,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 
-from sympy import Expr, I, Symbol, im
+from sympy import Expr, I, S, Symbol, im
 
-from lagcli.algebra import is_zero
+from lagcli.algebra import dot, is_zero
 from lagcli.algebra.equations import written
-from lagcli.algebra.positivity import vanishing_part
+from lagcli.algebra.place import at
+from lagcli.algebra.positivity import sign_of, vanishing_part
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import fraction
 from lagcli.expression import Expression, Power, Quotient, length, walk
@@ -161,7 +162,8 @@ class Place:
         if self.point.depends_on_time(self.linear.system.t):
             return undecided(REACHED)
         if self.held.grazes(self.point):
-            return self._without_contacts or undecided(_LIMIT if self.held.kinked else GRAZES)
+            found = self._without_contacts or self._along_contacts
+            return found or undecided(_LIMIT if self.held.kinked else GRAZES)
         if (held := self.held).firmly and not self.linear.M:
             reason = _STICKS if held.sticking else _KINK if held.kinked else _PRESSED
             return Stability(stable=True, reason=reason)
@@ -178,6 +180,25 @@ class Place:
         found = Place(self._apart, self.point, self._apart).verdict
         minimum = found.stable and found.by in (LAGRANGE_DIRICHLET, KELVIN_TAIT_CHETAEV)
         return replace(found, asymptotic=False) if minimum else None
+
+    @property
+    def _along_contacts(self) -> Stability | None:
+        """Unstable where a motion leaves to one side on which all contacts press to first order."""
+        linear, held = self.linear, self.held
+        if held.sticking or held.kinked or len(linear.basis) != 1:
+            return None
+        found, system = judge(linear), linear.system
+        signs: set[int | None] = set()
+        state = {**dict.fromkeys(system.qdot, S.Zero), **self.point.values}
+        for demand in held.demands:
+            on_motion = linear.dynamics.on_motion(demand)
+            if on_motion is None or found.stable is not False:
+                return None
+            if is_zero(at(on_motion, state)) is True:
+                rates = [at(on_motion.diff(v), state) for v in system.qdot]
+                slope = dot(linear.basis[0], [at(on_motion.diff(q), state) for q in system.q])
+                signs.add(None if any(rates) else sign_of(slope, self.point.positive))
+        return found if signs in ({1}, {-1}) else None
 
     @property
     def at_singular_coordinates(self) -> bool:

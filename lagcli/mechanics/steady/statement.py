@@ -174,7 +174,7 @@ class _SteadyStatement:
             pass
         potential = potential_of(self.steady.rest, "U_eff")
         if self.steady.contacts.grazes(motion):
-            judged = undecided(GRAZES)
+            judged = self._with_contacts(motion) or undecided(GRAZES)
         elif judged.is_open and (resting := self._at_rest(motion)) is not None:
             judged, potential = resting, potential_of(RestPoints(self.routh.full.dynamics))
         system, names = self.steady.system, self.steady.full.names
@@ -213,6 +213,19 @@ class _SteadyStatement:
         if motion.rates is None or any(is_zero(x) is not True for x in motion.rates.values()):
             return None
         return self._equilibria.verdict_at(motion.values)
+
+    def _with_contacts(self, motion: Steady) -> Stability | None:
+        """The verdict on the equilibrium of the file that it is, whose contacts may open."""
+        relations = self._held.dynamics.constraints.relations
+        if self.routh.cyclic or relations is None:
+            return None
+        solved = (relations.solved.get(q, q) for q in self._held.system.q)
+        whole = [at(value, motion.values) for value in solved]
+        return self._held.verdict_at(dict(zip(self._held.system.q, whole, strict=True)))
+
+    @cached_property
+    def _held(self) -> SmallOscillations:
+        return SmallOscillations(self.routh.given.dynamics)
 
     @cached_property
     def _equilibria(self) -> SmallOscillations:
