@@ -129,3 +129,24 @@ def test_the_turns_of_a_sphere_are_named_beside_other_coordinates(name, latitude
     for name, along, across in (("L_x", "-sin(phi)", "cos(phi)"), ("L_y", "cos(phi)", "sin(phi)")):
         known = f"{factor}*({along}*({side}) - {across}*phi'*{up}*{theta}^2)"
         assert is_zero(charges[name] - build(parse_text(known))) is True
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("V", ["-k/r", "k*r^2/2", "k/r^2"])
+def test_free_coordinates_beside_others_are_lengths(V):
+    """Landau and Lifshitz, section 13: the centre of mass moves alone."""
+    L = f"M*(X'^2 + Y'^2)/2 + m*(r'^2 + r^2*phi'^2)/2 - ({V})"
+    text = f"{{coordinates: {{X: {{}}, Y: {{}}, r: {POS}, phi: {{}}}}, "
+    given = ", ".join(f"{p}: {POS}" for p in "mMk")
+    names = names_of(f'{text}parameters: {{{given}}}, L: "{L}"}}')
+    assert {"p_X", "p_Y", "boost_X", "boost_Y", "angular_momentum_X_Y"} <= set(names)
+
+
+def test_a_damping_that_turns_has_no_complex_exponents():
+    """(p + c)^2 + w^2 = 0 of z'' + c z' + (k + i w) z = 0: no sample point was found."""
+    found = derive(
+        f"{{coordinates: [x, y], parameters: {{m: {POS}, c: {POS}, k: {POS}, w: {POS}}}, "
+        "T: \"m*(x'^2 + y'^2)/2\", V: k*(x^2 + y^2)/2, "
+        'forces: {x: "-c*(x\' + w*y)", y: "-c*(y\' - w*x)"}}'
+    ).discovery
+    assert found.stopped == []

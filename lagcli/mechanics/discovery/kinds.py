@@ -108,7 +108,7 @@ def kinds(
         x for x in found.lengths
         if any(x in inertia[y].free_symbols for y in found.angles)
     ]  # fmt: skip
-    found.waves = _waves(equations)
+    found.waves = _waves(equations, found.cyclic)
     found.angles += [x for x in found.waves if x not in found.angles]
     not_waves = [x for x in found.lengths if x not in found.waves]
     in_inertia = {s for row in equations.mass for m in row for s in m.free_symbols}
@@ -174,7 +174,7 @@ def _exponentials(equations: SlotEquations) -> list[Expr]:
     return list(dict.fromkeys(sympy.exp(k * x) for x in inside for k in powers))
 
 
-def _waves(equations: SlotEquations) -> dict[Symbol, list[Expr]]:
+def _waves(equations: SlotEquations, cyclic: Sequence[Symbol]) -> dict[Symbol, list[Expr]]:
     """Functions of a u that grows uniformly, as time does: p_v = c u' of a plane wave.
 
     With u' = 1, x'' = k x + c x' has the exponents by which a Killing vector f(u) d/dx changes, and
@@ -194,7 +194,8 @@ def _waves(equations: SlotEquations) -> dict[Symbol, list[Expr]]:
         time = {v[c]: sympy.S.One}
         forces = [sympy.expand(equations.forcing[k].xreplace(time) / mass[k][k]) for k in alone]
         motion = forces, [q[k] for k in alone], [v[k] for k in alone], u
-        each = [f for exponent in exponents(*motion) for f in exponent.functions(u)]
+        alike = exponents(*motion) if u in cyclic else []
+        each = [f for exponent in alike for f in exponent.functions(u)]
         tau, scaled, _ = of_euler(*motion)
         each += [f / tau for exponent in scaled for f in exponent.functions(sympy.log(tau))]
         if each:

@@ -199,7 +199,8 @@ def _roots(poly: sympy.Poly) -> list[Exponent]:
         constant, odd, square, *_ = [simplify(x) for x in reversed(about.all_coeffs())]
         if is_zero(odd):
             found = _biquadratic(square, constant)
-            return [Exponent(simplify(mean + e.growth), e.frequency) for e in found]
+            real = not any(e.frequency.has(sympy.I) or e.growth.has(sympy.I) for e in found)
+            return [Exponent(simplify(mean + e.growth), e.frequency) for e in found if real]
     return []
 
 
