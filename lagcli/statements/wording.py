@@ -17,6 +17,7 @@ from lagcli.expression import (
     Product,
     Sum,
     added_and_subtracted,
+    length,
     operation_count,
     walk,
 )
@@ -48,6 +49,7 @@ NOT_ZERO = " where the gradient of the constraint is not 0"
 FINITE_MASS = " where the mass matrix is finite"
 #: The most operations of a value within a sentence.
 _SHORT = 6
+_MOST_TO_READ = 20
 _SHORT_RELATION = 12
 _SUBSTITUTED = {"exact": "exactly", "50 digits": "at random states to 50 digits"}
 
@@ -128,6 +130,11 @@ def only_along_its_path(point: str, fixed: Sequence[str]) -> Iterator[Paragraph]
 def turning_contacts(motion: OneFreedom) -> Iterator[Paragraph]:
     """For which energies one-sided contacts hold at the turning points."""
     different = {*motion.turning_where}
+    sides = [side for where in different for each in where for side in (each.left, each.right)]
+    if any(length(side) > _MOST_TO_READ for side in sides):
+        E = Name(motion.constant)
+        yield Paragraph(("It depends on ", E, " whether the one-sided constraints hold there."))
+        return
     if len(different) == 1 and different != {()}:
         where = motion.turning_where[0]
         yield Paragraph(("The one-sided constraints hold there for ", *conditions(where), "."))

@@ -165,3 +165,17 @@ def test_a_coordinate_that_is_0_on_the_constraints_ends_no_search(place):
     found = derive(text).discovery
     assert "boost_phi" in {each.name for each in found.charges}
     assert not found.stopped
+
+
+@pytest.mark.parametrize("friction", ["-c*r'", "-2*c*r'"])
+def test_what_is_a_function_of_the_others_is_not_missed(friction):
+    """A bead on a turning wire: two integrals with the time are all that there can be."""
+    text = (
+        "coordinates: {r: {assume: positive}, phi: {}}\n"
+        "parameters: {m: {assume: positive}, w: {assume: positive}, c: {assume: positive}}\n"
+        "T: m*(r'^2 + r^2*phi'^2)/2\nconstraints: {drive: phi = w*t}\n"
+        f"forces: {{r: {friction}}}\n"
+    )
+    found = derive(text).discovery
+    assert "all others are functions of these" in found.ansatz
+    assert not found.stopped

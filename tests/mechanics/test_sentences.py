@@ -626,3 +626,30 @@ def test_states_in_a_periodic_potential_recur_after_its_period(seed):
 def test_whole_turns_and_what_is_not_periodic_are_not_said_to_recur(V):
     text = f"coordinates: [x]\nparameters: {{a: {{assume: positive}}}}\nT: x'^2/2\nV: {V}\n"
     assert recurrences(derive(text).dynamics) == {}
+
+
+@pytest.mark.long
+def test_conditions_that_fill_lines_are_put_in_words():
+    """A ladder whose foot is held by a spring, with two contacts at three turning points."""
+    positive = ", ".join(f"{name}: {{assume: positive}}" for name in "mglk")
+    text = (
+        f"coordinates: [x, y, b]\nparameters: {{{positive}}}\n"
+        f"T: m*(x'^2 + y'^2)/2 + m*l^2*b'^2/24\nV: m*g*y + k*(x + l*cos(b)/2)^2/2\nconstraints:\n"
+        "  wall: {equation: x = l*cos(b)/2, multiplier: N, holds_while: N >= 0}\n"
+        "  floor: {equation: y = l*sin(b)/2, multiplier: F, holds_while: F >= 0}\n"
+    )
+    told = said(text, "The reduction", "reduction")
+    assert "It depends on E whether the one-sided constraints hold there." in told
+
+
+@pytest.mark.parametrize("beside", ["x*y", "2*x*y + x^2*y"])
+def test_a_place_that_is_no_minimum_is_not_called_one(beside):
+    """On y = 0 the wall presses by dV/dy = x + …, not at x = 0, where V has its maximum."""
+    text = (
+        f"coordinates: [x, y]\nT: (x'^2 + y'^2)/2\nV: -x^2/2 + {beside}\nconstraints:\n"
+        "  wall: {equation: y = 0, multiplier: N, holds_while: N >= 0}\n"
+    )
+    section, _ = reduction(derive(text))
+    assert section.one_freedom.reason == (
+        "U_eff has no minimum at which its second derivative is positive"
+    )

@@ -43,7 +43,8 @@ def search_on_surface(
     freedom = setting.dynamics.degrees_of_freedom
     holonomic = sum(e.holonomic for e in setting.dynamics.constraints.equations)
     states = len(setting.system.q) - holonomic + freedom
-    if rank_on_surface(setting.dynamics, _values(setting)) == states:
+    known = rank_on_surface(setting.dynamics, _values(setting)) == states
+    if known:
         setting.words.append("all others are functions of these")
     elif freedom > 1 and setting.system.t not in setting.equations_symbols:
         found = search.quadratic(listing.points)
@@ -53,7 +54,7 @@ def search_on_surface(
         setting.words.append(
             "and of second degree without explicit time, with coefficients of second degree"
         )
-    if search.unsolved:
+    if search.unsolved and not known:
         setting.stopped.append(
             f"{more(search.unsolved, 'integral')} there, whose coefficients were not solved"
         )

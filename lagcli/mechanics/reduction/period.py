@@ -101,11 +101,11 @@ class Periods:
             return ()
         if points is None:
             return self._anywhere()
-        found = []
+        found, curvature = [], self.motion.potential.diff(self.motion.q, 2)
         for point in points:
             pressed = self.motion.contacts.where_pressed(point.values)
-            if pressed is None:
-                self.reason = "the one-sided constraints do not hold at every minimum of U_eff"
+            if pressed is None and sign(simplify(at(curvature, point.values))) != -1:
+                self.reason = "the one-sided constraints do not hold at a minimum of U_eff"
             if point.free or pressed is None:
                 continue
             if not free_of(sympy.Add(*pressed), [self.motion.system.t]):
