@@ -280,3 +280,31 @@ find:
     assert answer.ranges is None
     if place != "1 + a":
         assert found(text, "speed") == bounds([f">= sqrt(2*g*{place})"])
+
+
+@pytest.mark.parametrize(
+    ("height", "squared"), [("2", "g*R"), ("3", "4*g*R/3"), ("3/2", "2*g*R/3")]
+)
+def test_what_is_thrown_up_and_falls_into_the_centre_reaches_no_more(height, squared):
+    """v² = 2 g R² (1/R - 1/r); a slower body falls back, where r' is infinite at r = 0."""
+    text = f"""
+coordinates: {{r: POSITIVE}}
+parameters: {{m: POSITIVE, g: POSITIVE, R: POSITIVE, v0: POSITIVE}}
+T: m*r'^2/2
+V: -m*g*R^2/r
+initial: {{r: R, r': v0}}
+find: {{asked: {{reaches: r = {height}*R, for: v0}}}}
+"""
+    assert found(text) == bounds([f">= sqrt({squared})"])
+
+
+@pytest.mark.parametrize("length", ["l - d", "l - 2*d"])
+def test_a_length_that_may_be_negative_is_undecided(length):
+    """A pendulum caught by a peg: for d > l there is no circle."""
+    text = LOOP.replace("R: POSITIVE, v0: ASSUMED", "l: POSITIVE, d: POSITIVE").replace(
+        "R = r", f"{length} = r"
+    )
+    text = text.replace(
+        "r: R, theta: 0, theta': v0/R", f"r: {length}, theta: 0, theta': sqrt(2*g*l)/({length})"
+    )
+    assert "could not be followed" in why(text.replace("QUESTION", "{reaches: theta = pi, for: d}"))

@@ -653,3 +653,13 @@ def test_a_place_that_is_no_minimum_is_not_called_one(beside):
     assert section.one_freedom.reason == (
         "U_eff has no minimum at which its second derivative is positive"
     )
+
+
+@pytest.mark.parametrize("force", ["-k*sign(x')", "-k*x'^3", "k*cos(t) - x'"])
+def test_without_a_law_none_is_announced(force):
+    text = (
+        "coordinates: [x]\nparameters: {k: {assume: positive}}\nT: x'^2/2\n"
+        f"forces: {{x: {force}}}\ninitial: {{x: 0, x': 1}}\nfind: {{far: {{where: x' = 0, for: x}}}}\n"
+    )
+    assert "0 on the motion:." not in (told := said(text, "Questions", "find"))
+    assert "no conserved quantity is known" in told

@@ -51,11 +51,14 @@ def _known(along: AlongTheMotion) -> Iterator[Block]:
             "the constraints are used."
         )
         return
-    yield says(
-        "The solved accelerations and multipliers are substituted, the constraints are used, and "
-        "every conserved quantity keeps its initial value. So these are 0 on the motion:"
-    )
     laws = dict.fromkeys(along.tree(law) for law in along.level_set.laws)
+    kept = (
+        "and every conserved quantity keeps its initial value. So these are 0 on the motion:"
+        if laws
+        else "but no conserved quantity is known."
+    )
+    put_in = "The solved accelerations and multipliers are substituted, the constraints are used"
+    yield says(f"{put_in}, {kept}")
     yield equations_of((ZERO, law) for law in laws)
 
 

@@ -91,7 +91,7 @@ class Walk:
         with mpmath.workdps(DIGITS):
             try:
                 return self._verdict(dict(values))
-            except (ArithmeticError, ValueError, TypeError, mpmath.NoConvergence):
+            except (ArithmeticError, ValueError, TypeError, mpmath.mp.NoConvergence):
                 return None
 
     def _verdict(self, values: dict[Symbol, mpf]) -> bool | None:
@@ -196,6 +196,8 @@ class Walk:
                 break
             if place.zeros.get(0, 0) > 1:
                 return ENDS  # after an infinite time
+            if self._falls_in(place, direction):
+                return ENDS
             outcome = self._check(place, signs)
             if outcome is not None:
                 return outcome
@@ -203,6 +205,11 @@ class Walk:
         if self._rate is not None and not self._asks_place:
             return HOLDS  # the whole circle
         return ENDS
+
+    def _falls_in(self, place: PassedPlace, direction: int) -> bool:
+        """Whether a distance becomes 0 there with an infinite velocity: a centre is hit."""
+        at_the_wall = self.wall and abs(self.u0 + direction * place.distance) < _SAME
+        return bool(at_the_wall) and self._rate is None and place.zeros.get(0, 0) < 0
 
     def _end(self, before: mpf) -> mpf:
         return 2 * mpmath.pi if self._rate is not None else 3 * before + 1
