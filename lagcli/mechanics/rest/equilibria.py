@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
 from itertools import islice, product
@@ -54,6 +54,16 @@ def _finite_where(values: Iterable[Expr]) -> Iterator[Expr]:
     order = sympy.default_sort_key
     found = (divisor for value in values for divisor in sorted(divisors(value), key=order))
     yield from (f**2 for f in dict.fromkeys(found) if f.free_symbols and sign(f**2) is None)
+
+
+def _signs_of_letters(positive: Sequence[Expr]) -> Iterator[Expr]:
+    """-b where one of these is not positive for any b > 0: of -b (2 a b + k), say."""
+    letters = {s for e in positive for s in e.free_symbols if s.is_nonnegative is None}
+    for letter in sorted(letters, key=str):
+        for side in (1, -1):
+            put_in = {letter: side * sympy.Dummy(letter.name, positive=True)}
+            if any(sign(simplify(e.xreplace(put_in))) in (-1, 0) for e in positive if e != letter):
+                yield -side * letter
 
 
 class RestPoints(RestConditions):
@@ -217,7 +227,8 @@ class RestPoints(RestConditions):
             branch = {known.unknown: known.root}
             values = {**{s: v.xreplace(branch) for s, v in values.items()}, **branch}
         free = tuple(s for s in q if s not in values)
-        return RestPoint(values, free, (*positive, *self._real_where(values)), known)
+        positive = (*positive, *self._real_where(values))
+        return RestPoint(values, free, (*positive, *_signs_of_letters(positive)), known)
 
     def _real_where(self, values: Mapping[Symbol, Expr]) -> Iterator[Expr]:
         """The arguments of even roots and logarithms in L that may be negative there."""

@@ -23,6 +23,8 @@ from lagcli.verification.linear import Unclear, rank
 
 #: Relative differences of eigenvalues: those of multiplicity 2 are right to 1e-19.
 _AGREE = 1e-9
+#: The residual of a place that is an equilibrium for the values drawn; decimals leave 1e-15.
+_STAYS = 1e-8
 
 
 def modes(x: Examination, section: ModesSection) -> ModesSection:
@@ -56,7 +58,7 @@ def _all_modes(x: Examination, about: Sequence[ModesOfFrequency]) -> RestPlace |
         return place
     count = sum(mode.multiplicity for mode in about)
     for near in place.states():
-        if not (near.defined and near.regular):
+        if not (near.defined and near.regular and near.residual < _STAYS):
             continue
         values = near.eigenvalues
         zeros = sum(abs(z) < NOTHING**0.5 * max([1e-3, *map(abs, values)]) for z in values)
@@ -97,7 +99,7 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
     size = len(x.reference.names)
     real: list[bool] = []  # at each state
     for near in place.states():
-        if not (near.defined and near.regular):
+        if not (near.defined and near.regular and near.residual < _STAYS):
             continue
         W = [near.at(p) for p in square] + [near.at(p) ** 2 for p in frequency]
         real.append(all(w.is_finite() for w in W))
@@ -125,7 +127,7 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
 
 def _expected(near: LinearMotion, W: arb, mode: ModesOfFrequency) -> int:
     """How many independent shapes a frequency has: the solutions of (dq''/dq + omega^2) a = 0."""
-    if not near.still:
+    if not near.still or mode.multiplicity == 1:  # it is known to be a root
         return mode.multiplicity
     by_q, _ = near.slopes
     sums = [[e + (W if i == j else 0) for j, e in enumerate(row)] for i, row in enumerate(by_q)]

@@ -23,6 +23,8 @@ from lagcli.verification.program import Key
 #: States looked at until the printed conditions hold at `WANTED` of them.
 LOOKED_AT = 24
 WANTED = 5
+#: How often each is looked at with parameters of other sizes.
+_ROUNDS = 4
 BITS = PRECISIONS[1]
 _NEWTON_STEPS = 30
 #: Of a condition's change with its parameter: how far beside its bound stability is tried.
@@ -77,15 +79,17 @@ class RestPlace:
             if count == WANTED:
                 return
         if not count and self.where:
-            yield from islice(self.spread(), WANTED)
+            yield from islice(self.spread(_ROUNDS), WANTED)
 
-    def spread(self) -> Iterator[LinearMotion]:
-        """States here with parameters of other sizes: what is said to hold always holds there."""
+    def spread(self, rounds: int = 1) -> Iterator[LinearMotion]:
+        """States here with parameters of other sizes and signs: what always holds holds there."""
         random = Random(3)
-        names = [p.name for p in self.x.problem.parameters if not p.integer]
-        for state in self.x.states(LOOKED_AT, BITS):
+        signs = {p.name: (1,) if p.assume else (1, -1) for p in self.x.problem.parameters
+                 if not p.integer}  # fmt: skip
+        for state in self.x.states(LOOKED_AT, BITS) * rounds:
             scaled = {
-                (n, 0): state.environment[n, 0] * arb(2) ** random.randint(-3, 3) for n in names
+                (n, 0): state.environment[n, 0] * random.choice(s) * arb(2) ** random.randint(-3, 3)
+                for n, s in signs.items()
             }
             near = self.near({**state.environment, **scaled})
             if near is not None:
