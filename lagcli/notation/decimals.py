@@ -10,6 +10,7 @@ from typing import Any
 from lagcli.evaluation import Constant, finite_value
 from lagcli.expression import (
     ONE,
+    Call,
     Expression,
     Negative,
     Number,
@@ -20,11 +21,14 @@ from lagcli.expression import (
     quotient_of,
     signed,
     sum_of,
+    walk,
 )
 from lagcli.rewriting import rebuilt
 
 #: Significant digits: as many as a double holds for certain.
 DIGITS = 15
+#: The largest number under a root or below a line that stays: sqrt(33), 9.81/13.
+_LONG = 99
 _ROUNDING = Context(prec=DIGITS)
 
 
@@ -58,7 +62,8 @@ class GivenDecimals:
 
     def __init__(self, given: Iterable[Fraction]) -> None:
         self._primes: set[int] = set()
-        for value in given:
+        self._given = sorted({abs(value) for value in given if value})
+        for value in self._given:
             found = _primes(value)
             self._primes |= found - {2, 5} or found
 
@@ -67,6 +72,8 @@ class GivenDecimals:
 
     def __call__(self, node: Expression) -> Expression:
         """The formula with its constants as decimals where they come from decimals."""
+        if any(map(_is_long, walk(node))):
+            return with_decimals(node)
         match node:
             case Negative() | Product() | Quotient():
                 constant, above, below = self._whole_sum(*self._factors(node))
@@ -83,13 +90,18 @@ class GivenDecimals:
     def _whole_sum(
         self, constant: Fraction, above: list[Expression], below: list[Expression]
     ) -> tuple[Fraction, list[Expression], list[Expression]]:
-        """(100 a + 981 b)/100 as a + 9.81 b: the constant multiplied into a sum."""
-        if constant.denominator == 1 or not _primes(constant) <= {2, 5}:
-            return constant, above, below
-        inner = self._inner(above, abs(constant))
-        if inner is None:
-            return constant, above, below
-        return Fraction(-1 if constant < 0 else 1), inner, below
+        """(100 a + 981 b)/100 as a + 9.81 b, (a + 59 b)/65 as (0.02 a + 1.18 b)/1.3.
+
+        The constant, times a decimal that was given, is multiplied into a sum.
+        """
+        for divisor in (Fraction(1), *self._given) if constant.denominator != 1 else ():
+            if not _primes(constant * divisor) <= {2, 5}:
+                continue
+            inner = self._inner(above, abs(constant * divisor))
+            if inner is not None:
+                below = below if divisor == 1 else [Number(divisor, decimal=True), *below]
+                return Fraction(-1 if constant < 0 else 1), inner, below
+        return constant, above, below
 
     def _scaled(self, node: Sum, constant: Fraction) -> Sum | None:
         """The sum times the constant; None where no decimal that was given appears."""
@@ -121,6 +133,13 @@ class GivenDecimals:
         return _factors(node, lambda n: n.value if isinstance(n, Number) else None, self)
 
 
+def _is_long(node: Expression) -> bool:
+    """Whether it is a constant such as (1829 - sqrt(1535381))/26, which no book prints."""
+    if not isinstance(node, Call | Power) or finite_value(node) is None:
+        return False
+    return any(isinstance(n, Number) and n.value.numerator > _LONG for n in walk(node))
+
+
 def _primes(value: Fraction) -> set[int]:
     """The prime factors above and below, small ones by trial; what is left counts as one."""
     found = set()
@@ -142,6 +161,8 @@ def _with_decimal(
     for prime in () if simple else (2, 5):
         while rest % prime == 0:
             rest //= prime
+    if rest > _LONG:  # 14831493.75/1319003
+        constant, rest = _rounded(constant), 1
     head = Number(abs(constant) * rest, decimal=True)
     top = above if head.value == 1 and above else [head, *above]
     bottom = below if rest == 1 else [Number(Fraction(rest)), *below]
@@ -152,11 +173,12 @@ def _with_decimal(
 def number(value: Constant) -> Expression:
     """A number of at most `DIGITS` significant digits, with a `Negative` for its sign."""
     exact = Fraction(value)
-    if exact.denominator == 1 and abs(exact) < 10**DIGITS:
-        rounded = exact
-    else:
-        rounded = Fraction(_ROUNDING.divide(Decimal(exact.numerator), Decimal(exact.denominator)))
-    return signed(rounded, decimal=True)
+    whole = exact.denominator == 1 and abs(exact) < 10**DIGITS
+    return signed(exact if whole else _rounded(exact), decimal=True)
+
+
+def _rounded(exact: Fraction) -> Fraction:
+    return Fraction(_ROUNDING.divide(Decimal(exact.numerator), Decimal(exact.denominator)))
 
 
 def _sum(terms: Iterable[Expression]) -> Expression:
@@ -179,12 +201,26 @@ def _sum(terms: Iterable[Expression]) -> Expression:
 def _term(node: Expression) -> Expression:
     """c a b / (d e), with every constant of the term in c."""
     constant, above, below = _factors(node, finite_value, with_decimals)
+    if Fraction(constant).denominator != 1:
+        constant, above = _under_root(constant, above)
     head = number(constant)
     sign = isinstance(head, Negative)
     magnitude = head.operand if isinstance(head, Negative) else head
     top = above if magnitude == ONE and above else [magnitude, *above]
     result = quotient_of(top, below)
     return Negative(result) if sign else result
+
+
+def _under_root(constant: Constant, above: list[Expression]) -> tuple[Constant, list[Expression]]:
+    """1/3 sqrt(16.1 k/m) as sqrt(1.79 k/m)."""
+    for place, factor in enumerate(above):
+        if isinstance(factor, Call) and factor.function == "sqrt":
+            c, over, under = _factors(factor.arguments[0], finite_value, with_decimals)
+            if c > 0 and c != 1:
+                inner = quotient_of([number(c * constant * constant), *over], under)
+                kept = [*above[:place], Call("sqrt", (inner,)), *above[place + 1 :]]
+                return Fraction(-1 if constant < 0 else 1), kept
+    return constant, above
 
 
 def _factors(

@@ -84,8 +84,8 @@ class RestPlace:
     def spread(self, rounds: int = 1) -> Iterator[LinearMotion]:
         """States here with parameters of other sizes and signs: what always holds holds there."""
         random = Random(3)
-        signs = {p.name: (1,) if p.assume else (1, -1) for p in self.x.problem.parameters
-                 if not p.integer}  # fmt: skip
+        parameters = [p for p in self.x.problem.parameters if not p.integer]
+        signs = {p.name: (1, -1) if p.assume == "real" else (1,) for p in parameters}
         for state in self.x.states(LOOKED_AT, BITS) * rounds:
             scaled = {
                 (n, 0): state.environment[n, 0] * random.choice(s) * arb(2) ** random.randint(-3, 3)
