@@ -12,8 +12,11 @@ from lagcli.algebra.linear import solve_linear
 
 
 def determinant(matrix: Sequence[Sequence[Expr]]) -> Expr | None:
-    """The determinant; None where it is too long, 0 for a singular matrix."""
-    solution = solve_linear(matrix, [S.Zero] * len(matrix))
+    """The determinant; None where it is too long or has no value, 0 for a singular matrix."""
+    try:
+        solution = solve_linear(matrix, [S.Zero] * len(matrix))
+    except ZeroDivisionError:
+        return None
     if solution is None:
         return None
     return S.Zero if solution.determinant is None else solution.determinant

@@ -15,6 +15,8 @@ from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import is_zero, simplify
 
+#: What stands in a formula that has no value somewhere.
+NO_VALUE = S.NaN, S.ComplexInfinity
 _LAST_DIGITS = sympy.Float("1e-13")
 
 

@@ -22,6 +22,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant
+from lagcli.algebra.place import NO_VALUE
 from lagcli.algebra.positivity import deciding
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.constraints import ConstraintEquation
@@ -57,8 +58,9 @@ class Hamiltonian:
 
     @cached_property
     def _at_rest(self) -> Expr:
-        """L(q, 0, t)."""
-        return self.system.L.xreplace(dict.fromkeys(self.system.qdot, sympy.S.Zero))
+        """L(q, 0, t), or 0 where L has no value at rest."""
+        still = self.system.L.xreplace(dict.fromkeys(self.system.qdot, sympy.S.Zero))
+        return sympy.S.Zero if still.has(*NO_VALUE) else still
 
     @cached_property
     def _kinetic(self) -> Expr:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from sympy import Expr, S
 
 from lagcli.algebra import shape, simplify, terms
+from lagcli.algebra.place import NO_VALUE
 from lagcli.algebra.terms import is_flat
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression, Name, Power, Product, operation_count
@@ -52,7 +53,7 @@ class Readable:
         still = moving.xreplace(dict.fromkeys(momenta, S.Zero))
         if still != 0:
             moving, rest = simplify(moving - still), rest + still
-        if moving == 0 or rest == 0 or still.has(S.ComplexInfinity, S.NaN):
+        if moving == 0 or rest == 0 or still.has(*NO_VALUE):
             return together
         apart = Writer(self.system.order).sum([self._rate(moving), self._by_momenta(rest)])
         return apart if operation_count(apart) <= _APART * operation_count(together) else together

@@ -205,3 +205,35 @@ def test_a_high_power_ends_the_search_for_special_values_with_a_sentence(power: 
 def test_signs_of_velocities_on_a_constraint_break_no_section(force: str, side: str) -> None:
     text = f"{HEAD}V: k*y\nforces: {{x: {force}}}\nconstraints: {{surface: {side}}}\n"
     assert_sound(answers(text, ["discovered"]))
+
+
+#: Files of the library in which one sign, power or prime was mistaken.
+NOT_AT_REST = """
+coordinates: [x, y]
+parameters: {m: {assume: positive}, q: {assume: nonzero}}
+L: m/(x'^2 + y'^2)/2 + q*(x*y' - y*x')/2
+"""
+NO_INERTIA = """
+coordinates: [theta]
+parameters: {m: {assume: positive}, g: {assume: positive}}
+T: m*theta^2/2
+V: -m*g*cos(theta)
+"""
+INVERSE_RATE = """
+coordinates: {theta: {}, phi: {}}
+parameters: {m: {assume: positive}, g: {assume: positive}}
+T: m*(theta'^2 + sin(theta)^2/phi'^2)/2
+V: -m*g*cos(theta)
+"""
+FOURTH_POWER = """
+coordinates: {x: {}, theta: {}, phi: {}}
+parameters: {m: {assume: positive}, g: {assume: positive}}
+T: m*(x'^2 + theta'^2 + phi'^4*sin(theta)^2)/2
+V: m*g*sin(theta)
+"""
+
+
+@pytest.mark.first_quick
+@pytest.mark.parametrize("text", [NOT_AT_REST, NO_INERTIA, INVERSE_RATE, FOURTH_POWER])
+def test_a_mistaken_kinetic_energy_breaks_no_section(text: str) -> None:
+    assert_sound(answers(text, [*QUICK, "modes", "steady_motions"]))

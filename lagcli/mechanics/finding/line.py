@@ -13,6 +13,7 @@ import sympy
 from sympy import Dummy, Expr, Symbol
 
 from lagcli.algebra.entry import Field
+from lagcli.algebra.place import NO_VALUE
 from lagcli.algebra.ring import Poly
 from lagcli.record import record
 
@@ -115,7 +116,7 @@ class FunctionsOnLine:
             yield self._field.polynomial_to_sympy(one.resultant(other, place))
         if self.rate is not None:
             # of a pole there the coefficients of the highest powers tell
-            yield from (f for f in self.at(sympy.pi / self.rate) if not f.has(sympy.zoo, sympy.nan))
+            yield from (f for f in self.at(sympy.pi / self.rate) if not f.has(*NO_VALUE))
 
     def at_zero(self) -> list[Expr]:
         """What vanishes where a root or a pole goes through u = 0."""

@@ -72,11 +72,12 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     oscillations = SmallOscillations(dynamics)
     rest, order = oscillations.rest, dynamics.system.order
     places = oscillations.places
-    unsolved = () if oscillations.complete else rest.conditions
+    alone = rest.reason == NO_CLOSED_SOLUTION and len(oscillations.held) == 1
+    is_solved = oscillations.complete or (places is None and not alone)
+    unsolved = () if is_solved else rest.conditions
     open_ = tuple(written(vanishing_part(e), order) for e in unsolved)
     if places is None:
-        alone = rest.reason == NO_CLOSED_SOLUTION and len(oscillations.held) == 1
-        return EquilibriaSection(equilibria=None, reason=rest.reason, open=open_ if alone else ())
+        return EquilibriaSection(equilibria=None, reason=rest.reason, open=open_)
     several = [each.rest.unless for each in oscillations.held]  # contacts may be closed
     unless = several[0] if len(several) == 1 else None if any(x != () for x in several) else ()
     return EquilibriaSection(

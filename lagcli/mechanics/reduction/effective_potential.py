@@ -13,6 +13,7 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import is_zero, shape, simplify, terms
 from lagcli.algebra.build import free_of
 from lagcli.algebra.leaves import Translator
+from lagcli.algebra.place import NO_VALUE
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression, operation_count
 
@@ -28,6 +29,8 @@ def effective_potential(
     What has no momenta is left as `given_V`, the potential of the file, has it.
     """
     static = expression.xreplace(dict.fromkeys(momenta, S.Zero))
+    if static.has(*NO_VALUE):
+        return shape(expression, order)
     given = terms(static, order, ())
     if given_V is not None and is_zero(given_V - static) is True:
         given = _as_given(given_V, order)

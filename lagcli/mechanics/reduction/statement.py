@@ -175,7 +175,8 @@ class _Statement:
         parts = [writer.negative(potential)]
         if len(still) == 1:
             [v] = still
-            parts.insert(0, self._kinetic(self._freedom))
+            if self._freedom.mass != 0:
+                parts.insert(0, self._kinetic(self._freedom))
             moving = v * moving.coeff(v)
         if moving != 0:
             parts.insert(-1, terms(moving, self.order, self.fast))
@@ -211,7 +212,7 @@ class _Statement:
             return None
         motion = self._freedom
         order = (*self.order, motion.E.name)
-        if motion.why_not_conserved:
+        if motion.why_not_conserved or (motion.mass == 0 and motion.quadratic):
             return None
         if motion.pace is not None:
             return self._by_pace(motion, order)

@@ -15,7 +15,7 @@ from lagcli.algebra import simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
-from lagcli.algebra.place import at
+from lagcli.algebra.place import NO_VALUE, at
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, SystemSolution, solve_system
 from lagcli.algebra.vanishing_factors import divisors
@@ -139,7 +139,7 @@ class RestPoints(RestConditions):
         self.complete = solved.complete
         found, lost = [], False
         for each in solved.solutions:
-            if any(e.has(S.NaN, S.ComplexInfinity) for e in each.positive):
+            if any(e.has(*NO_VALUE) for e in each.positive):
                 lost = True  # a force has no value there, as that of asin(sin(x)) at pi/2
                 continue
             if never_together(each.positive):
@@ -298,7 +298,7 @@ class RestPoints(RestConditions):
         places = [(s, x) for s in q for x in (S.Zero, sympy.pi)[: 1 + self.is_angle(s)]]
         for unknown, value in places if on_a_curve else ():
             there = [e.xreplace({unknown: value}) for e in self.at_all_times]
-            if any(e.has(S.NaN, S.ComplexInfinity) for e in there):
+            if any(e.has(*NO_VALUE) for e in there):
                 continue
             for each in solve_system(there, [s for s in q if s != unknown]).solutions:
                 solution = replace(each, values={unknown: value, **each.values})

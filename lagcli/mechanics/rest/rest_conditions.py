@@ -25,7 +25,7 @@ from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.equations import is_decimal
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.field import common_denominator
-from lagcli.algebra.place import at, nearly_vanishes, vanishes, where_positive
+from lagcli.algebra.place import NO_VALUE, at, nearly_vanishes, vanishes, where_positive
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.dynamics import Dynamics
@@ -143,7 +143,7 @@ class RestConditions:
         """Whether some force has no value at any member of a family."""
         forces = (at(f, values) for f in self.forces_at_rest)
         try:
-            return any(f.has(S.NaN, S.ComplexInfinity) for f in forces)
+            return any(f.has(*NO_VALUE) for f in forces)
         except ZeroDivisionError:
             return True
 
@@ -251,7 +251,7 @@ class RestConditions:
         free = not self.dynamics.constraints.equations
 
         def infinite(e: Expr, q: Symbol) -> bool:
-            return bool(e.xreplace({q: S.Zero}).has(S.ComplexInfinity, S.NaN))
+            return bool(e.xreplace({q: S.Zero}).has(*NO_VALUE))
 
         def holds(q: Symbol) -> bool:
             if self.has_open_power({q: S.Zero}):
@@ -260,7 +260,7 @@ class RestConditions:
             others = [f for k, f in enumerate(forces_at_rest) if k != j]
             loose = free and infinite(mass[j][j], q) and not infinite(forces_at_rest[j], q)
             there = [e.xreplace({q: S.Zero}) for e in (others if loose else self.equations)]
-            if any(e.has(S.NaN, S.ComplexInfinity) for e in there):
+            if any(e.has(*NO_VALUE) for e in there):
                 return False
             solved = solve_system(there, [x for x in self.system.q if x != q])
             return bool(solved.solutions) or not solved.complete

@@ -208,7 +208,7 @@ class Near:
         n, W = len(linear.M), Symbol("#W", real=True)
         M, K = linear.M, linear.K
         powers = determinant_in(W, [[W * M[i][j] + K[i][j] for j in range(n)] for i in range(n)])
-        if powers is not None:
+        if powers is not None and len(powers) > n:
             found.append([simplify(power / powers[-1]) for power in powers[-2::-1]])
             found.append(_symmetric_functions(powers, W))
         return [*found, self.diagonal] if self.diagonal else found

@@ -26,7 +26,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant, determinant_in
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.linear import rank, solve_linear
-from lagcli.algebra.place import at
+from lagcli.algebra.place import NO_VALUE, at
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.derivation import Derivation
@@ -215,7 +215,7 @@ class RollingMotions:
     ) -> Iterator[RollingMotion]:
         """The branches, a velocity that is linear in a condition solved for first."""
         open_ = [c for c in dict.fromkeys(self._put(values, conditions)) if c != 0]
-        if any(c.has(S.NaN, S.ComplexInfinity) for c in open_):  # no value there
+        if any(c.has(*NO_VALUE) for c in open_):  # no value there
             return
         if not open_:
             there = tuple(self._put(values, positive))
@@ -285,7 +285,7 @@ class RollingMotions:
             rates = [at(f.xreplace(self._still), values) for f in self._equations or ()]
         except ZeroDivisionError:
             rates = [S.NaN]
-        self.complete &= not any(f.has(S.NaN, S.ComplexInfinity) for f in rates)
+        self.complete &= not any(f.has(*NO_VALUE) for f in rates)
         return all(is_zero(f) is True for f in rates)
 
     # -- stability --------------------------------------------------------------------------------
