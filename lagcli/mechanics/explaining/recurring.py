@@ -8,7 +8,7 @@ import sympy
 from sympy import Expr, Symbol, igcd, ilcm
 from sympy.functions.elementary.trigonometric import TrigonometricFunction
 
-from lagcli.algebra import simplify
+from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.document import Block
 from lagcli.expression import Name
@@ -25,7 +25,7 @@ def recurring(explainer: Explainer) -> Iterator[Block]:
 
 
 def recurrences(dynamics: Dynamics) -> dict[Symbol, Expr]:
-    """The period of each coordinate in which all equations are periodic, but for whole turns."""
+    """The period of each coordinate in which all equations are periodic, where a turn is none."""
     system, lagrange = dynamics.system, dynamics.lagrange
     formulas = [*lagrange.lagrangian_forces, *lagrange.momenta, *system.applied_forces]
     formulas += [e.f for e in dynamics.constraints.equations]
@@ -37,8 +37,13 @@ def recurrences(dynamics: Dynamics) -> dict[Symbol, Expr]:
     return {
         q: period
         for q, period in found
-        if period is not None and not (period / sympy.pi).is_Rational
+        if period is not None
+        and not ((period / sympy.pi).is_Rational and _after_a_turn(q, formulas))
     }
+
+
+def _after_a_turn(q: Symbol, formulas: list[Expr]) -> bool:
+    return all(is_zero(f.xreplace({q: q + 2 * sympy.pi}) - f) is True for f in formulas)
 
 
 def _period(q: Symbol, formulas: list[Expr], state: tuple[Symbol, ...]) -> Expr | None:

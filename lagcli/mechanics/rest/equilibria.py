@@ -11,8 +11,8 @@ import mpmath
 import sympy
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import simplify
-from lagcli.algebra.build import free_of
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.equations import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import NO_VALUE, at
@@ -133,7 +133,7 @@ class RestPoints(RestConditions):
 
     def _found(self, equations: list[Expr]) -> tuple[list[RestPoint], bool]:
         """The solutions that balance; whether a family was lost of which some members may."""
-        solved = solve_system(equations, self.system.q, families=True)
+        solved = self._over_all_turns(equations)
         if not solved.complete:
             solved = self._up_to_translations(equations) or solved
         self.complete = solved.complete
@@ -159,6 +159,41 @@ class RestPoints(RestConditions):
             else:
                 self.at_singular_constraints |= self.loses_rank(solution.values)
         return found, lost or self.at_open_powers or not (found or solved.complete)
+
+    def _over_all_turns(self, equations: list[Expr]) -> SolvedSystem:
+        """All solutions, with an angle in (-pi n, pi n] where the forces have the period 2 pi n."""
+        scaled = {q: n * q for q, n in self._periods.items()}
+        solved = solve_system([e.xreplace(scaled) for e in equations], self.system.q, families=True)
+        if not scaled:
+            return solved
+        back = {q: q / n for q, n in self._periods.items()}
+        solutions = [
+            SystemSolution(
+                {q: self._periods.get(q, 1) * v.xreplace(back) for q, v in each.values.items()},
+                tuple(e.xreplace(back) for e in each.positive),
+                None if each.relation is None else each.relation.xreplace(back),
+            )
+            for each in solved.solutions
+        ]
+        return SolvedSystem(solutions, solved.complete)
+
+    @cached_property
+    def _periods(self) -> dict[Symbol, int]:
+        """The n > 1 by their angles: of cos(q/n) in forces that one turn changes."""
+        positions = [e.f for e in self.dynamics.constraints.equations if e.holonomic]
+        found, formulas = {}, [*self.forces_at_rest, *positions]
+        nodes = {node for f in formulas for node in f.atoms(*CIRCULAR)}
+        hidden: dict[Expr, Expr] = {node: sympy.Dummy() for node in nodes}
+        for q in self.system.q:
+            rates = [simplify(x.args[0].diff(q)) for x in nodes if not free_of(x, [q])]
+            if not rates or not all(rate.is_Rational for rate in rates):
+                continue
+            n = sympy.ilcm(1, *(rate.q for rate in rates))
+            if n > 1 and all(free_of(f.xreplace(hidden), [q]) for f in formulas):
+                turned = (is_zero(f.xreplace({q: q + 2 * sympy.pi}) - f) for f in formulas)
+                if not all(same is True for same in turned):
+                    found[q] = int(n)
+        return found
 
     def _up_to_translations(self, equations: list[Expr]) -> SolvedSystem | None:
         """All solutions at which the q are 0 along which nothing changes, then moved along them."""
