@@ -10,6 +10,7 @@ import pytest
 import sympy
 
 from lagcli.algebra import is_zero
+from lagcli.mechanics.discovery.summary import summary
 from lagcli.reader import parse_text
 
 from .derived import derive
@@ -140,6 +141,36 @@ def test_free_coordinates_beside_others_are_lengths(V):
     given = ", ".join(f"{p}: {POS}" for p in "mMk")
     names = names_of(f'{text}parameters: {{{given}}}, L: "{L}"}}')
     assert {"p_X", "p_Y", "boost_X", "boost_Y", "angular_momentum_X_Y"} <= set(names)
+    assert ("runge_lenz_x" in names) is (V == "-k/r")
+
+
+@pytest.mark.long
+def test_two_bodies_about_their_centre_of_mass_have_their_runge_lenz_vector():
+    """Goldstein, Poole, Safko, 3rd ed., sections 3.1 and 3.9: 11 of 12 are independent."""
+    sphere = "r^2*(theta'^2 + sin(theta)^2*phi'^2)"
+    L = f"M*(X'^2 + Y'^2 + Z'^2)/2 + m*(r'^2 + {sphere})/2 + k/r"
+    given = ", ".join(f"{p}: {POS}" for p in "mMk")
+    derivation = derive(
+        f"{{coordinates: {{X: {{}}, Y: {{}}, Z: {{}}, r: {POS}, theta: {{}}, phi: {{}}}}, "
+        f'parameters: {{{given}}}, L: "{L}"}}'
+    )
+    names = {c.name for c in derivation.discovery.charges}
+    assert {"L_x", "L_y", *(f"runge_lenz_{x}" for x in "xyz")} <= names
+    found = summary(derivation.discovery)
+    assert (found.independent, found.integrable) == (11, True)
+
+
+@pytest.mark.long
+def test_two_bodies_in_spherical_coordinates_each_are_integrable():
+    bodies = [f"r{k}'^2 + r{k}^2*(a{k}'^2 + sin(a{k})^2*f{k}'^2)" for k in (1, 2)]
+    across = "cos(a1)*cos(a2) + sin(a1)*sin(a2)*cos(f1 - f2)"
+    q = ", ".join(f"r{k}: {POS}, a{k}: {{}}, f{k}: {{}}" for k in (1, 2))
+    derivation = derive(
+        f"{{coordinates: {{{q}}}, parameters: {{m: {POS}, M: {POS}, k: {POS}}}, "
+        f'L: "m*({bodies[0]})/2 + M*({bodies[1]})/2 - k*(r1^2 + r2^2 - 2*r1*r2*({across}))"}}'
+    )
+    found = summary(derivation.discovery)
+    assert (found.in_involution, found.integrable) == (6, True)
 
 
 def test_a_damping_that_turns_has_no_complex_exponents():

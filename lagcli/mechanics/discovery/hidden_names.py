@@ -163,11 +163,11 @@ class HiddenNames:
         if len(kinds.radii) != 1 or any(y in self.V.free_symbols for y in kinds.angles):
             return
         [r] = kinds.radii
-        if len(self.q) == 2 and len(kinds.angles) == 1:
+        if len(kinds.angles) == 1:
             [phi] = kinds.angles
             yield "x", r * sympy.cos(phi)
             yield "y", r * sympy.sin(phi)
-        elif len(self.q) == 3 and len(kinds.latitudes) == 1 and len(kinds.angles) == 2:
+        elif len(kinds.latitudes) == 1 and len(kinds.angles) == 2:
             [(theta, pole)] = kinds.latitudes.items()
             [phi] = [y for y in kinds.angles if y != theta]
             yield "x", r * pole * sympy.cos(phi)

@@ -37,7 +37,7 @@ from lagcli.mechanics.discovery.scaling import bare_terms
 from lagcli.mechanics.discovery.search import Search, SlotUnknown
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 
-_MOST_COORDINATES = 4  # two bodies in space would take more than the work that is allowed
+_MOST_COORDINATES = 6  # two bodies in space; coupled ones in spherical coordinates are not finished
 _MOST_TOGETHER = 3  # measured: at most 3
 
 Vector = tuple[Expr, ...]

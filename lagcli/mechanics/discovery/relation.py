@@ -67,7 +67,8 @@ class Relation:
     ) -> list[dict[int, Expr]]:
         """Those that make combinations of `values` beyond the known functions and earlier ones."""
         kernel = self.kernel(len(self.vectors[0]))[::-1]
-        table = self.tree.rows([*known, *values], len(known) + len(kernel) + 8)
+        count = (len(known) + len(kernel) + 8) * len(values[0])  # components may be dependent
+        table = self.tree.rows([*known, *values], count)
         found = map(self.exact, independent(table, len(known), kernel))
         return [c for c in found if c is not None]
 
