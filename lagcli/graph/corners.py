@@ -2,7 +2,9 @@
 
     (u^2)^(k/2) = |u|^k = u^k, or u^k sign(u) for odd k
     atan2(y, x) = 2 sign(x) atan(y/(r + |x|)) + (1 - sign(x)) sign(y) pi/2,    r^2 = x^2 + y^2
-    asin(sin u) = 2 atan(sin u/(1 + |cos u|)),    atan(tan u) = sign(cos u) asin(sin u)
+    sqrt(a - a cos u) = sqrt(2 a) |sin(u/2)|,    sqrt(1 - sin^2 u) = |cos u|,    and so on
+    asin(s) = 2 atan(s/(1 + sqrt(1 - s^2))),    1 - sin^2n u = cos^2 u (1 + ... + sin^(2n - 2) u)
+    atan(tan u) = sign(cos u) asin(sin u)
 
 On each side of x = 0, y = 0 and cos u = 0 all are smooth; the phases are those of the half angle.
 
@@ -13,11 +15,12 @@ NIST Digital Library of Mathematical Functions, 4.23(iv) (the phase by the arcta
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from lagcli.graph.nodes import Call, Graph, Node, Product, ancestry
+from lagcli.graph.nodes import Call, Graph, Node, Product, Sum, ancestry, factors_of, split
 from lagcli.graph.rewriting import rewritten
+from lagcli.graph.stable import Stable
 
 _HALF = Fraction(1, 2)
 
@@ -31,12 +34,20 @@ def with_corners(graph: Graph, roots: Sequence[Node]) -> list[Node]:
 
 def _corner(graph: Graph, node: Node) -> Node:
     match node:
-        case Product(factors=factors) if any(_is_root_of_square(*pair) for pair in factors):
-            return graph.product(*(_absolute(graph, *pair) for pair in factors))
+        case Product(factors=factors) if any(e.denominator == 2 for _, e in factors):
+            found = [_absolute(graph, *pair) for pair in factors]
+            if all(part is None for part in found):
+                return node
+            pairs = [
+                each for part, pair in zip(found, factors, strict=True) for each in (part or [pair])
+            ]
+            return graph.monomial(_halved(graph, pairs))
         case Call(function="atan2", arguments=(y, x), indices=()):
             return _phase(graph, y, x)
-        case Call(function="asin", arguments=(Call(function="sin" | "cos") as sine,)):
-            return _folded(graph, sine)
+        case Call(function="asin", arguments=(argument,)):
+            match factors_of(argument):
+                case ((Call(function="sin" | "cos") as sine, n),) if n.denominator == 1 and n > 0:
+                    return _folded(graph, sine, int(n))
         case Call(function="acos", arguments=(x,)):
             complement = graph.call("asin", (x,))
             [angle] = rewritten(graph, [complement], _corner)
@@ -48,36 +59,51 @@ def _corner(graph: Graph, node: Node) -> Node:
     return node
 
 
-def _folded(graph: Graph, sine: Node) -> Node:
-    """asin(sin u) and asin(cos u): waves of triangles."""
+def _folded(graph: Graph, sine: Node, n: int = 1) -> Node:
+    """asin(sin^n u) and asin(cos^n u), waves of triangles for n = 1."""
     assert isinstance(sine, Call)
     other = graph.call("cos" if sine.function == "sin" else "sin", sine.arguments)
-    beside = graph.sum([graph.one, graph.call("abs", (other,))])
-    return graph.scaled(graph.call("atan", (graph.quotient(sine, beside),)), 2)
+    squares = graph.sum(graph.monomial([(sine, Fraction(2 * j))]) for j in range(n))
+    root = graph.monomial([(graph.call("abs", (other,)), Fraction(1)), (squares, _HALF)])
+    power = graph.monomial([(sine, Fraction(n))])
+    below = graph.sum([graph.one, root])
+    return graph.scaled(graph.call("atan", (graph.quotient(power, below),)), 2)
 
 
-def _is_root_of_square(base: Node, exponent: Fraction) -> bool:
-    """(u^2 w^4 ...)^(k/2)."""
-    return (
-        exponent.denominator == 2
-        and isinstance(base, Product)
-        and all(power.denominator == 1 and power % 2 == 0 for _, power in base.factors)
-    )
-
-
-def _absolute(graph: Graph, base: Node, exponent: Fraction) -> Node:
-    if not _is_root_of_square(base, exponent):
-        return graph.monomial(((base, exponent),))
-    assert isinstance(base, Product)
-    return graph.monomial(
-        pair for factor, power in base.factors for pair in _power(graph, factor, power * exponent)
-    )
+def _absolute(graph: Graph, base: Node, exponent: Fraction) -> list[tuple[Node, Fraction]] | None:
+    """The factors of (c u^2 w^4 ...)^(k/2), with |u|^k for u^2; None without a square."""
+    if exponent.denominator != 2:
+        return None
+    number, square = split(Stable(graph)(base) if isinstance(base, Sum) else base)
+    factors = factors_of(square)
+    if number < 0 or all(e.denominator > 1 or e % 2 for _, e in factors):
+        return None
+    found = [(graph.constant(number), exponent)]
+    for u, power in factors:
+        is_even = power.denominator == 1 and power % 2 == 0
+        found += _power(graph, u, power * exponent) if is_even else [(u, power * exponent)]
+    return found
 
 
 def _power(graph: Graph, u: Node, exponent: Fraction) -> list[tuple[Node, Fraction]]:
     """|u|^k, which is sign(u) u^k for odd k: u sign(u)/u has no pole left."""
     side = [] if exponent % 2 == 0 else [(graph.call("sign", (u,)), Fraction(1))]
     return [(u, exponent), *side]
+
+
+def _halved(graph: Graph, pairs: list[tuple[Node, Fraction]]) -> Iterator[tuple[Node, Fraction]]:
+    """With sin u = 2 sin(u/2) cos(u/2), and sinh u, where a half one divides: no pole is left."""
+    divisors = {base for base, exponent in pairs if exponent < 0}
+    for base, exponent in pairs:
+        match base:
+            case Call(function="sin" | "sinh" as name, arguments=(u,)) if exponent > 0:
+                half = (graph.scaled(u, _HALF),)
+                parts = [graph.call(each, half) for each in (name, name.replace("sin", "cos"))]
+                if divisors & {*parts}:
+                    yield graph.constant(2), exponent
+                    yield from ((part, exponent) for part in parts)
+                    continue
+        yield base, exponent
 
 
 def _phase(graph: Graph, y: Node, x: Node) -> Node:

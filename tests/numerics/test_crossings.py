@@ -56,6 +56,8 @@ def test_well_with_a_corner(seed, potential):
         ("asin(sin(3*t))", mpmath.pi / 6, mpmath.pi / 3),
         ("acos(-cos(2*t + 1))", -mpmath.mpf(1) / 2, mpmath.pi / 2),
         ("atan(tan(2*t + 1))", (mpmath.pi / 2 - 1) / 2, mpmath.pi / 2),
+        ("asin(sin(2*t)^3)", mpmath.pi / 4, mpmath.pi / 2),
+        ("acos(cos(2*t)^2)", mpmath.mpf(0), mpmath.pi / 2),
     ],
 )
 def test_waves_of_triangles(force, first, period):
@@ -64,6 +66,8 @@ def test_waves_of_triangles(force, first, period):
         "asin(sin(3*t))": lambda t: mpmath.asin(mpmath.sin(3 * t)),
         "acos(-cos(2*t + 1))": lambda t: mpmath.acos(-mpmath.cos(2 * t + 1)),
         "atan(tan(2*t + 1))": lambda t: mpmath.atan(mpmath.tan(2 * t + 1)),
+        "asin(sin(2*t)^3)": lambda t: mpmath.asin(mpmath.sin(2 * t) ** 3),
+        "acos(cos(2*t)^2)": lambda t: mpmath.acos(mpmath.cos(2 * t) ** 2),
     }[force]
     until = mpmath.mpf(10)
     corners = [first + k * period for k in range(20)]
@@ -72,6 +76,28 @@ def test_waves_of_triangles(force, first, period):
         speed = mpmath.quad(wave, parts)
         place = mpmath.quad(lambda t: (until - t) * wave(t), parts)
     claims_hold(given_to(f"forces: {{x: {force}}}"), until, place, speed)
+
+
+@pytest.mark.parametrize(
+    ("written", "potential", "corners"),
+    [
+        ("sqrt(1 - cos({b}*x))", lambda u: mpmath.sqrt(2) * abs(mpmath.sin(u / 2)), 2),
+        ("sqrt(3 - 3*cos({b}*x))", lambda u: mpmath.sqrt(6) * abs(mpmath.sin(u / 2)), 2),
+        ("sqrt(4 - 4*cos({b}*x)^2)", lambda u: 2 * abs(mpmath.sin(u)), 1),
+        ("sqrt(cosh({b}*x) - 1)/200", lambda u: mpmath.sinh(u / 2) / mpmath.sqrt(20000), 9),
+    ],
+)
+def test_a_motion_begins_at_a_corner_of_a_root(written, potential, corners):
+    """The time to x is the integral of dx/v, v^2 = 16 - 2 V."""
+    b = f"{random.Random(written).uniform(0.5, 1.5):.3g}"
+    result = simulated(given_to("V: " + written.format(b=b), v="4"), 3.0, 1e-9)
+    assert result.certificate.reached
+    with mpmath.workdps(25):
+        x, scale = mpmath.mpf(last(result, "x")), mpmath.mpf(b)
+        parts = [k * corners * mpmath.pi / scale for k in range(20)]
+        parts = [*(place for place in parts if place < x), x]
+        time = mpmath.quad(lambda y: 1 / mpmath.sqrt(16 - 2 * potential(scale * y)), parts)
+        assert abs(time - 3) < 1e-9
 
 
 @pytest.mark.parametrize("seed", range(2))
