@@ -76,12 +76,15 @@ def _absolute(graph: Graph, base: Node, exponent: Fraction) -> list[tuple[Node, 
         return None
     number, square = split(Stable(graph)(base) if isinstance(base, Sum) else base)
     factors = factors_of(square)
-    if number < 0 or all(e.denominator > 1 or e % 2 for _, e in factors):
+    even = {u for u, e in factors if e.denominator == 1 and e % 2 == 0}
+    is_square = len(even) == len(factors)
+    if isinstance(base, Sum):  # in (c - v)(c + v)/c^2 the sign of c is no corner
+        is_square = any(isinstance(u, Call) for u in even)
+    if number < 0 or not is_square:
         return None
     found = [(graph.constant(number), exponent)]
     for u, power in factors:
-        is_even = power.denominator == 1 and power % 2 == 0
-        found += _power(graph, u, power * exponent) if is_even else [(u, power * exponent)]
+        found += _power(graph, u, power * exponent) if u in even else [(u, power * exponent)]
     return found
 
 

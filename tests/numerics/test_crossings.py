@@ -301,7 +301,7 @@ def test_a_force_with_a_vertical_tangent(accuracy):
     ("force", "method", "what"),
     [
         ("atan(sin({w}*t)/cos({w}*t))", "taylor80", "jumps there"),
-        ("asin(sin({w}*t)^3)", "taylor64", "has a corner there"),
+        ("asin((sin({w}*t) + sin({w}*t)^3)/2)", "taylor64", "has a corner there"),
         ("tan({w}*t)", "taylor64", "grows without bound"),
         ("sqrt(2 - {w}*t)", "taylor64", "are not defined there"),
         ("-exp(-exp(300*{w}*t))", "taylor64", "is beyond all numbers there"),
