@@ -179,16 +179,16 @@ class RestPoints(RestConditions):
 
     @cached_property
     def _periods(self) -> dict[Symbol, int]:
-        """The n > 1 by their angles: of cos(q/n) in forces that one turn changes."""
+        """The n > 1 by their coordinates: of cos(q/n) in forces that one turn changes."""
         positions = [e.f for e in self.dynamics.constraints.equations if e.holonomic]
         found, formulas = {}, [*self.forces_at_rest, *positions]
         nodes = {node for f in formulas for node in f.atoms(*CIRCULAR)}
         hidden: dict[Expr, Expr] = {node: sympy.Dummy() for node in nodes}
         for q in self.system.q:
             rates = [simplify(x.args[0].diff(q)) for x in nodes if not free_of(x, [q])]
-            if not rates or not all(rate.is_Rational for rate in rates):
-                continue
-            n = sympy.ilcm(1, *(rate.q for rate in rates))
+            if not all(rate.is_Rational and not rate.is_Integer for rate in rates):
+                continue  # an angle of which cos(q) is felt, too, has one turn
+            n = sympy.ilcm(1, 1, *(rate.q for rate in rates))
             if n > 1 and all(free_of(f.xreplace(hidden), [q]) for f in formulas):
                 turned = (is_zero(f.xreplace({q: q + 2 * sympy.pi}) - f) for f in formulas)
                 if not all(same is True for same in turned):
