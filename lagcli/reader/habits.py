@@ -59,6 +59,10 @@ INSTEAD = {
     **dict.fromkeys(("dot", "norm", "cross"), "write the sum over the components"),
     **dict.fromkeys(("grad", "gradient", "nabla"), "a force that V has is found from V"),
     **dict.fromkeys(("Eq", "Equality"), "write left = right"),
+    **dict.fromkeys(
+        ("mod", "fmod", "floor", "ceil", "round"),
+        "a jump is written with sign: (1 + sign(x - 1))/2",
+    ),
     **dict.fromkeys(("dirac", "DiracDelta"), "a kick at t = 0 is a velocity under initial"),
     "max": "compare two at a time: max(a, b) is (a + b + abs(a - b))/2",
     "min": "compare two at a time: min(a, b) is (a + b - abs(a - b))/2",

@@ -6,8 +6,9 @@ import re
 from typing import get_args
 
 from lagcli.problem_data import Assumption
-from lagcli.reader.habits import is_constant, unit_behind
+from lagcli.reader.habits import CASE, is_constant, unit_behind
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.number_units import unit_mistake
 
 #: What is found without a question.
 _FOUND = frozenset(
@@ -32,7 +33,10 @@ def one_sum(node: DocumentNode, what: str) -> str:
         terms = [k if isinstance(v, Scalar) and v.is_empty else v for v, k in pairs]
     written = [term.value.strip() for term in terms if isinstance(term, Scalar)]
     if what.startswith("the initial") and len(written) == 2:
-        return "write x: {}, x': {}".format(*written)
+        name, with_unit = what.split("'")[1], unit_mistake(" ".join(written))
+        return with_unit[1] if with_unit else "write {0}: {1}, {0}': {2}".format(name, *written)
+    if any(re.search(r"\bif\b|[<>]", term) for term in written):
+        return CASE
     if what == "'until'" and written:
         return f"a motion begins at t = 0: write {written[-1].split()[-1]}"
     return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""

@@ -21,7 +21,7 @@ from lagcli.problem_data import Assumption
 from lagcli.reader.foreign.words import Vocabulary, rate_meant
 from lagcli.reader.habits import INSTEAD, foreign_function, meanings
 from lagcli.reader.scope import CONSTANT, Role, Scope
-from lagcli.reader.suggest import closest, did_you_mean
+from lagcli.reader.suggest import alike, closest, did_you_mean
 from lagcli.reader.undeclared import COORDINATE, UNDECLARED
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ def name_mistakes(
     for node in walk(expression):
         match node:
             case Quotient(numerator=Name() as above, denominator=Name(name="dt") as below) if (
-                above.name[:1] == "d" and scope.kinds.get(above.name[1:]) == "coordinate"
+                above.name[:1] == "d" and alike(above.name[1:], scope.of_kind("coordinate"))
                 and not {above.name, "dt"} & scope.kinds.keys()
             ):  # fmt: skip
                 covered |= {id(above), id(below)}

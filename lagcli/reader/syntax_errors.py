@@ -222,7 +222,7 @@ def _unexpected(
 
 
 def _contact_advice(written: str) -> str:
-    gap = re.sub(r"([<>])(?!=)", r"\1=", written.strip())
+    gap = re.sub(r"=?([<>])=?", r"\1=", written.strip())
     if len(written) > 40 or len(re.findall("[<>≤≥]", written)) > 1:
         gap = "y >= 0"
     return f"a one-sided contact stands under contacts, as in floor: {gap}"

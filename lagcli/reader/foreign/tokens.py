@@ -7,6 +7,7 @@ import unicodedata
 from html import unescape
 from typing import NamedTuple
 
+from lagcli.notation.greek import BY_LETTER, BY_NAME
 from lagcli.reader.foreign.words import Unclear, Vocabulary, parts_of
 from lagcli.reader.habits import unit_behind
 
@@ -90,7 +91,8 @@ def _square_of_speed(text: str, names: Vocabulary) -> str:
 def _leibniz(text: str, names: Vocabulary) -> str:
     r"""A prime for each dx/dt, d/dt x and \frac{dx}{dt}."""
     for x in sorted(names.coordinates, key=len, reverse=True):
-        d, name = r"(?:d|\\mathrm\{?d\}?|∂|\\partial)\s*", rf"\\?{re.escape(x)}(?!\w)(?:\(t\))?"
+        spelled = "|".join(map(re.escape, {x, BY_NAME.get(x, x), BY_LETTER.get(x, x)}))
+        d, name = r"(?:d|\\mathrm\{?d\}?|∂|\\partial)\s*", rf"\\?(?:{spelled})(?!\w)(?:\(t\))?"
         for order, above, below in ((1, "", ""), (2, r"(?:\^\{?2\}?|²)", r"(?:\^\{?2\}?|²)")):
             prime = x + "'" * order
             below_line = rf"(?:\({d}t{below}\)|{d}t{below})"
