@@ -584,3 +584,17 @@ def test_where_the_equations_have_no_linear_form_rest_is_undecided(text):
     dynamics = derive(text).dynamics
     assert all(e.verdict.stable is None for e in equilibria(dynamics).equilibria)
     assert "singular" in modes(dynamics).reason
+
+
+@pytest.mark.parametrize("pull", ["x", "y"])
+def test_the_azimuth_decides_nothing_at_a_pole(pull):
+    """V of a saddle k x² - 2 k y² at the pole of a sphere: no minimum for any azimuth."""
+    wave = {"x": "cos(b)^2", "y": "sin(b)^2"}[pull]
+    text = (
+        "coordinates: [a, b]\nparameters: {k: {assume: positive}, W: {}, n: {assume: positive}}\n"
+        f"T: (a'^2 + (b' + W)^2*cos(a)^2)/2\nV: W^2*cos(a)^2/2 + (3*k*{wave} - n)*cos(a)^2/2\n"
+    )
+    poles = [e for e in equilibria(derive(text).dynamics).equilibria or () if e.indeterminate]
+    assert poles
+    assert all(e.verdict.minimum is None and e.verdict.stable is None for e in poles)
+    assert all("b" not in e.at for e in poles)

@@ -217,6 +217,13 @@ class Place:
         gone = OnMeridians(self.linear).indeterminate
         return frozenset(self.linear.system.q[j] for j in gone)
 
+    @property
+    def without_indeterminate(self) -> Mapping[Symbol, Expr] | None:
+        """The values without an azimuth that a pole has not; None where it has none of these."""
+        values, gone = self.point.values, self.indeterminate
+        rest = {q: value for q, value in values.items() if q not in gone}
+        return rest if len(rest) < len(values) else None
+
     @cached_property
     def modes(self) -> list[NormalMode]:
         """The normal modes, each verified; empty where the motion is singular."""
@@ -250,9 +257,11 @@ class SmallOscillations:
         found = [(each, each.points()) for each in self.held]
         if all(points is None for _, points in found):
             return None
-        return [
+        places = [
             Place(each, point, self.held[0]) for each, points in found for point in points or ()
         ]
+        known = [place.point.values for place in places]
+        return [place for place in places if place.without_indeterminate not in known]
 
     @property
     def complete(self) -> bool:

@@ -93,7 +93,9 @@ def judge_on_meridians(linear: OnMeridians) -> Stability:
         found = by_minimum(near)
     except ZeroDivisionError:
         return undecided(NO_MOTION)
-    if found is None:
+    gone = {linear.system.q[j] for j in linear.indeterminate}
+    differs = any(e.free_symbols & gone for e in (found and found.minimum) or ())
+    if found is None or differs or (found.stable is False and linear.turns):
         return undecided(no_coordinates)
     along = {*linear.point.free} - {linear.system.q[j] for j in linear.indeterminate}
     across = found.across and bool(along)  # at a pole of a sphere the azimuth is no family
