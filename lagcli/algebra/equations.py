@@ -55,6 +55,8 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
         plain = solve_for(without_phases(expression, {x: phase}), x)
         return plain and Roots(tuple(rounded(root + phase) for root in plain.values), plain.angle)
     if (n := common_multiple(expression, unknown)) > 1:
+        if n > _MAX_DEGREE:
+            return None  # 299792458 turns
         plain = solve_for(without_phases(expression.xreplace({unknown: unknown / n}), {}), unknown)
         return plain and Roots(_over_all_turns(plain.values, n), plain.angle)
     field = Field([expression], closed=True)

@@ -69,6 +69,10 @@ def test_the_roots_are_those_of_a_scan(seed):
     assert sorted(r for r in found if abs(r) < 9) == pytest.approx(sorted(scanned(f, values)))
 
 
+def test_turns_are_not_counted_without_end():
+    assert not solve_system([sympy.sin(299792458 * x)], [x]).complete
+
+
 @pytest.mark.parametrize("function", [sympy.sinh, sympy.cosh, sympy.exp, sympy.tanh])
 @pytest.mark.parametrize("inverse", [sympy.asinh, sympy.atanh])
 def test_a_function_of_a_multiple_of_an_inverse_one(function, inverse):
