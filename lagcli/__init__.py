@@ -10,6 +10,7 @@ if TYPE_CHECKING:
         Motion,
         Problem,
         ProblemError,
+        Refusal,
         Report,
         Solution,
         Sweep,
@@ -26,9 +27,9 @@ if TYPE_CHECKING:
 
 __version__ = "0.1.0"
 __all__ = [
-    "Account", "Formula", "Motion", "Problem", "ProblemError", "Report", "Solution", "Sweep",
-    "__version__", "check", "explain", "load", "load_ipython_extension", "loads", "problem",
-    "simulate", "solve", "sweep",
+    "Account", "Formula", "Motion", "Problem", "ProblemError", "Refusal", "Report", "Solution",
+    "Sweep", "__version__", "check", "explain", "load", "load_ipython_extension", "loads",
+    "problem", "simulate", "solve", "sweep",
 ]  # fmt: skip
 
 

@@ -7,7 +7,8 @@
     lagcli.simulate(pendulum, until=10).to_pandas()
 
 Every function takes what `load`, `loads` or `problem` gives, or a path or a name to load.  What
-goes wrong in a file is a `ProblemError`, whose message shows each mistake at its place.
+goes wrong in a file is a `ProblemError`, whose message shows each mistake at its place; a motion
+that cannot be computed as requested is a `Refusal`.
 """
 
 from __future__ import annotations
@@ -23,12 +24,13 @@ from lagcli.interface.ensemble import Sweep, Vary, ensemble
 from lagcli.interface.formula import Formula
 from lagcli.interface.motion import Motion, integrate
 from lagcli.interface.solution import Solution
+from lagcli.numerics.equations.refusal import Refusal
 from lagcli.problem_data import Problem
 from lagcli.studies.check import Report
 
 __all__ = [
-    "Account", "Formula", "Motion", "Problem", "ProblemError", "Report", "Solution", "Sweep",
-    "check", "explain", "load", "loads", "problem", "simulate", "solve", "sweep",
+    "Account", "Formula", "Motion", "Problem", "ProblemError", "Refusal", "Report", "Solution",
+    "Sweep", "check", "explain", "load", "loads", "problem", "simulate", "solve", "sweep",
 ]  # fmt: skip
 
 Values = Mapping[str, object]
@@ -175,7 +177,7 @@ def simulate(
     ------
     ProblemError
         When a column, a value or the state does not fit the problem.
-    lagcli.numerics.equations.refusal.Refusal
+    Refusal
         When no run can be made.
     """
     from lagcli.pipeline import with_lagrangian

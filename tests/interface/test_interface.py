@@ -288,3 +288,9 @@ def test_an_accuracy_lies_between_0_and_1(accuracy) -> None:
     problem = lagcli.loads("{coordinates: [x], T: x'^2/2, V: x^2/2, initial: {x: 1}}")
     with pytest.raises(lagcli.ProblemError, match="it lies between 0 and 1"):
         lagcli.simulate(problem, until=1, accuracy=accuracy)
+
+
+def test_a_run_that_cannot_be_made_is_a_refusal_of_the_public_interface():
+    text = "coordinates: [x]\nparameters: [m]\nT: m*x'^2/2\ninitial: {x: 1}\n"
+    with pytest.raises(lagcli.Refusal, match="'m' has no value"):
+        lagcli.simulate(lagcli.loads(text), until=1)
