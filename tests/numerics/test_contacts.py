@@ -273,6 +273,25 @@ initial: {{x: -3, y: {y!r}, x': 1}}
     assert result.rows[-1][1:] == pytest.approx(exact, abs=1e-10)
 
 
+@pytest.mark.parametrize(("clearance", "accuracy"), [(1e-12, 1e-9), (1e-12, 1e-12), (-1e-11, 1e-6)])
+def test_a_ball_that_almost_touches_the_floor_is_told_from_one_that_does(clearance, accuracy):
+    """Thrown down under a force upwards: y = c + (t - 2)^2/2, or reflected a little earlier."""
+    text = f"""
+coordinates: [y]
+parameters: {{c: {clearance!r}}}
+T: y'^2/2
+V: -y
+contacts: {{floor: {{gap: y >= 0, restitution: 1}}}}
+initial: {{y: 2 + c, y': -2}}
+"""
+    result = simulated(text, 4, accuracy)
+    assert result.certificate.reached
+    speed = math.sqrt(2 * max(-clearance, 0.0))
+    after = 2 + speed
+    exact = max(clearance, 0.0) + speed * after + after**2 / 2, speed + after
+    assert result.rows[-1][1:] == pytest.approx(exact, abs=1e-10 if speed else 1e-14)
+
+
 @pytest.mark.parametrize(("accuracy", "room"), [(1e-6, 1e-7), (1e-4, 1e-9)])
 def test_two_bumps_that_are_almost_grazed_are_passed(accuracy, room):
     """Of the runs at the next finer accuracy one touches the first bump, the other does not."""

@@ -35,8 +35,9 @@ from lagcli.record import record, replace
 #: The clocks of two runs differ by less than this part of the span.
 _SAME_TIME = 1e-12
 #: Whether a contact is struck may be known to a finer accuracy, down to what doubles reach, if that
-#: is reached: 1e-10 tells a ray 2e-10 inside of a disc from a graze; behind it 1e-12 is not.
-_FINER, _FINEST = 0.1, 1e-12
+#: is reached: 1e-10 tells a ray 2e-10 inside of a disc from a graze, behind it 1e-12 is not;
+#: a clearance of 1e-12 is seen at 1e-13.
+_FINER, _FINEST = 0.3, 1e-15
 
 
 def simulate(problem: Problem, request: RunRequest, progress: Progress = None) -> Result:
