@@ -227,16 +227,18 @@ def with_assumed_sign(
 def vanishes_at_random(expression: Expr) -> bool:
     """Whether an expression is 0 at random values of its symbols at which it is real.
 
-    To 25 digits beside its terms, or to 9 where it has a rounded number in it.
+    To 25 digits beside its terms, or to 9 where it has a rounded number in it.  Moduli and signs
+    are tried with letters of both signs.
     """
-    source = random.Random("values")
+    source, both = random.Random("values"), expression.has(sympy.Abs, sympy.sign)
     symbols = sorted(expression.free_symbols, key=lambda s: s.name)
     evaluator = Evaluator(sympy.Add.make_args(expression), 50)
     decimals = any(len(str(r.q)) > 7 for r in expression.atoms(sympy.Rational))
     found: list[bool] = []
     for _ in range(_SAMPLES):
         sizes = {s: mpf(source.randint(100, 3000)) / 1009 for s in symbols}
-        values = {s: with_assumed_sign(source, s, v, 1) for s, v in sizes.items()}
+        chance = 0.5 if both else 1
+        values = {s: with_assumed_sign(source, s, v, chance) for s, v in sizes.items()}
         try:
             parts = evaluator(values)
         except (ArithmeticError, ValueError, TypeError):
@@ -246,6 +248,6 @@ def vanishes_at_random(expression: Expr) -> bool:
         with mpmath.workdps(50):
             scale = max(mpf(1), *map(abs, parts))
             found.append(abs(sum(parts)) < scale * mpf(10) ** (-9 if decimals else -25))
-        if not found[-1] or len(found) == (2 if symbols else 1):
+        if not found[-1] or len(found) == ((6 if both else 2) if symbols else 1):
             break
     return bool(found) and all(found)

@@ -48,16 +48,23 @@ def pairs_of_values(
             open_ = [e for e in there if not vanishes_at_random(e)]
             if not open_:
                 return None  # a line of solutions
-            others = solve_for(open_[0], gone)
-            if others is None:
+            solved = [solve_for(e, gone) for e in open_[: 1 + root.has(sympy.sign)]]
+            if None in solved:
                 return None
-            candidates = [{kept: root, gone: simplify(other)} for other in others.values]
-            pairs += [
+            candidates = [
+                {kept: root, gone: simplify(other)}
+                for others in solved
+                for other in (others.values if others else ())
+            ]
+            found = [
                 pair
                 for pair in candidates
                 if _may_be_real(pair[gone])
                 and all(vanishes_at_random(_at(e, pair)) for e in equations)
             ]
+            if root.has(sympy.sign) and not found:
+                return None  # each may hold for one sign alone
+            pairs += [pair for k, pair in enumerate(found) if pair not in found[:k]]
     return pairs
 
 

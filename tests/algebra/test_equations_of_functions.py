@@ -69,6 +69,14 @@ def test_the_roots_are_those_of_a_scan(seed):
     assert sorted(r for r in found if abs(r) < 9) == pytest.approx(sorted(scanned(f, values)))
 
 
+def test_a_root_of_open_sign_is_tried_with_both_signs():
+    """x = y = -(b/a)^(1/3), not y = -(|b|/a)^(1/3)."""
+    y = sympy.Symbol("y", real=True)
+    [found] = solve_system([a * x * y**2 + b, a * x**2 * y + b], [x, y]).solutions
+    values = {a: sympy.Rational(13, 11), b: sympy.Rational(-3, 7)}
+    assert abs((found.values[x] - found.values[y]).subs(values).evalf(30)) < 1e-20
+
+
 def test_turns_are_not_counted_without_end():
     assert not solve_system([sympy.sin(299792458 * x)], [x]).complete
 
