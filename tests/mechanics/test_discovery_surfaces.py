@@ -68,3 +68,12 @@ def test_keplers_problem_on_a_sphere_has_a_runge_lenz_vector(x, y, z):
     V = f"(-1)*k*({z})/sqrt(({x})^2 + ({y})^2)"
     found = summary(derive(on("x^2 + y^2 + z^2 = 1", V)).discovery)
     assert (found.independent, found.integrable) == (3, True)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("V", ["(a*x^2 + b*y^2 + c*z^2)/2 + k/x^2 + m/y^2 + g/z^2"])
+def test_no_integral_is_said_to_be_left_that_was_found_in_other_terms(V):
+    """Rosochatius, 1877; Moser, *Various aspects of integrable Hamiltonian systems* (1980)."""
+    derivation = derive(on("x^2 + y^2 + z^2 = 1", V))
+    assert not any("not solved" in reason for reason in derivation.discovery.stopped)
+    assert summary(derivation.discovery).integrable is True

@@ -49,7 +49,9 @@ def search_on_surface(
     elif freedom > 1 and setting.system.t not in setting.equations_symbols:
         found = search.quadratic(listing.points)
         if _few(setting, [*listing.points, *found]):
-            found += search.of_velocities([*listing.points, *found])
+            solved = search.of_velocities([*listing.points, *found])
+            search.unsolved = max(0, search.unsolved - len(solved))  # the same, in other terms
+            found += solved
         listing.add_hidden(("", charge) for charge in found)
         setting.words.append(
             "and of second degree without explicit time, with coefficients of second degree"
