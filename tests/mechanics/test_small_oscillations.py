@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import pytest
+import sympy
+from mpmath import mpf
 from sympy import Expr, Matrix, acos
 
 import lagcli
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.oscillations.normal_modes import beats
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.reader import read_problem
 
@@ -78,6 +81,21 @@ parameters: {m: POSITIVE, k: POSITIVE, W: POSITIVE}
 L: m*((x' - W*y)^2 + (y' + W*x)^2)/2 - k*(x^2 + y^2)/2
 """
     assert set(frequencies(text)) == {*formulas("abs(W - sqrt(k/m))", "W + sqrt(k/m)")}
+
+
+@pytest.mark.parametrize("angle", [0.7, 2.3])
+def test_roots_of_a_sum_and_a_difference_hold_for_both_signs_of_what_they_share(angle):
+    """ω = p ± q with 4 p² = W_1 + W_2 + 2 sqrt(W_1 W_2), W_1 W_2 = a² cot² c/(b d) here."""
+    a, b, d = sympy.symbols("a b d", positive=True)
+    c = sympy.Symbol("c", real=True)
+    both = (1 + a / b) * a / d + (1 + 4 * a / b) / sympy.tan(c) ** 2
+    root = sympy.sqrt(both**2 - 4 * a**2 / (b * d * sympy.tan(c) ** 2))
+    squares = [sympy.expand(both - root) / 2, sympy.expand(both + root) / 2]
+    pair = beats(squares, [{a: mpf("0.7"), b: mpf("1.3"), d: mpf("2.1"), c: mpf("0.7")}])
+    assert pair is not None
+    values = {a: 0.7, b: 1.3, d: 2.1, c: angle}
+    found = [float(each.subs(values)) ** 2 for each in pair]
+    assert found == pytest.approx([float(each.subs(values)) for each in squares])
 
 
 @pytest.mark.long

@@ -149,8 +149,9 @@ def beats(squares: Sequence[Expr], chosen: Sequence[Mapping[Symbol, mpf]]) -> li
     cross = 2 * simplify(sympy.sqrt(times))
     p, q = (sympy.sqrt(simplify((both + sign_ * cross) / 4)) for sign_ in (1, -1))
     p, q = shorter(simplify(p), p), shorter(simplify(q), q)
-    # p + |q| and p - |q| are together p + q and p - q
-    q = q.replace(sympy.Abs, lambda x: x)
+    # p + |q| and p - |q| are together p + q and p - q; within a root |q| stays
+    factors = sympy.Mul.make_args(q)
+    q = sympy.Mul(*(f.args[0] if isinstance(f, sympy.Abs) else f for f in factors))
     pair = [p - q, p + q]
     plain = [sympy.sqrt(simplify(square)) for square in squares]
     if sum(map(sympy.count_ops, pair)) >= sum(map(sympy.count_ops, plain)):
