@@ -145,6 +145,9 @@ class RestPoints(RestConditions):
             if never_together(each.positive):
                 continue
             solution = replace(each, values=self._to_the_last_digit(each.values))
+            if self.has_unreal_power(solution.values):
+                self.at_open_powers = True
+                continue
             point = self._point(solution)
             if any(not free_of(x, [self.system.t]) for x in solution.values.values()):
                 lost |= len(solution.values) < len(self.system.q)

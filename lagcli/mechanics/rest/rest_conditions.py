@@ -149,8 +149,17 @@ class RestConditions:
 
     def has_open_power(self, values: Mapping[Symbol, Expr]) -> bool:
         """Whether 0^n, with n an open exponent, stands in some force there."""
+        return any(is_zero(at(p.base, values)) is True for p in self._open_powers)
+
+    def has_unreal_power(self, values: Mapping[Symbol, Expr]) -> bool:
+        """Whether (-1)^n, with n an open exponent, stands in some force there."""
+        powers = (p for p in self._open_powers if not p.exp.is_integer)
+        return any(sign(at(p.base, values)) == -1 for p in powers)
+
+    @cached_property
+    def _open_powers(self) -> list[Expr]:
         powers = {p for f in self.forces_at_rest for p in f.atoms(sympy.Pow)}
-        return any(p.exp.free_symbols and is_zero(at(p.base, values)) is True for p in powers)
+        return [p for p in powers if p.exp.free_symbols]
 
     @cached_property
     def equations(self) -> list[Expr]:
