@@ -252,8 +252,8 @@ def _cubic_roots(a0: Rational, a1: Rational, a2: Rational) -> list[Expr]:
     return [sympy.real_root(-q / 2 + root, 3) + sympy.real_root(-q / 2 - root, 3) - a2 / 3]
 
 
-def _radicals(powers: Sequence[Expr], k: int) -> list[Expr]:
-    """The real x with x^k one of the given values."""
+def _radicals(powers: Sequence[Expr], k: int) -> list[Expr] | None:
+    """The real x with x^k one of the given values; None: an odd root of an angle's open sign."""
     roots: list[Expr] = []
     for value in map(simplify, powers):
         if value.is_zero:
@@ -267,8 +267,10 @@ def _radicals(powers: Sequence[Expr], k: int) -> list[Expr]:
             roots.append(sympy.Pow(value, Rational(1, k)))
         elif value.is_nonpositive:
             roots.append(-sympy.Pow(-value, Rational(1, k)))
-        else:
+        elif value.is_rational_function():
             roots.append(sympy.sign(value) * sympy.Pow(sympy.Abs(value), Rational(1, k)))
+        else:
+            return None
     return roots
 
 
