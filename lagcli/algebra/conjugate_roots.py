@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra.equations import written
+from lagcli.algebra.decimals import written
 from lagcli.algebra.simplification import shape, simplify
 from lagcli.expression import Expression, Name, Sum, opposite, walk
 from lagcli.rewriting import put_in, rebuilt

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra.entry import Field
-from lagcli.algebra.equations import coefficients
 from lagcli.algebra.linear import solve_linear
+from lagcli.algebra.polynomial_roots import coefficients
 
 
 def determinant(matrix: Sequence[Sequence[Expr]]) -> Expr | None:

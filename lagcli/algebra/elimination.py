@@ -15,8 +15,8 @@ import sympy
 from sympy import Dummy, Expr, Symbol
 
 from lagcli.algebra.entry import Field
-from lagcli.algebra.equations import coefficients
 from lagcli.algebra.field import Element
+from lagcli.algebra.polynomial_roots import coefficients
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.platform.effort import EFFORT, Work
 

@@ -9,8 +9,8 @@ import sympy
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra.build import CIRCULAR, without_jumps
+from lagcli.algebra.decimals import rounded
 from lagcli.algebra.entry import Field
-from lagcli.algebra.equations import rounded
 from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import is_zero, simplify

@@ -9,9 +9,9 @@ import sympy
 from sympy import Expr, S
 
 from lagcli.algebra.entry import Field
-from lagcli.algebra.equations import coefficients
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.one_ratio import in_one_ratio
+from lagcli.algebra.polynomial_roots import coefficients
 from lagcli.algebra.ring import factorization
 from lagcli.algebra.signs import between_angles, sign, sign_beside_zero, sign_of_circle
 from lagcli.algebra.simplification import simplify

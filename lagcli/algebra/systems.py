@@ -15,7 +15,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra.entry import Field
-from lagcli.algebra.equations import coefficients, solve_for
+from lagcli.algebra.equations import solve_for
 from lagcli.algebra.opening import (
     by_distances,
     opened,
@@ -24,6 +24,7 @@ from lagcli.algebra.opening import (
     whole_angles,
     without_phases,
 )
+from lagcli.algebra.polynomial_roots import coefficients
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.resultants import pairs_of_values, substituted
 from lagcli.algebra.signs import sign

@@ -16,9 +16,9 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.entry import Field
-from lagcli.algebra.equations import polynomial_roots
 from lagcli.algebra.linear import nullspace
 from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.polynomial_roots import polynomial_roots
 from lagcli.diagnostics import Diagnostic, ProblemError, Span
 from lagcli.expression import Name
 from lagcli.mechanics.constraints import ConstraintEquation

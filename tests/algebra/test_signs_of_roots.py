@@ -8,7 +8,7 @@ import pytest
 import sympy
 
 from lagcli.algebra import simplify
-from lagcli.algebra.equations import written
+from lagcli.algebra.decimals import written
 from lagcli.algebra.positivity import sign_of, weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.expression import Call, walk

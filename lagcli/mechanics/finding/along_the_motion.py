@@ -20,8 +20,8 @@ from mpmath import mpf
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.decimals import written
 from lagcli.algebra.elimination import EliminatedExpression, eliminate
-from lagcli.algebra.equations import written
 from lagcli.algebra.numeric import Evaluator
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics

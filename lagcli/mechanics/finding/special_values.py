@@ -11,8 +11,9 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra import simplify
+from lagcli.algebra.decimals import is_decimal
 from lagcli.algebra.entry import Field
-from lagcli.algebra.equations import is_decimal, solve_for
+from lagcli.algebra.equations import solve_for
 from lagcli.algebra.signs import sign
 from lagcli.algebra.weights import NotAPower, Weights, weights
 from lagcli.mechanics.finding.reach import real_value

@@ -11,7 +11,8 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify
-from lagcli.algebra.equations import Roots, is_decimal, solve_for
+from lagcli.algebra.decimals import is_decimal
+from lagcli.algebra.equations import Roots, solve_for
 from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.finding.passing import Passage, Passing, admissible
 from lagcli.mechanics.finding.passings import Passings

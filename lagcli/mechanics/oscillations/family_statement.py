@@ -8,7 +8,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra.build import free_of
-from lagcli.algebra.equations import written
+from lagcli.algebra.decimals import written
 from lagcli.expression import Expression
 from lagcli.mechanics.rest.rest_conditions import RestPoint
 

@@ -10,7 +10,7 @@ from mpmath import mpf
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra import nullspace, simplify
-from lagcli.algebra.equations import decimal, is_decimal
+from lagcli.algebra.decimals import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.positivity import sign_of, weak_sign, without_moduli
 from lagcli.algebra.signs import sign

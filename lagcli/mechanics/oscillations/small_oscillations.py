@@ -19,7 +19,7 @@ from functools import cached_property
 from sympy import Expr, I, S, Symbol, im
 
 from lagcli.algebra import dot, is_zero
-from lagcli.algebra.equations import written
+from lagcli.algebra.decimals import written
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of, vanishing_part
 from lagcli.algebra.signs import sign

@@ -12,7 +12,7 @@ from sympy import Expr, S
 from lagcli.algebra import shape, terms
 from lagcli.algebra.build import symbol
 from lagcli.algebra.conjugate_roots import written_alike
-from lagcli.algebra.equations import written
+from lagcli.algebra.decimals import written
 from lagcli.algebra.factors import square_part
 from lagcli.algebra.simplification import fraction
 from lagcli.algebra.writing import Writer

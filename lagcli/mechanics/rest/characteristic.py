@@ -12,7 +12,7 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import Field
 from lagcli.algebra.determinants import determinant_in
-from lagcli.algebra.equations import factor_roots
+from lagcli.algebra.polynomial_roots import factor_roots
 from lagcli.mechanics.rest.linearization import Linearization
 
 

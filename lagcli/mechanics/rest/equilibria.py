@@ -13,7 +13,7 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import CIRCULAR, free_of
-from lagcli.algebra.equations import decimal, is_decimal
+from lagcli.algebra.decimals import decimal, is_decimal
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import NO_VALUE, at
 from lagcli.algebra.signs import sign

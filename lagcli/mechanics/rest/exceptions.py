@@ -10,7 +10,7 @@ from sympy.core.function import AppliedUndef
 
 from lagcli.algebra import simplify
 from lagcli.algebra.build import free_of
-from lagcli.algebra.equations import written
+from lagcli.algebra.decimals import written
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, solve_system

@@ -22,7 +22,7 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import Field, dot, is_zero, nullspace, simplify, solve_linear
 from lagcli.algebra.build import CIRCULAR, free_of
-from lagcli.algebra.equations import is_decimal
+from lagcli.algebra.decimals import is_decimal
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.place import NO_VALUE, at, nearly_vanishes, vanishes, where_positive

@@ -11,8 +11,8 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import Field, dot, nullspace, rank, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant, determinant_in
-from lagcli.algebra.equations import factors_by_coefficients
 from lagcli.algebra.place import at
+from lagcli.algebra.polynomial_roots import factors_by_coefficients
 from lagcli.algebra.positivity import is_positive, sign_of, weak_sign
 from lagcli.mechanics.rest.characteristic import Characteristic
 from lagcli.mechanics.rest.linearization import Linearization

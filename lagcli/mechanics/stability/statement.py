@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 from sympy import Expr, S
 
 from lagcli.algebra import is_zero
+from lagcli.algebra.decimals import written
 from lagcli.algebra.determinants import determinant
-from lagcli.algebra.equations import written
 from lagcli.mechanics.conditions import above, conditions, opposites
 from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.rest.linearization import Linearization

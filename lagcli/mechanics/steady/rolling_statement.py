@@ -6,8 +6,8 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.decimals import written
 from lagcli.algebra.entry import Field
-from lagcli.algebra.equations import written
 from lagcli.algebra.positivity import vanishing_part
 from lagcli.expression import Expression
 from lagcli.mechanics.conditions import conditions

@@ -12,7 +12,7 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
-from lagcli.algebra.equations import rounded, written
+from lagcli.algebra.decimals import rounded, written
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import vanishing_part, without_moduli
 from lagcli.algebra.signs import sign, sign_beside_zero
