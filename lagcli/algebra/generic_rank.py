@@ -9,10 +9,9 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol
 
-from lagcli.algebra.numeric import Evaluator, with_assumed_sign
+from lagcli.algebra.numeric import DIGITS, Evaluator, with_assumed_sign
 from lagcli.algebra.row_rank import independent_rows, rows_of
 
-_DIGITS = 50
 _NONZERO = mpf(10) ** -25  # of a row; rounding is some 1e-48 of it
 
 
@@ -35,10 +34,10 @@ def has_full_rank(A: Sequence[Sequence[Expr]]) -> bool:
     source = random.Random(f"lagcli rank {len(A)} {width}")
     values = {s: _drawn(s, source) for s in sorted(_symbols(entries), key=str)}
     try:
-        flat = Evaluator(entries, _DIGITS)(values)
+        flat = Evaluator(entries)(values)
     except (ArithmeticError, ValueError, TypeError):
         return False
-    with mpmath.workdps(_DIGITS):
+    with mpmath.workdps(DIGITS):
         return len(independent_rows(rows_of(flat, width), _NONZERO).independent) == width
 
 

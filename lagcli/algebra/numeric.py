@@ -31,7 +31,12 @@ _FUNCTIONS: dict[str, Callable[..., Any]] = {
 }
 
 
-_SAMPLES = 12
+#: Decimal digits of the numbers that decide whether something is 0: of its terms rounding leaves
+#: some 1e-48, and each threshold lies between that and what was measured of those that are not 0.
+DIGITS = 50
+#: Where double roots are told from two: a double root is known to half of the digits.
+FINE_DIGITS = 90
+_SAMPLES = 12  # states that are drawn: 6 real ones are enough, 2 where there is no modulus
 #: Binary digits before the point beyond which a function takes all memory: of the exponent of
 #: exp(x), of the multiples of pi in x.
 _LARGEST = dict.fromkeys(("exp", "sinh", "cosh", "tanh", "coth"), 64)
@@ -91,7 +96,7 @@ class Evaluator:
     def __init__(
         self,
         expressions: Sequence[Expr],
-        digits: int = 50,
+        digits: int = DIGITS,
         functions: Mapping[str, Callable[..., Any]] | None = None,
     ) -> None:
         self.digits = digits
@@ -232,7 +237,7 @@ def vanishes_at_random(expression: Expr) -> bool:
     """
     source, both = random.Random("values"), expression.has(sympy.Abs, sympy.sign)
     symbols = sorted(expression.free_symbols, key=lambda s: s.name)
-    evaluator = Evaluator(sympy.Add.make_args(expression), 50)
+    evaluator = Evaluator(sympy.Add.make_args(expression))
     decimals = any(len(str(r.q)) > 7 for r in expression.atoms(sympy.Rational))
     found: list[bool] = []
     for _ in range(_SAMPLES):
@@ -245,7 +250,7 @@ def vanishes_at_random(expression: Expr) -> bool:
             continue
         if not all(isinstance(part, mpf) and mpmath.isfinite(part) for part in parts):
             continue
-        with mpmath.workdps(50):
+        with mpmath.workdps(DIGITS):
             scale = max(mpf(1), *map(abs, parts))
             found.append(abs(sum(parts)) < scale * mpf(10) ** (-9 if decimals else -25))
         if not found[-1] or len(found) == ((6 if both else 2) if symbols else 1):

@@ -10,11 +10,10 @@ import sympy
 from mpmath import mpf
 from sympy import Expr, Pow, Rational, S, Symbol
 
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.weights import NotAPower, Weights, weights
 from lagcli.record import record
 
-_DIGITS = 40
 _ZERO = mpf(10) ** -25  # measured: what is not 0 is above 5e-1
 
 
@@ -121,8 +120,8 @@ def _range(ratio: Ratio, expressions: Sequence[Expr], given: Sequence[Expr]) -> 
         e.xreplace(dict.fromkeys(e.free_symbols - {s}, S.One)) for e in (*given, *expressions)
     ]
     zeros = {zero for f in functions for zero in _possible_zeros(f, s)}
-    places = sorted((mpf(sympy.N(zero, _DIGITS)), zero) for zero in zeros)
-    evaluate = Evaluator(functions, _DIGITS)
+    places = sorted((mpf(sympy.N(zero, DIGITS)), zero) for zero in zeros)
+    evaluate = Evaluator(functions)
 
     def inside(place: mpf) -> bool:
         """Whether all are positive; one that is 0 beside others that are not negative is open."""

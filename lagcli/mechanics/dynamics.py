@@ -19,6 +19,7 @@ from sympy import Expr
 
 from lagcli.algebra import Shapes, dot, is_zero, left_nullspace, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
+from lagcli.algebra.numeric import DIGITS
 from lagcli.algebra.row_rank import independent_rows
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.expression import ZERO
@@ -26,7 +27,7 @@ from lagcli.mechanics.by_multipliers import by_multipliers
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.euler_lagrange import EulerLagrange
 from lagcli.mechanics.motion_at_states import MotionAtStates
-from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates
+from lagcli.mechanics.states import Contradiction, RandomStates
 from lagcli.mechanics.system import System
 from lagcli.mechanics.verify import Verifier, ZeroVerdict
 from lagcli.record import record

@@ -17,7 +17,7 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.entry import Field
 from lagcli.algebra.linear import nullspace
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.polynomial_roots import polynomial_roots
 from lagcli.diagnostics import Diagnostic, ProblemError, Span
 from lagcli.expression import Name
@@ -26,7 +26,6 @@ from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.parameter_values import parameter_values
 from lagcli.record import record
 
-_DIGITS = 40
 _SMALL = mpf(10) ** -20
 
 
@@ -191,8 +190,8 @@ class _StateCompletion:
                 raise self._no_state(constraint)
             self.only_at_values = True
             return
-        with mpmath.workdps(_DIGITS):
-            [number] = Evaluator([rest], _DIGITS)(values)
+        with mpmath.workdps(DIGITS):
+            [number] = Evaluator([rest])(values)
             if not abs(number) < _SMALL:
                 raise self._no_state(constraint)
         self.only_at_values = True

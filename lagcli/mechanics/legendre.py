@@ -28,9 +28,9 @@ from lagcli.algebra import is_zero, rank, simplify, solve_linear
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.jumps import is_continuous
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.states import DIGITS, Contradiction, State
+from lagcli.mechanics.states import Contradiction, State
 
 Block = tuple[int, ...]
 

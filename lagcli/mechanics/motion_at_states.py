@@ -12,11 +12,11 @@ import mpmath
 from mpmath import mpf
 from sympy import Symbol
 
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.row_rank import rows_of
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.euler_lagrange import EulerLagrange
-from lagcli.mechanics.states import DIGITS, State
+from lagcli.mechanics.states import State
 
 
 class MotionAtStates:

@@ -8,10 +8,8 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol
 
-from lagcli.algebra.numeric import Evaluator, with_assumed_sign
+from lagcli.algebra.numeric import FINE_DIGITS, Evaluator, with_assumed_sign
 from lagcli.mechanics.system import System
-
-DIGITS = 60
 
 
 def parameter_values(system: System) -> dict[Symbol, mpf]:
@@ -20,7 +18,7 @@ def parameter_values(system: System) -> dict[Symbol, mpf]:
     A value may be a formula of other parameters, in any order.
     """
     values = exact_values(system)
-    return dict(zip(values, Evaluator(list(values.values()), DIGITS)({}), strict=True))
+    return dict(zip(values, Evaluator(list(values.values()), FINE_DIGITS)({}), strict=True))
 
 
 def exact_values(system: System) -> dict[Symbol, Expr]:
@@ -56,6 +54,6 @@ def random_parameter(source: random.Random, parameter: Symbol, *, wide: bool) ->
         return mpf(source.randint(1, 5))
     # 1/20 to 20, or 1/2 to 2, evenly on a logarithmic scale, never a nice number
     size = 30011 if wide else 7001
-    with mpmath.workdps(DIGITS):
+    with mpmath.workdps(FINE_DIGITS):
         magnitude = mpmath.exp(mpf(source.randint(-size, size)) / 10007)
     return with_assumed_sign(source, parameter, magnitude)

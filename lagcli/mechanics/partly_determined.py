@@ -16,9 +16,9 @@ from mpmath import mpf
 from sympy import Expr
 
 from lagcli.algebra import Shapes, dot, solve_linear
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.row_rank import independent_rows, rows_of
-from lagcli.mechanics.states import DIGITS, State
+from lagcli.mechanics.states import State
 from lagcli.mechanics.verify import Verifier, ZeroVerdict
 
 _DEPENDENT = mpf(10) ** -25  # of the length of a row at 60 digits

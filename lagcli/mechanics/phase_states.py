@@ -10,8 +10,8 @@ from mpmath import mpf
 from sympy import Expr
 
 from lagcli.algebra import is_zero
-from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.states import DIGITS, Contradiction, State, is_real, random_value
+from lagcli.algebra.numeric import DIGITS, Evaluator
+from lagcli.mechanics.states import Contradiction, State, is_real, random_value
 from lagcli.mechanics.system import System
 from lagcli.statements.answers import Verification
 

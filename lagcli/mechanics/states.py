@@ -18,12 +18,11 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra.build import without_jumps
-from lagcli.algebra.numeric import Evaluator, with_assumed_sign
+from lagcli.algebra.numeric import DIGITS, Evaluator, with_assumed_sign
 from lagcli.algebra.row_rank import Elimination, independent_rows, least_norm_solution, rows_of
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.system import System
 
-DIGITS = 50
 _GUARD = 15  # digits beyond those that are claimed
 _TOLERANCE = mpf(10) ** -(DIGITS + 5)
 _ATTEMPTS = 40

@@ -14,10 +14,10 @@ from mpmath import mpf
 from sympy import Add, Expr
 
 from lagcli.algebra import is_zero
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.row_rank import independent_rows, rows_of
 from lagcli.mechanics.constraints import Constraints
-from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates, State, random_value
+from lagcli.mechanics.states import Contradiction, RandomStates, State, random_value
 from lagcli.record import record
 from lagcli.statements.answers import Verification
 

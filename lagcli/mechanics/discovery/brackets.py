@@ -28,12 +28,11 @@ from sympy import Expr
 
 from lagcli.algebra import derivative
 from lagcli.algebra.build import free_of
-from lagcli.algebra.numeric import Evaluator, with_assumed_sign
+from lagcli.algebra.numeric import DIGITS, Evaluator, with_assumed_sign
 from lagcli.algebra.row_rank import nullspace, rank
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.dynamics import Dynamics
 
-_DIGITS = 40
 _SMALL = mpf(10) ** -20  # measured: zeros are below 5e-37, others above 8e-3
 _CHECKS = 2
 _TRIES = 60  # measured: at most 6
@@ -102,7 +101,7 @@ class Brackets:
         expressions: list[Expr] = [*self.charges, *chain.from_iterable(slopes)]
         expressions += [m for row in dynamics.lagrange.mass_matrix for m in row]
         expressions += [derivative(p, x) for p in dynamics.lagrange.momenta for x in q]
-        self._evaluate = Evaluator(expressions, _DIGITS)
+        self._evaluate = Evaluator(expressions)
         self._samples: list[Sample] = []
         self._source = self._states(0)
 
@@ -121,7 +120,7 @@ class Brackets:
         bad = 0
         while bad < _TRIES:
             self.allowed.check()
-            with mpmath.workdps(_DIGITS):
+            with mpmath.workdps(DIGITS):
                 # the same parameters for all states; others where charges are not real
                 turn = bad // _PATIENCE
                 base = self.dynamics.states.take(1 + first + turn)[-1]
@@ -187,12 +186,12 @@ class Brackets:
 
     def commute(self, a: int, b: int) -> bool:
         """Whether the bracket vanishes."""
-        with mpmath.workdps(_DIGITS):
+        with mpmath.workdps(DIGITS):
             return all(abs(s.bracket(a, b)) < _SMALL for s in self.samples(3))
 
     def independent(self, chosen: Sequence[int]) -> int:
         """The number of functionally independent ones: the rank of their gradients."""
-        with mpmath.workdps(_DIGITS):
+        with mpmath.workdps(DIGITS):
             sample = self.samples(1)[0]
             return rank([[*sample.by_q[a], *sample.by_p[a]] for a in chosen])
 
@@ -220,7 +219,7 @@ class Brackets:
 
         Where that is the energy they do not contain the time, though the chosen may.
         """
-        with mpmath.workdps(_DIGITS):
+        with mpmath.workdps(DIGITS):
             samples = self.samples(len(self.charges) + _CHECKS)
             found = nullspace([[s.bracket(a, other) for a in chosen] for s in samples])
             self._samples = [s.joined(chosen, found) for s in samples]
@@ -241,7 +240,7 @@ class Brackets:
         try:
             if turn:
                 self._samples, self._source = [], self._states(turn)
-            with mpmath.workdps(_DIGITS):
+            with mpmath.workdps(DIGITS):
                 return self._structure(list(chosen), energy)
         finally:
             if turn:

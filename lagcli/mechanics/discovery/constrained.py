@@ -18,15 +18,13 @@ import mpmath
 from sympy import Expr
 
 from lagcli.algebra import dot
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.row_rank import rank
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.surface import relations_on_surface
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.noether import Transformation
-
-_DIGITS = 40
 
 
 def tangent(
@@ -62,8 +60,8 @@ def rank_on_surface(dynamics: Dynamics, charges: Sequence[Expr]) -> int | None:
     system, constraints = dynamics.system, dynamics.constraints
     relations = [*(e.f for e in constraints.equations if e.holonomic), *constraints.velocity_forms]
     variables = (*system.q, *system.qdot)
-    evaluate = Evaluator([e.diff(x) for e in (*relations, *charges) for x in variables], _DIGITS)
-    with mpmath.workdps(_DIGITS):
+    evaluate = Evaluator([e.diff(x) for e in (*relations, *charges) for x in variables])
+    with mpmath.workdps(DIGITS):
         for state in dynamics.states.take(3):
             try:
                 values = evaluate(state)

@@ -22,7 +22,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import simplify
 from lagcli.algebra.build import CIRCULAR, free_of
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.spectrum import exponents
@@ -207,11 +207,11 @@ def _at_poles(x: Symbol, equations: SlotEquations) -> Expr | None:
     """sin(x) or cos(x), where det M vanishes with it or changes with x at all; else None."""
     if not any(x in m.free_symbols for row in equations.mass for m in row):
         return None
-    entries = Evaluator([m for row in equations.mass for m in row], 20)
+    entries = Evaluator([m for row in equations.mass for m in row])
     symbols = {s for row in equations.mass for m in row for s in m.free_symbols}
     source = random.Random("lagcli determinant")
     point = {s: mpf(source.randint(3000, 13000)) / 10007 for s in sorted(symbols, key=str)}
-    with mpmath.workdps(20):
+    with mpmath.workdps(DIGITS):
         values = []
         for at in (mpf(2) / 7, mpf(11) / 9, mpmath.pi / 2):
             try:

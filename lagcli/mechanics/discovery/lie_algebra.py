@@ -19,6 +19,7 @@ from collections.abc import Sequence
 import mpmath
 from mpmath import mpf
 
+from lagcli.algebra.numeric import DIGITS
 from lagcli.algebra.row_rank import rank
 from lagcli.mechanics.discovery.brackets import Structure, Vector
 
@@ -43,7 +44,7 @@ _SEMISIMPLE = {
 
 def name_of(structure: Structure) -> str | None:
     """The name of the algebra, None where it is none of the known ones."""
-    with mpmath.workdps(30):
+    with mpmath.workdps(DIGITS):
         if structure.by_energy is None:
             return _with_centre(_name(structure.constants, structure.central))
         if _changes_elsewhere(structure):

@@ -25,9 +25,8 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import derivative, dot, simplify
 from lagcli.algebra.build import free_of
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 
-_DIGITS = 30
 _SMALL = mpf(10) ** -15
 _POINTS = (mpf(3) / 7, mpf(8) / 11)  # for the first symbol; the others follow at steps of 1/13
 
@@ -132,9 +131,9 @@ class Metric:
         pairs = list(combinations_with_replacement(planes, 2))
         formulas = [self.riemann(*a, *b) for a, b in pairs] + [self._area(*a, *b) for a, b in pairs]
         symbols = sorted({s for f in formulas for s in f.free_symbols}, key=str)
-        evaluate = Evaluator(formulas, _DIGITS)
+        evaluate = Evaluator(formulas)
         found: list[mpf] = []
-        with mpmath.workdps(_DIGITS):
+        with mpmath.workdps(DIGITS):
             for start in _POINTS:
                 try:
                     values = evaluate(_point(symbols, self.q, start))

@@ -11,7 +11,7 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.row_rank import rank
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, time_functions
 from lagcli.mechanics.discovery.centre import centre_of
@@ -24,7 +24,6 @@ from lagcli.mechanics.noether import Noether, NoetherCharge
 from lagcli.mechanics.states import Contradiction
 
 _MOST_COORDINATES = 9  # measured: at most 5
-_DIGITS = 40
 _FEW_TERMS = 3  # measured: up to 7
 
 
@@ -87,13 +86,13 @@ class Setting:
         """Whether M has no inverse, by its rank at a random state."""
         mass = self.dynamics.lagrange.mass_matrix
         n = len(mass)
-        evaluate = Evaluator([m for row in mass for m in row], _DIGITS)
+        evaluate = Evaluator([m for row in mass for m in row])
         for state in self.dynamics.states.take(3):
             try:
                 entries = evaluate(state)
             except (ArithmeticError, ValueError):
                 continue
-            with mpmath.workdps(_DIGITS):
+            with mpmath.workdps(DIGITS):
                 if rank([entries[k * n : (k + 1) * n] for k in range(n)]) == n:
                     return False
         return True

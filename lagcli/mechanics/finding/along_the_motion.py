@@ -22,7 +22,7 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.decimals import written
 from lagcli.algebra.elimination import EliminatedExpression, eliminate
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.expression import Expression
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.finding.level_set import LevelSet
@@ -175,7 +175,7 @@ class AlongTheMotion:
         """Whether one may divide: the expression vanishes at none of the random states."""
         if divisor.is_number or not divisor.free_symbols - set(self.system.parameters):
             return is_zero(divisor) is not True
-        plan = Evaluator([divisor.xreplace(self._named)], 60)
+        plan = Evaluator([divisor.xreplace(self._named)])
         for state in self.states or self.dynamics.states.take(2):
             values = plan.where_defined(state)
             if values is None or not abs(values[0]) > _NONZERO:
@@ -190,9 +190,9 @@ class AlongTheMotion:
         if not self.states:
             self.why_not = "no state with the initial values was found to verify the result at"
             return False
-        plan = Evaluator([*_terms(difference)], 60)
+        plan = Evaluator([*_terms(difference)])
         for state in self.states:
-            with mpmath.workdps(60):
+            with mpmath.workdps(DIGITS):
                 values = plan.where_defined(state)
                 if values is None:
                     return False

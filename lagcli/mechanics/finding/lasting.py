@@ -14,13 +14,13 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import Builder
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import FINE_DIGITS, Evaluator
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.finding.line import FunctionsOnLine, NotAlgebraic
 from lagcli.mechanics.finding.passing import Passing
 from lagcli.mechanics.finding.passings import Passings
 from lagcli.mechanics.finding.ranges import Bounds, Undecided, Values, ranges
-from lagcli.mechanics.finding.special_values import DIGITS, NoClosedForm, SpecialValues
+from lagcli.mechanics.finding.special_values import NoClosedForm, SpecialValues
 from lagcli.mechanics.finding.walk import Start, Walk
 from lagcli.mechanics.parameter_values import exact_values
 from lagcli.problem_data import Inequality, Lasting, Reaching
@@ -134,7 +134,7 @@ class LastingAnswer:
 
     def _constant(self, margin: Expr, *, strict: bool) -> list[Bounds]:
         """A condition without coordinates."""
-        plan = Evaluator([margin], DIGITS)
+        plan = Evaluator([margin], FINE_DIGITS)
 
         def verdict(numbers: Values) -> bool | None:
             [value] = plan.where_defined(numbers) or [None]

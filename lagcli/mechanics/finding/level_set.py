@@ -17,7 +17,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import FINE_DIGITS, Evaluator
 from lagcli.algebra.row_rank import independent_rows, least_norm_solution
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.initial import InitialState
@@ -25,7 +25,6 @@ from lagcli.mechanics.noether import Noether
 from lagcli.mechanics.states import Contradiction, State
 from lagcli.mechanics.total_derivative import boundary_term
 
-DIGITS = 60
 _NEWTON_STEPS = 140  # at a double root, as of v^2 = 0, each step halves the distance
 _PATIENCE = 8  # steps within which what is left must halve
 _ON_IT = mpf(10) ** -52
@@ -126,13 +125,13 @@ class LevelSet:
     @cached_property
     def _plan(self) -> Evaluator:
         rows = [r.diff(x) for r in self.relations for x in self._unknowns]
-        return Evaluator([*self.relations, *rows], DIGITS)
+        return Evaluator([*self.relations, *rows], FINE_DIGITS)
 
     def _newton(self, state: State) -> bool:
         """Move q and q' onto the set by steps of least norm."""
         if not self.relations:
             return True
-        with mpmath.workdps(DIGITS):
+        with mpmath.workdps(FINE_DIGITS):
             sizes: list[mpf] = []
             for _ in range(_NEWTON_STEPS):
                 try:

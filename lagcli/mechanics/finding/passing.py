@@ -14,9 +14,9 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Rational, Symbol
 
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
-from lagcli.mechanics.finding.reach import DIGITS, LineOfMotion, Reach, real_value
+from lagcli.mechanics.finding.reach import LineOfMotion, Reach, real_value
 from lagcli.mechanics.finding.remarks import Remark
 from lagcli.mechanics.parameter_values import admissible_values, parameter_values
 from lagcli.record import record

@@ -24,8 +24,8 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol
 
-from lagcli.algebra.numeric import Evaluator
-from lagcli.mechanics.finding.special_values import DIGITS, SpecialValues
+from lagcli.algebra.numeric import FINE_DIGITS, Evaluator
+from lagcli.mechanics.finding.special_values import SpecialValues
 from lagcli.mechanics.parameter_values import random_parameter
 from lagcli.platform.effort import EFFORT, Work
 from lagcli.record import record
@@ -126,7 +126,7 @@ def _draw(
 def _is_positive(expression: Expr, draw: Values) -> bool:
     if not expression.free_symbols <= draw.keys():
         return True
-    [value] = Evaluator([expression], DIGITS)(draw)
+    [value] = Evaluator([expression], FINE_DIGITS)(draw)
     return isinstance(value, mpf) and bool(value > 0)
 
 
@@ -155,7 +155,7 @@ class _Cells:
 
     def true_ones(self) -> list[Cell]:
         """The longest intervals in which the verdict is true."""
-        with mpmath.workdps(DIGITS):
+        with mpmath.workdps(FINE_DIGITS):
             low, high = self.special.domain()
             samples = self._samples(low, high)
             truths = [self._decided(sample) for sample in samples]

@@ -17,11 +17,10 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Symbol
 
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.evaluation import bisected
 from lagcli.record import record
 
-DIGITS = 30
 _SAMPLES = 96
 _SMALL = mpf(10) ** -18  # measured: what is not 0 is above 1e0
 _HORIZON = 10**4
@@ -55,7 +54,7 @@ class Reach:
         self.line = line
         self.values = dict(values)
         self._ends: dict[int, str] = {}
-        self._plan = Evaluator([line.square_of_velocity, *line.margins], DIGITS)
+        self._plan = Evaluator([line.square_of_velocity, *line.margins])
         with mpmath.workdps(DIGITS):
             start, velocity, acceleration = Evaluator(
                 [line.start, line.velocity, line.acceleration], DIGITS

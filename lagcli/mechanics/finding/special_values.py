@@ -14,11 +14,11 @@ from lagcli.algebra import simplify
 from lagcli.algebra.decimals import is_decimal
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import solve_for
+from lagcli.algebra.numeric import FINE_DIGITS
 from lagcli.algebra.signs import sign
 from lagcli.algebra.weights import NotAPower, Weights, weights
 from lagcli.mechanics.finding.reach import real_value
 
-DIGITS = 90
 _REAL = mpf(10) ** -40
 
 
@@ -79,9 +79,9 @@ class SpecialValues:
     def sorted_numbers(self, values: Mapping[Symbol, mpf]) -> list[tuple[mpf, int]]:
         """The real ones in the domain of p with their numbers in `roots`, ascending."""
         found = []
-        with mpmath.workdps(DIGITS):
+        with mpmath.workdps(FINE_DIGITS):
             for index, root in enumerate(self.roots):
-                value = real_value(root, values, DIGITS)
+                value = real_value(root, values, FINE_DIGITS)
                 if value is not None and self._inside(value):
                     found.append((value, index))
         return sorted(found)

@@ -19,11 +19,10 @@ from mpmath import mpf
 from mpmath.libmp import to_rational
 from sympy import Expr, Symbol
 
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import FINE_DIGITS, Evaluator
 from lagcli.mechanics.finding.line import FunctionsOnLine
 from lagcli.record import record
 
-DIGITS = 90
 _SAME = mpf(10) ** -18  # of places: a double root is known to half of the digits
 _SMALL = mpf(10) ** -60  # measured: zeros are below 6e-90, others above 6e-3
 
@@ -81,14 +80,14 @@ class Walk:
         self.wall = wall
         self._asks_place = start.target is not None
         self._last = len(line.functions) - (0 if self._asks_place else 1)
-        self._functions = Evaluator(line.functions, DIGITS)
-        self._coefficients = [Evaluator(f.coefficients, DIGITS) for f in line.factors]
+        self._functions = Evaluator(line.functions, FINE_DIGITS)
+        self._coefficients = [Evaluator(f.coefficients, FINE_DIGITS) for f in line.factors]
         rate: list[Expr] = [] if line.rate is None else [line.rate]
-        self._start = Evaluator([*rate, *start.formulas], DIGITS)
+        self._start = Evaluator([*rate, *start.formulas], FINE_DIGITS)
 
     def verdict(self, values: Mapping[Symbol, mpf]) -> bool | None:
         """Whether it is so; None where these numbers do not decide it."""
-        with mpmath.workdps(DIGITS):
+        with mpmath.workdps(FINE_DIGITS):
             try:
                 return self._verdict(dict(values))
             except (ArithmeticError, ValueError, TypeError, mpmath.mp.NoConvergence):
@@ -256,7 +255,7 @@ def _sign(value: mpf) -> int:
 def _real_roots(coefficients: Sequence[mpf]) -> list[mpf]:
     """The real roots of a polynomial by its coefficients, constant term first."""
     exact = fmpq_poly([fmpq(*map(int, to_rational(c._mpf_))) for c in coefficients])
-    with ctx.workdps(2 * DIGITS):
+    with ctx.workdps(2 * FINE_DIGITS):
         return [
             mpf(tuple(map(int, root.real.mid().man_exp())))
             for root, multiplicity in exact.complex_roots()

@@ -13,7 +13,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.decimals import is_decimal
 from lagcli.algebra.equations import Roots, solve_for
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import FINE_DIGITS, Evaluator
 from lagcli.mechanics.finding.passing import Passage, Passing, admissible
 from lagcli.mechanics.finding.passings import Passings
 from lagcli.mechanics.finding.reach import real_value
@@ -263,8 +263,8 @@ class WhereSearch:
             value = real_value(root, values, digits=60)
             if value is None or not admissible(unknown, value):
                 continue
-            with mpmath.workdps(60):
-                plan = Evaluator([equation, *sympy.Add.make_args(equation.expand())], 60)
+            with mpmath.workdps(FINE_DIGITS):
+                plan = Evaluator([equation, *sympy.Add.make_args(equation.expand())], FINE_DIGITS)
                 parts = plan.where_defined({**values, unknown: value})
                 if parts is None:
                     continue  # the root of a denominator

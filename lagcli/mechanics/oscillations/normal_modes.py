@@ -11,7 +11,7 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import nullspace, simplify
 from lagcli.algebra.decimals import decimal, is_decimal
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.positivity import sign_of, weak_sign, without_moduli
 from lagcli.algebra.signs import sign
 from lagcli.algebra.vanishing_factors import divisors
@@ -21,7 +21,6 @@ from lagcli.mechanics.rest.characteristic import Characteristic
 from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.record import record
 
-_DIGITS = 60
 _CHOICES = 24
 _ZERO = mpf(10) ** -35
 _ROUNDED = mpf(10) ** -10  # for squared frequencies given as decimals
@@ -162,7 +161,7 @@ def beats(squares: Sequence[Expr], chosen: Sequence[Mapping[Symbol, mpf]]) -> li
 def _are_frequencies(
     pair: Sequence[Expr], squares: Sequence[Expr], values: Mapping[Symbol, mpf]
 ) -> bool:
-    with mpmath.workdps(_DIGITS):
+    with mpmath.workdps(DIGITS):
         found = sorted(_number(each, values) for each in pair)
         wanted = sorted(_number(each, values) for each in squares)
         return found[0] > 0 and all(
@@ -262,7 +261,7 @@ def choices(linear: Linearization) -> list[dict[Symbol, mpf]]:
     free = {q: mpf(3 + k) / 7 for k, q in enumerate(unknown)}
     known = linear.point.family
     real = [] if known is None else known.radicands
-    positive = Evaluator([*linear.point.positive, *real], _DIGITS)
+    positive = Evaluator([*linear.point.positive, *real])
     found = []
     for k, choice in enumerate(admissible_values(linear.system, _CHOICES)):
         values = {**free, linear.system.t: mpf((-1) ** k * (k + 1)) / 7, **choice}
@@ -276,13 +275,13 @@ def choices(linear: Linearization) -> list[dict[Symbol, mpf]]:
 def _number(expression: Expr | None, values: Mapping[Symbol, mpf]) -> mpf:
     if expression is None:
         return mpf("inf")
-    [number] = Evaluator([expression], _DIGITS)(values)
+    [number] = Evaluator([expression])(values)
     return mpf(number.real) if isinstance(number, mpmath.mpc) else number
 
 
 def _is_complex(expression: Expr, values: Mapping[Symbol, mpf]) -> bool:
-    with mpmath.workdps(_DIGITS):
-        [number] = Evaluator([expression], _DIGITS)(values)
+    with mpmath.workdps(DIGITS):
+        [number] = Evaluator([expression])(values)
         return isinstance(number, mpmath.mpc) and abs(number.imag) > _ZERO * (1 + abs(number))
 
 
@@ -290,8 +289,8 @@ def _is_root(characteristic: Characteristic, square: Expr, values: Mapping[Symbo
     powers = characteristic.in_square
     if powers is None:
         return False
-    with mpmath.workdps(_DIGITS):
-        [W, *numbers] = Evaluator([square, *powers], _DIGITS)(values)
+    with mpmath.workdps(DIGITS):
+        [W, *numbers] = Evaluator([square, *powers])(values)
         terms = [c * W**k for k, c in enumerate(numbers)]
         limit = _ROUNDED if is_decimal(square) else _ZERO
         return bool(abs(sum(terms)) < limit * max(mpf(1) / 10**6, *map(abs, terms)))
@@ -301,8 +300,8 @@ def _annihilates(
     matrix: Sequence[Sequence[Expr]], vector: Sequence[Expr], values: Mapping[Symbol, mpf]
 ) -> bool:
     n = len(vector)
-    with mpmath.workdps(_DIGITS):
-        plan = Evaluator([*vector, *(x for row in matrix for x in row)], _DIGITS)
+    with mpmath.workdps(DIGITS):
+        plan = Evaluator([*vector, *(x for row in matrix for x in row)])
         numbers = plan.where_defined(values)
         if numbers is None:
             return False

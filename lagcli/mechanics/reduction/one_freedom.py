@@ -22,18 +22,18 @@ from sympy import Expr, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.equations import solve_for
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import FINE_DIGITS, Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.inequalities import contradictory
-from lagcli.mechanics.parameter_values import DIGITS, admissible_values
+from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_contacts import SteadyContacts
 from lagcli.notation.given_formulas import names_of
 from lagcli.notation.naming import free
 
-_ZERO = mpf(10) ** -(DIGITS - 15)
+_ZERO = mpf(10) ** -(FINE_DIGITS - 15)
 _TRIED = 24
 _BOUNDED = (sympy.acos, sympy.asin)
 
@@ -171,7 +171,7 @@ class ReducedFreedom:
         residual = at(excess, {self.q: root})
         if is_zero(residual) is True:
             return True
-        evaluate = Evaluator([residual, root], DIGITS)
+        evaluate = Evaluator([residual, root], FINE_DIGITS)
         tested = 0
         for values in admissible_values(self.system, _TRIED):
             found = evaluate.where_defined({**values, self.E: mpf(7) / 11})

@@ -14,7 +14,7 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.decimals import decimal, is_decimal
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.place import NO_VALUE, at
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, SystemSolution, solve_system
@@ -41,8 +41,6 @@ _AT_AN_OPEN_POWER = (
     "where the base of a power is 0 the force depends on the exponent, and rest there is not "
     "decided"
 )
-#: Digits to which decimals are worked out.
-_DIGITS = 40
 _AT_AN_EDGE = (
     "the forces vanish at the edge of the positions that the coordinates describe, and rest there "
     "is not decided"
@@ -234,15 +232,15 @@ class RestPoints(RestConditions):
         decimals = any(map(is_decimal, values.values()))
         if not decimals or self.dynamics.constraints.equations or len(values) < len(self.system.q):
             return values
-        forces = Evaluator(self.forces_at_rest, _DIGITS)
+        forces = Evaluator(self.forces_at_rest)
         try:
-            with mpmath.workdps(_DIGITS):
+            with mpmath.workdps(DIGITS):
                 start = [mpmath.mpf(int(x.p)) / int(x.q) for x in values.values()]
                 root = mpmath.findroot(lambda *x: forces(dict(zip(values, x, strict=True))), start)
         except (ArithmeticError, AttributeError, ValueError, KeyError):
             return values
         return {
-            q: decimal(sympy.Float(x, _DIGITS)) if is_decimal(old) else old
+            q: decimal(sympy.Float(x, DIGITS)) if is_decimal(old) else old
             for (q, old), x in zip(values.items(), root, strict=True)
         }
 

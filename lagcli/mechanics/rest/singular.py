@@ -21,7 +21,7 @@ from sympy import Dummy, Expr, S, Symbol
 
 from lagcli.algebra import dot, is_zero, nullspace, simplify
 from lagcli.algebra.determinants import determinant
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.dynamics import Dynamics
@@ -29,7 +29,6 @@ from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.rest.linearization import Linearization, Matrix
 from lagcli.mechanics.rest.rest_conditions import RestConditions, RestPoint
 
-_DIGITS = 60
 _NEAR, _NEARER = mpf(10) ** -3, mpf(10) ** -9
 #: Between these distances a square that vanishes falls by 1e-12, one that does not by nothing.
 _FALLS = mpf(10) ** -6
@@ -135,7 +134,7 @@ class _Square:
         self.n, self.m = len(self.system.q), len(rows)
         mass = [x for row in lagrange.mass_matrix_at_rest for x in row]
         everything: list[Expr] = [*rest.forces_at_rest, *mass, *(x for row in rows for x in row)]
-        self.evaluate = Evaluator(everything, _DIGITS)
+        self.evaluate = Evaluator(everything)
 
     def falls(
         self, point: RestPoint, values: Mapping[Symbol, mpf], source: random.Random
@@ -146,7 +145,7 @@ class _Square:
         for q in self.system.q:
             given.setdefault(q, mpf(source.uniform(0.3, 1.2)))
         try:
-            with mpmath.workdps(_DIGITS):
+            with mpmath.workdps(DIGITS):
                 far, near = (self._at(point, given, direction, d) for d in (_NEAR, _NEARER))
                 return bool(near <= _FALLS * far) or near == 0
         except (ArithmeticError, ValueError, KeyError, TypeError):
@@ -155,7 +154,7 @@ class _Square:
     def _at(
         self, point: RestPoint, given: Mapping[Symbol, mpf], direction: Sequence[mpf], distance: mpf
     ) -> mpf:
-        places = Evaluator([point.values.get(q, q) for q in self.system.q], _DIGITS)(given)
+        places = Evaluator([point.values.get(q, q) for q in self.system.q])(given)
         pairs = zip(self.system.q, places, direction, strict=True)
         values = {**given, **{q: x + distance * d for q, x, d in pairs}}
         n, m = self.n, self.m

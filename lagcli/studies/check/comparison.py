@@ -10,10 +10,10 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr
 
-from lagcli.algebra.numeric import Evaluator
+from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.expression import Expression, Negative, Number
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.states import DIGITS, Contradiction, RandomStates
+from lagcli.mechanics.states import Contradiction, RandomStates
 from lagcli.problem_data import Parameter, Problem
 from lagcli.values import substituted, with_values_of
 
