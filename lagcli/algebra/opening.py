@@ -25,7 +25,7 @@ from lagcli.algebra.linear import solve_linear
 from lagcli.algebra.simplification import is_zero, simplify
 from lagcli.record import record
 
-_MOST_ROOTS = 3
+_MOST_ROOTS = 3  # measured: at most 3, of which each has its own equation
 _WAVES = (sympy.sin, sympy.cos)
 _POWERS = (0, 1, -1, 2, -2, 3, -3)
 

@@ -23,7 +23,7 @@ from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.squared_sines import factors_and_sines
 
 _MOST_ANGLES = 5  # beyond, and at higher degrees, no square is looked for in half angles
-_HIGHEST = 8
+_HIGHEST = 8  # measured: at most 2; twice the degree in each half angle
 _MAX_FACTORED = 10**24  # larger integers under a root are not factored
 
 

@@ -17,7 +17,7 @@ from lagcli.expression import ZERO, added_and_subtracted, operation_count
 from lagcli.mechanics.inequalities import shorter_sums
 from lagcli.statements.motions import Above
 
-_MOST_KNOWN = 6
+_MOST_KNOWN = 6  # products of up to two of them: 22 are tried
 _LONG = 100  # operations
 
 

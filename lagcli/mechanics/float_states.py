@@ -18,8 +18,8 @@ from lagcli.mechanics.rates import ConstraintRow
 from lagcli.problem_data import Problem, Quantity
 from lagcli.record import record
 
-_ATTEMPTS = 12
-_NEWTON_STEPS = 60
+_ATTEMPTS = 12  # starts from other velocities
+_NEWTON_STEPS = 60  # a double root gains a bit a step, and there are 53
 #: So many of the attempts begin near the initial state, and so far from it.
 _NEAR_START, _AWAY = 3, 0.2
 #: What is left of a dependent row, and of an independent one, as a part of its length.

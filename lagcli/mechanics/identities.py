@@ -14,8 +14,8 @@ from lagcli.graph.nodes import Constant, Node, Symbol, ancestry
 from lagcli.graph.values import Digits, Program
 from lagcli.mechanics.matrix_form import MatrixForm
 
-_POINTS = 2
-_ATTEMPTS = 8
+_POINTS = 2  # two: one may lie on a root
+_ATTEMPTS = 8  # of which two are real where half of the states are
 
 
 def vanish(nodes: Sequence[Node], form: MatrixForm, digits: int = DIGITS) -> bool | None:

@@ -16,7 +16,7 @@ from lagcli.algebra.positivity import deciding, sign_of, weak_sign
 from lagcli.algebra.signs import beyond
 
 _DRAWS = 400  # a region that takes a hundredth of the values is missed once in 50 times
-_DIGITS = 15
+_DIGITS = 15  # those of a double: no draw is that near to an edge
 
 
 def contradictory(conditions: Sequence[Expr], positive: Sequence[Expr] = ()) -> bool:

@@ -21,7 +21,7 @@ from lagcli.mechanics.states import Contradiction, RandomStates, State, random_v
 from lagcli.record import record
 from lagcli.statements.answers import Verification
 
-_STATES = 3
+_STATES = 3  # three: one may lie on a root, two on a curve through the start
 #: A surface may have branches: of x^2 y = x y^2 three states met one, twelve all of three.
 _STATES_OF_SURFACES = 12
 _ZERO = mpf(10) ** -(DIGITS - 12)  # of the sum of magnitudes: cancelled

@@ -11,7 +11,7 @@ from itertools import pairwise, product
 
 from lagcli.pictures.drawing import Point
 
-_BRAILLE = 0x2800
+_BRAILLE = 0x2800  # U+2800, the pattern without dots
 #: The bit of the dot in column 0 or 1 and row 0 to 3: Unicode, chapter 21.1.
 _BITS = ((0x01, 0x02, 0x04, 0x40), (0x08, 0x10, 0x20, 0x80))
 #: Lengths of dash and gap in dots; of lines in ASCII, the letter.

@@ -12,7 +12,7 @@ from lagcli.verification.program import Key
 from lagcli.verification.reference import Reference
 from lagcli.verification.sweeps import column
 
-_HALVINGS = 8
+_HALVINGS = 8  # to a 256th of a step; a shorter one leads nowhere
 
 
 def settled(

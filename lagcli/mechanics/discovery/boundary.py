@@ -23,7 +23,7 @@ from lagcli.mechanics.system import System
 from lagcli.mechanics.total_derivative import boundary_integral, boundary_term, euler_operator
 
 _MOST_CANDIDATES = 120  # measured: up to 243
-_POINTS = 3
+_POINTS = 3  # modulo a prime of 61 bits: one would do, unless it lies on a root
 _OF_DERIVATIVE = 3000  # units of work of SymPy
 _OF_EXPANSION = 100_000
 _OF_TIME = (sympy.exp, sympy.sin, sympy.cos, sympy.sinh, sympy.cosh)

@@ -20,7 +20,7 @@ from lagcli.platform.effort import EFFORT
 _TOGETHER = 3  # parameters in one recognized monomial
 _MOST_OPERATIONS = 30000  # measured: at most 2008
 _MOST_ATOMS = 8
-_MOST_LINEAR = 12
+_MOST_LINEAR = 12  # all differences and sums of four constants
 #: Terms: two bodies in space need more than 10,000; 35,000 of hyperbolic functions take 17 s.
 _MOST_COMMON = 20_000
 _POWERS = (-2, -1, 1, 2)

@@ -21,7 +21,7 @@ from lagcli.mechanics.discovery.slots import Condition, Slot, SlotEquations
 from lagcli.mechanics.discovery.tree import Memo, Tree
 from lagcli.platform.effort import EFFORT
 
-_BAD_POINTS = 50
+_BAD_POINTS = 50  # points modulo p without a root: half of them for each square root
 _OF_NODE = 150  # units of work: SymPy's second derivatives, by the nodes of M and of the forcing
 
 

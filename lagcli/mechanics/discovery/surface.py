@@ -30,7 +30,7 @@ from lagcli.mechanics.discovery.modular_roots import joint_root
 from lagcli.mechanics.discovery.tree import Memo, Tree
 from lagcli.mechanics.dynamics import Dynamics
 
-_TRIES = 60
+_TRIES = 60  # a quadratic has a root modulo p for half of them
 _MOST_ORDERS = 2000  # measured: at most 2
 Plan = list[tuple[list[Terms], list[int]]]
 

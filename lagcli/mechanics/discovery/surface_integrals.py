@@ -39,7 +39,7 @@ from lagcli.mechanics.discovery.surface import FormulaSurface
 from lagcli.mechanics.discovery.tree import Memo
 from lagcli.mechanics.noether import Noether
 
-_BAD_POINTS = 60
+_BAD_POINTS = 60  # as of the search: half of them for each square root
 _MOST_OF_DIFFERENCES = 30  # coefficients that may be products of differences
 _UNITS = 3  # of the coefficients that are put to 1 for that
 

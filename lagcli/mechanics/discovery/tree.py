@@ -17,7 +17,7 @@ from lagcli.platform.effort import EFFORT
 
 Memo = dict[Expr, int]
 
-_BAD_POINTS = 50
+_BAD_POINTS = 50  # as of the search: half of them for each square root
 
 
 class Tree:

@@ -23,7 +23,7 @@ from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
 _MOST_LINEAR = 420  # measured: at most 314
 _MOST_QUADRATIC = 300
-_ENERGY = (-1,)
+_ENERGY = (-1,)  # the mark of T, which is no pair of fields
 
 
 class UnderConstraints:

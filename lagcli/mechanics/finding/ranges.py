@@ -31,7 +31,7 @@ from lagcli.platform.effort import EFFORT, Work
 from lagcli.record import record
 
 _DRAWS = 6
-_TRIES = 200
+_TRIES = 200  # a region that takes a fiftieth of the values is missed once in 50 times
 _OF_MOTION = 10_000  # units of work: w(u) and its roots at 90 digits
 _SAME = mpf(10) ** -30
 _GIVE = "; --set gives them numbers"

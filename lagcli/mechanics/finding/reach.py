@@ -21,9 +21,9 @@ from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.evaluation import bisected
 from lagcli.record import record
 
-_SAMPLES = 96
+_SAMPLES = 96  # of a turn: every 3.75 degrees
 _SMALL = mpf(10) ** -18  # measured: what is not 0 is above 1e0
-_HORIZON = 10**4
+_HORIZON = 10**4  # sizes of the start to which it is followed, and the part with which it begins
 
 FREE, TURNS, LOST = "free", "turns", "lost"
 

@@ -21,7 +21,7 @@ from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.dynamics import Dynamics
 
-_MOST = 6
+_MOST = 6  # 2^6 principal minors
 _MOST_SIGNS = 3  # velocities: 26 directions
 
 

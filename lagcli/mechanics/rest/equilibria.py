@@ -27,7 +27,7 @@ from lagcli.mechanics.rest.rest_conditions import RestConditions, RestPoint
 from lagcli.mechanics.rest.singular import is_pressed_to_an_edge, survives
 from lagcli.statements.wording import FINITE_MASS, INDEPENDENT, NOT_ZERO
 
-_MAX_EVIDENT = 64
+_MAX_EVIDENT = 64  # six angles at 0 or pi
 #: Why nothing is solved for where the forces at rest are 0/0.
 NO_VALUE_AT_REST = "a force has no value at rest, as v/|v| has none"
 #: Why none is given where there may be some.

@@ -41,7 +41,7 @@ from lagcli.mechanics.rest.rest_conditions import RestPoint
 from lagcli.problem_data import Constraint, pushing_sign
 from lagcli.record import record, replace
 
-_MOST_CONTACTS = 4
+_MOST_CONTACTS = 4  # 2^4 combinations, each a search of its own
 
 
 @record

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.rest.family import Family
 
 _LONGEST = 60  # operations of conditions that are quoted
-_MOST_MINORS = 40
+_MOST_MINORS = 40  # three of six coordinates have 20, of seven 35
 
 
 @record

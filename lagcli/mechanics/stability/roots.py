@@ -31,7 +31,7 @@ _LIMIT = "to first order it is at the limit of stability"
 NEUTRAL = "neutral to first order in some direction"
 _NO_CRITERION = "the roots have no simple criterion"
 _MAY_FEED = "a force that is not linear, or has no potential, may feed energy"
-_MOST_ROLLING = 4
+_MOST_ROLLING = 4  # measured: at most 1
 
 
 def by_roots(near: Near) -> Stability:

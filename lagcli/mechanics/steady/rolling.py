@@ -43,8 +43,8 @@ from lagcli.mechanics.stability.verdict import Stability, undecided, unstable
 from lagcli.record import record
 
 _UNIFORM = "these velocities are constant in every motion"
-_MOST_CHOICES = 40
-_MOST_DEPTH = 6
+_MOST_CHOICES = 40  # three of six coordinates have 20, of seven 35
+_MOST_DEPTH = 6  # measured: at most 2 conditions one after the other
 
 
 @record

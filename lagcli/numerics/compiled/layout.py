@@ -56,4 +56,4 @@ DONE = 1
 STOPPED = 2
 PIVOT = 3
 
-LARGE = 1e300
+LARGE = 1e300  # its square is no double; what is larger is no number of a motion

@@ -7,8 +7,8 @@ from collections.abc import Callable, Sequence
 
 Function = Callable[[float], float]
 
-_WIDTH = 1e-15
-_ROUNDS = 120
+_WIDTH = 1e-15  # of the place: some four units of its last digit
+_ROUNDS = 120  # twice the bits of a double: half of the steps may only halve
 _NODES = 9
 
 

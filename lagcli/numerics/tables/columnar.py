@@ -24,7 +24,7 @@ from lagcli.numerics.tables.writing import document_of, to_text, with_column_cer
 Columns = Sequence[str]
 Rows = Sequence[Sequence[float | None]]
 
-_ALIGNED = 64
+_ALIGNED = 64  # bytes, as the .npy format asks
 #: A ZIP's earliest date: the same result gives the same bytes.
 _NO_DATE = (1980, 1, 1, 0, 0, 0)
 

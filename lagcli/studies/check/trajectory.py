@@ -16,7 +16,7 @@ from lagcli.reader.columns import Column
 from lagcli.studies.check.findings import CheckOutcome, Finding
 
 _TOLERANCE = 1e-9
-_FINER = 0.1
+_FINER = 0.1  # so that the error of the run is small beside what is allowed
 #: Where formulas of t are compared, both ends included.
 _PLACES = 21
 #: Times that differ by less are one sample.
