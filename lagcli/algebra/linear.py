@@ -156,7 +156,7 @@ def _enter(A: Matrix, relations: Relations | None) -> tuple[_Rows, Field]:
     entries = [[as_expr(x) for x in row] for row in A]
     if relations:
         entries = [[relations.substitute(x) for x in row] for row in entries]
-    field = Field([x for row in entries for x in row])
+    field = Field([x for row in entries for x in row], closed=not relations)
     rows: _Rows = []
     for row in entries:
         elements = {j: field(x) for j, x in enumerate(row)}

@@ -22,7 +22,7 @@ _ZERO = 1e-25  # of 40 digits: those of a number that is not 0 do not cancel so 
 def vanishing_factors(equation: Expr, unknowns: Sequence[Symbol]) -> list[Expr] | None:
     """The factors that can vanish: None for 0 = 0, empty for a contradiction."""
     equation = _without_signs(equation)
-    field = Field([equation])
+    field = Field([equation], closed=True)
     try:
         element = field(equation)
     except ZeroDivisionError:

@@ -192,9 +192,8 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
     right = -sympy.Add(*(n * m for m, n in by_monomial.items() if n.is_negative))
     left = sympy.Add(*(n * m for m, n in by_monomial.items() if not n.is_negative))
     found = Above(shape(left, order), shape(right, order))
-    if rest.has(sympy.sin, sympy.cos):  # k - m a² sin² is not k + m a² cos² - m a²
-        whole = Above(*added_and_subtracted(shape(rest, order)))
-        found = min(found, whole, key=_operations)
+    # k - m a² sin² is not k + m a² cos² - m a², k² (R² - l²)³ > g² is not multiplied out
+    found = min(found, Above(*added_and_subtracted(shape(rest, order))), key=_operations)
     constant, others = left.as_coeff_Add()
     if constant > 0 and right == 0 and not others.is_Add:  # n > -3
         number, power = others.as_coeff_Mul()

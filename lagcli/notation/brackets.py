@@ -57,7 +57,7 @@ class NamedMomenta:
 
     def turned(self, node: Sum) -> bool | None:
         """Whether the one bare momentum of a difference has the minus; None without one."""
-        bare = [t for t in node.terms if self._is_bare(t)]
+        bare = [t for t in node.terms if self.is_bare(t)]
         others = [t for t in node.terms if t not in bare]
         if len(bare) != 1 or len(others) != 1 or self._ordering.is_parameter(others[0]):
             return None
@@ -65,7 +65,8 @@ class NamedMomenta:
             return None
         return isinstance(bare[0], Negative)
 
-    def _is_bare(self, term: Expression) -> bool:
+    def is_bare(self, term: Expression) -> bool:
+        """Whether it is a momentum, or one with a minus."""
         term = term.operand if isinstance(term, Negative) else term
         return isinstance(term, Name) and term.name in self._names
 

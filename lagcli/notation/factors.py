@@ -75,6 +75,11 @@ def whole_power(node: Expression) -> tuple[Expression, int]:
     return node, 1
 
 
+def base_and_exponent(node: Expression) -> tuple[Expression, Expression]:
+    """The two of a power; the exponent 1 of anything else."""
+    return (node.base, node.exponent) if isinstance(node, Power) else (node, ONE)
+
+
 def with_base(node: Expression, base: Expression) -> Expression:
     """The same power of another base."""
     return Power(base, node.exponent) if isinstance(node, Power) else base

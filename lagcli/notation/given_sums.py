@@ -120,7 +120,7 @@ class GivenSums:
             shown = cast(Sum, _arranged(node, self._ordering))
             self._found.setdefault(_leaves(node), []).append((value, shown))
 
-    def like(self, node: Sum) -> tuple[Fraction, Sum] | None:
+    def like(self, node: Expression) -> tuple[Fraction, Sum] | None:
         """(c, S): the node is c S with a sum S of the file that is not much longer."""
         found = self._found.get(_leaves(node))
         value = multiplied_out(node) if found else None

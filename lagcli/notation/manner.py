@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from fractions import Fraction
+from itertools import combinations
 
 from lagcli.evaluation import finite_value, sign_at_random
 from lagcli.expression import (
@@ -36,6 +37,7 @@ from lagcli.expression import (
 from lagcli.notation.angles import difference_of_angles, with_versines
 from lagcli.notation.brackets import NamedMomenta, squares_as_brackets
 from lagcli.notation.factors import (
+    base_and_exponent,
     cancelled,
     multiplied,
     odd_base,
@@ -104,8 +106,21 @@ class Manner:
             isinstance(f, Sum) and any(parts_of(t)[2] for t in f.terms) for f in factors_of(node)
         ):
             terms = self._opened(node)
-        node = Sum((*positive_first(terms),)) if len(terms) > 1 else node
+        node = Sum((*positive_first(terms),)) if len(terms) > 1 else self._without_minus(node)
         return squares_as_brackets(self._potential(node), self._squares)
+
+    def _without_minus(self, node: Expression) -> Expression:
+        """(p − a − b)/d for −(a + b − p)/d, (b + c − a)/d for −(a − b − c)/d."""
+        minus, above, below = parts_of(node)
+        for place, factor in enumerate(above if minus else ()):
+            base, odd = odd_base(factor)
+            if base is None or not odd or self._wrong(base) is not None:
+                continue
+            minuses = [term.operand for term in base.terms if isinstance(term, Negative)]
+            if 2 * len(minuses) >= len(base.terms) or any(map(self._momenta.is_bare, minuses)):
+                above[place] = with_base(factor, negative_of(base))
+                return quotient_of(above, below)
+        return node
 
     def vanishing(self, node: Expression) -> Expression:
         """What is 0 where the node is: x2 − x1 − l where the file has that, not x1 − x2 + l."""
@@ -368,12 +383,28 @@ class Manner:
             below = parts_of(power_product(kept, self._ordering))[1] if kept else []
         return number, above, below
 
+    def _with_given_products(self, factors: list[Expression]) -> Fraction:
+        """A number, with R² − l² of the file for (R + l) (R − l) among the factors."""
+        number = Fraction(1)
+        sums = [f for f in factors if odd_base(f)[0] is not None]
+        for one, other in combinations(sums, 2):
+            (a, m), (b, n) = base_and_exponent(one), base_and_exponent(other)
+            like = self._sums.like(Product((a, b))) if m == n else None
+            if like is None or not {one, other} <= {*factors}:
+                continue
+            if like[0] == 1 or parity(m) is not None:
+                factors[factors.index(one)] = with_base(one, like[1])
+                factors.remove(other)
+                number *= like[0] ** whole_power(one)[1]
+        return number
+
     def _with_given_sums(
         self, minus: bool, above: list[Expression], below: list[Expression]
     ) -> tuple[bool, list[Expression], list[Expression]]:
         """The sign and the factors, with the sums of the file for their multiples."""
         number, above, below = self._divided_by_letters(above, below)
         for factors, sign in (above, 1), (below, -1):
+            number *= self._with_given_products(factors) ** sign
             for place, factor in enumerate(factors):
                 base, exponent = whole_power(factor)
                 if not isinstance(base, Sum):

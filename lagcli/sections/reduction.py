@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import (
     Block,
     Equations,
+    Formula,
     Heading,
     Integral,
     Label,
@@ -28,7 +29,7 @@ from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.motions import OneFreedom, PeriodSeries
 from lagcli.statements.plus_minus import once, single
 from lagcli.statements.wording import (
-    POTENTIAL,
+    POTENTIALS,
     conditions,
     irreducible,
     state_blocks,
@@ -73,10 +74,13 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
     if section.momenta:
         words = "The Routhian, the Lagrangian minus the products of these momenta and velocities:"
         yield Paragraph((words,))
-    rows = [Row(Label("R"), section.routhian)]
-    if section.effective_potential is not None:
-        rows.append(Row(POTENTIAL, section.effective_potential))
-    yield Equations(tuple(rows))
+    rows, given = [], not (section.momenta or section.eliminated)  # R is the L of the file
+    if not given:
+        rows.append(Row(Label("R"), section.routhian))
+    if section.effective_potential is not None and not (given and section.potential == "V"):
+        rows.append(Row(POTENTIALS[section.potential], section.effective_potential))
+    if rows:
+        yield Equations(tuple(rows))
     yield from _gyroscopic(section)
     if section.momenta or section.eliminated:  # else they are those of the file
         s = "s" * (len(section.equations) > 1)
@@ -88,7 +92,7 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
         yield equations_of((Name(name, 1), value) for name, value in section.reconstruction.items())
     if section.one_freedom is not None:
         yield Heading("One degree of freedom", 2)
-        yield from _one_freedom(section.one_freedom)
+        yield from _one_freedom(section.one_freedom, POTENTIALS[section.potential])
 
 
 def _gyroscopic(section: ReductionSection) -> Iterator[Block]:
@@ -102,11 +106,11 @@ def _gyroscopic(section: ReductionSection) -> Iterator[Block]:
     yield equations_of((Label("g", (name,)), value) for name, value in section.gyroscopic.items())
 
 
-def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
+def _one_freedom(motion: OneFreedom, potential: Formula) -> Iterator[Block]:
     constant, q = Name(motion.constant), Name(motion.coordinate)
     yield Equations((Row(constant, motion.energy, f"conserved {motion.when}".rstrip()),))
     if motion.turning_points is None:
-        yield Paragraph(("The turning points are the roots of ", POTENTIAL, " = ", constant, "."))
+        yield Paragraph(("The turning points are the roots of ", potential, " = ", constant, "."))
     elif motion.turning_points:
         real = "real and positive" if motion.positive else "real"
         yield Paragraph((f"Turning points, where these are {real}:",))
@@ -123,16 +127,16 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
     time = Row(Name("t"), Integral(motion.rate, motion.coordinate))
     yield Equations((time, bound) if turns_back else (time,))
     for period in once(motion.periods):
-        yield from _period(period, motion.coordinate)
+        yield from _period(period, motion.coordinate, potential)
     if motion.reason:
         yield Paragraph((f"{motion.reason[0].upper()}{motion.reason[1:]}.",))
 
 
-def _period(period: PeriodSeries, coordinate: str) -> Iterator[Block]:
+def _period(period: PeriodSeries, coordinate: str, potential: Formula) -> Iterator[Block]:
     if period.root_of is not None:
         q = Name(coordinate)
         yield Paragraph(
-            ("Small oscillations about any ", q, " where ", POTENTIAL, " has a minimum:")
+            ("Small oscillations about any ", q, " where ", potential, " has a minimum:")
         )
         yield vanishing((period.root_of,))
     elif period.amplitude:

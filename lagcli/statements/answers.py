@@ -306,7 +306,8 @@ class ReductionSection:
     `momenta` are those of the cyclic coordinates, `reconstruction` their velocities, `when` says
     when those are constant that an impact changes.  `eliminated` were solved for by the
     constraints, `irreducible` do not occur in L and are kept.
-    R = T_2 + sum `gyroscopic` q' - `effective_potential` where it is quadratic in q'.
+    R = T_2 + sum `gyroscopic` q' - `effective_potential` where it is quadratic in q'; that is
+    called by its `potential`: U_eff, or V_eff = V - T_0, or V, where no coordinate is cyclic.
     """
 
     momenta: Mapping[str, Expression]
@@ -315,6 +316,7 @@ class ReductionSection:
     constraints: Mapping[str, tuple[Expression, Expression]] = field(default_factory=dict)
     reconstruction: Mapping[str, Expression] = field(default_factory=dict)
     effective_potential: Expression | None = None
+    potential: str = "U_eff"
     gyroscopic: Mapping[str, Expression] = field(default_factory=dict)
     gyroscopic_forces: bool = False
     gyroscopic_change: bool = False

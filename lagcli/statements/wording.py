@@ -21,6 +21,7 @@ from lagcli.expression import (
     operation_count,
     walk,
 )
+from lagcli.notation.letters import own
 from lagcli.statements.answers import (
     EquilibriaSection,
     ModesSection,
@@ -41,8 +42,12 @@ CONSERVED = "L does not depend on t explicitly, no applied force and no constrai
 CHANGE_OF_L = "a change of L that is not a total time derivative"
 #: What a candidate is worth whose charge is 0, or constant by the constraints alone.
 TRIVIAL = "Its charge is constant whatever the motion is: no conserved quantity follows."
-#: The effective potential.
-POTENTIAL = Label("U", ("eff",))
+#: The potentials whose minima and values a motion in one coordinate is read from.
+POTENTIALS: Mapping[str, Formula] = {
+    "U_eff": Label("U", ("eff",)),
+    "V_eff": Label("V", ("eff",)),
+    "V": own("V"),
+}
 #: Said of what was sought on a constraint surface with a cone's apex, a crossing or an edge.
 INDEPENDENT = " where the gradients of the constraints are independent"
 NOT_ZERO = " where the gradient of the constraint is not 0"
@@ -165,6 +170,9 @@ def _sides(each: Above) -> list[Part]:
             return [left, " < ", ZERO]
         case Above(left=Number(value=0), right=Negative(operand=right)):
             return [right, " > ", ZERO]
+        case Above(left=Number(value=0), right=Sum() as right):
+            plus, minus = added_and_subtracted(right)
+            return [minus, " > ", plus] if minus != ZERO else [right, " < ", ZERO]
         case Above(left=Number(value=0), right=right):
             return [right, " < ", ZERO]
     if not any(isinstance(node, Name) for node in walk(each.left)):

@@ -651,7 +651,7 @@ def test_a_place_that_is_no_minimum_is_not_called_one(beside):
     )
     section, _ = reduction(derive(text))
     assert section.one_freedom.reason == (
-        "U_eff has no minimum at which its second derivative is positive"
+        "V has no minimum at which its second derivative is positive"
     )
 
 

@@ -60,7 +60,16 @@ def test_an_equilibrium_exists_where_the_potential_is_real(outer: str, argument:
             assert held == (_value(argument, there) > 0), (place, values)
 
 
-@pytest.mark.parametrize("potential", ["c*sqrt(a - b*cos(x))", "b*log(a + b*cos(x) - c)"])
+@pytest.mark.parametrize(
+    "potential",
+    [
+        "c*sqrt(a - b*cos(x))",
+        "b*log(a + b*cos(x) - c)",
+        "a*cos(x) + b*cos(x)^2",  # x = acos(-a/(2 b)), not real where a > 2 b
+        "c*(x^2 - a + b)^2",
+        "a*exp(x) - (b - c)*x",
+    ],
+)
 def test_existence_said_for_too_many_parameters_is_refuted(potential: str) -> None:
     problem, answers, section = _derived(potential)
     bare = tuple(replace(each, where=()) for each in section.equilibria)

@@ -17,7 +17,7 @@ from lagcli.statements.answers import ReductionSection, Section
 from lagcli.statements.motions import OneFreedom, PeriodSeries
 from lagcli.statements.plus_minus import once, single
 from lagcli.statements.wording import (
-    POTENTIAL,
+    POTENTIALS,
     conditions,
     irreducible,
     place_rows,
@@ -42,18 +42,23 @@ def reduction(explainer: Explainer, section: Section) -> Iterator[Block]:
     if reduced.reconstruction:
         yield from _routhian(explainer, reduced, reduced.routhian)
     tied = bool(reduced.constraints) and not reduced.momenta
-    if reduced.effective_potential is not None and not tied and not _timed(reduced):
+    if (
+        reduced.effective_potential is not None
+        and not tied
+        and not _timed(reduced)
+        and (reduced.potential != "V" or reduced.eliminated)
+    ):
         whole = explainer.letters.free("R") if reduced.momenta else explainer.letters.L
         yield says("The terms of ", whole,
                    " without velocities, with the opposite sign, are the effective "
                    "potential:")  # fmt: skip
-        yield shows(POTENTIAL, reduced.effective_potential)
+        yield shows(POTENTIALS[reduced.potential], reduced.effective_potential)
     if reduced.equations and (reduced.momenta or reduced.eliminated):
         one = len(reduced.equations) == 1
         yield says(f"Lagrange's equation{' is' if one else 's are'} then")
         yield equations_of((each.left, each.right) for each in reduced.equations)
     if reduced.one_freedom is not None:
-        yield from _one_freedom(reduced.one_freedom)
+        yield from _one_freedom(reduced.one_freedom, POTENTIALS[reduced.potential])
     yield from averaged_potential(explainer)
 
 
@@ -113,15 +118,15 @@ def averaged_potential(explainer: Explainer) -> Iterator[Block]:
     yield shows(Label("V", ("eff",)), write(found.potential))
 
 
-def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
+def _one_freedom(motion: OneFreedom, potential: Part) -> Iterator[Block]:
     q, E = Name(motion.coordinate), Name(motion.constant)
     yield says("One coordinate is left, ", q, ". Its energy function is constant:")
     yield shows(E, motion.energy)
     if motion.turning_points is None:
-        yield says("Its turning points are the roots of ", POTENTIAL, " = ", E, ".")
+        yield says("Its turning points are the roots of ", potential, " = ", E, ".")
     elif motion.turning_points:
         real = "real and positive" if motion.positive else "real"
-        yield says("Its turning points are the roots of ", POTENTIAL, " = ", E,
+        yield says("Its turning points are the roots of ", potential, " = ", E,
                    f" that are {real}:")  # fmt: skip
         yield equations_of((q, root) for root in single(motion.turning_points))
         for lower, upper in motion.turning_energies:
@@ -131,15 +136,15 @@ def _one_freedom(motion: OneFreedom) -> Iterator[Block]:
     else:
         yield says("It has no turning point.")
     for each in once(motion.periods):
-        yield from _period(each)
+        yield from _period(each, potential)
 
 
-def _period(each: PeriodSeries) -> Iterator[Block]:
+def _period(each: PeriodSeries, potential: Part) -> Iterator[Block]:
     if each.at:
-        yield says("About the minimum of ", POTENTIAL, " at")
+        yield says("About the minimum of ", potential, " at")
         yield Equations(place_rows(each.at, None))
     elif each.root_of is not None:
-        yield says("About a minimum of ", POTENTIAL, ", where this vanishes,")
+        yield says("About a minimum of ", potential, ", where this vanishes,")
         yield vanishing((each.root_of,))
     if each.amplitude:
         a, order = Name(each.amplitude), Number(Fraction(each.order))

@@ -19,7 +19,7 @@ from lagcli.statements.motions import SteadyMotion, SteadySection
 from lagcli.statements.plus_minus import once, unlike
 from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
-    POTENTIAL,
+    POTENTIALS,
     conditions,
     in_moving_frames,
     in_polar_coordinates,
@@ -77,7 +77,7 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
         "have constant velocities. All velocities and accelerations in the Routhian's "
         "equations are "
         "then 0, so the derivatives of ",
-        POTENTIAL,
+        POTENTIALS["U_eff"],
         f" {_BALANCED[found.acting]}, with the momenta of the cyclic coordinates as constants"
         f"{':' if found.conditions else ', which they do everywhere.'}",
     )

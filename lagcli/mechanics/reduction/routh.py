@@ -226,6 +226,18 @@ class Routh:
         return -self._at_rest(self.reduced.system.L)
 
     @cached_property
+    def potential_name(self) -> str:
+        """Of the effective potential: U_eff at given momenta, else V, or V_eff = V - T_0."""
+        given = self.given
+        if self.cyclic or given.system.V is None:
+            return "U_eff" if self.cyclic else "V_eff"
+        relations = given.dynamics.constraints.relations
+        V, solved = given.system.V, relations.solved if relations else {}
+        while not free_of(V, solved):
+            V = V.xreplace(solved)
+        return "V" if is_zero(self.effective_potential - V) else "V_eff"
+
+    @cached_property
     def balance(self) -> tuple[Expr, ...]:
         """dU_eff/dq, shape (n,): 0 on a steady motion where no force acts beside."""
         assert self.reduced is not None

@@ -116,6 +116,7 @@ class _Statement:
                     for j, v in zip(routh.cyclic, routh.velocities, strict=True)
                 },
                 effective_potential=potential,
+                potential=routh.potential_name,
                 gyroscopic=gyroscopic,
                 gyroscopic_forces=bool(gyroscopic) and routh.gyroscopic_forces,
                 gyroscopic_change=bool(gyroscopic) and routh.gyroscopic_change,
@@ -239,7 +240,7 @@ class _Statement:
             ),
             oscillates=not periods.excluded,
             when=self.routh.between_impacts.get("", ""),
-            reason=periods.reason,
+            reason=periods.reason.replace("U_eff", self.routh.potential_name),
         )
 
     def _by_pace(self, motion: Motion, order: Sequence[str]) -> OneFreedom:

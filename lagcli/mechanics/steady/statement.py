@@ -172,7 +172,7 @@ class _SteadyStatement:
                 judged = judge_on_axes(self.steady, motion)
         except ZeroDivisionError:
             pass
-        potential = potential_of(self.steady.rest, "U_eff")
+        potential = potential_of(self.steady.rest, "U_eff") and self.routh.potential_name
         if self.steady.contacts.grazes(motion):
             judged = self._with_contacts(motion) or undecided(GRAZES)
         elif judged.is_open and (resting := self._at_rest(motion)) is not None:
@@ -281,6 +281,11 @@ class _SteadyStatement:
 
     def _square(self, expression: Expr) -> Expression:
         """(Ω ± sqrt(k/m))² as the square of what it is the square of."""
+        squares = [f for f in sympy.Mul.make_args(expression) if f.is_Pow and f.exp == 2]
+        square = next((f for f in squares if f.base.is_Add), None)
+        if square is not None and (outside := expression / square).is_positive:
+            root = sympy.expand(sympy.sqrt(outside) * square.base)
+            expression = shorter(expression, root**2)
         base, power = expression.as_base_exp()
         if power != 2 or not base.is_Add:
             return self._shape(expression)

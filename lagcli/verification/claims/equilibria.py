@@ -176,6 +176,9 @@ def _stays(
     if not tried and place.where and not unknown:
         x.refute(what, _NOWHERE.reason)
         return _NOWHERE
+    if not unknown and place.unreal():
+        x.refute(what, "it is not real for some parameters with which it is said to exist")
+        return None
     if not tried:
         x.unchecked.append(what)
     if not (unknown or x.reference.large) and _exists_beyond(place, zeros):

@@ -83,6 +83,9 @@ class RestPlace:
 
     def spread(self, rounds: int = 1) -> Iterator[LinearMotion]:
         """States here with parameters of other sizes and signs: what always holds holds there."""
+        yield from filter(None, map(self.near, self._spread(rounds)))
+
+    def _spread(self, rounds: int) -> Iterator[Environment]:
         random = Random(3)
         parameters = [p for p in self.x.problem.parameters if not p.integer]
         signs = {p.name: (1, -1) if p.assume == "real" else (1,) for p in parameters}
@@ -91,9 +94,16 @@ class RestPlace:
                 (n, 0): state.environment[n, 0] * random.choice(s) * arb(2) ** random.randint(-3, 3)
                 for n, s in signs.items()
             }
-            near = self.near({**state.environment, **scaled})
-            if near is not None:
-                yield near
+            yield {**state.environment, **scaled}
+
+    def unreal(self) -> bool:
+        """Whether a printed value is not real for parameters that its conditions allow."""
+        for known in self._spread(1):
+            at = self.x.reference.values({**self._momenta, **known})
+            real = all(at(place).is_finite() for place in self.values.values())
+            if not real and all(at(place) > 0 for place in self.where):
+                return True
+        return False
 
     def beside(self, bounds: Sequence[int]) -> Iterator[LinearMotion]:
         """States a little to both sides of where a condition on the parameters just holds."""

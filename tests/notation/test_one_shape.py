@@ -1,0 +1,75 @@
+"""One quantity, one shape: what the file has is not expanded, split or doubled in the answer."""
+
+from __future__ import annotations
+
+import pytest
+
+from lagcli.formatters import Options
+from lagcli.pipeline import render
+from lagcli.reader import read_problem
+from tests.solved import solve
+
+
+def text(coordinates: str, parameters: str, physics: str, *sections: str) -> str:
+    positive = ", ".join(f"{name}: {{assume: positive}}" for name in parameters.split())
+    file = f"coordinates: [{coordinates}]\nparameters: {{{positive}}}\n{physics}"
+    return render(
+        [solve(read_problem("t.yaml", file.encode()).checked(), sections)], "text", Options()
+    )
+
+
+@pytest.mark.parametrize("n", [2, 3, 5])
+def test_a_drive_keeps_its_angle_in_the_canonical_equations(n: int) -> None:
+    """The frequency of the file, of which the algebra knows sin(W t) alone."""
+    physics = f"T: m*(l^2*q'^2 + 2*A*l*W*q'*sin(q)*sin({n}*W*t))/2\nV: -m*g*l*cos(q)"
+    found = text("q", "m l g A W", physics, "canonical_equations")
+    assert f"sin({n} W t)" in found
+    assert "sin(W t)" not in found
+
+
+@pytest.mark.parametrize("argument", ["2*pi*z/h", "pi*z/h", "4*pi*z/(3*h)"])
+def test_a_wave_has_its_places_of_rest_in_one_period_once(argument: str) -> None:
+    found = text("z", "m h k", f"T: m*z'^2/2\nV: k*cos({argument})", "equilibria")
+    assert found.count("z = ") == 2
+
+
+@pytest.mark.parametrize(("a", "b"), [("k", "m"), ("m", "k")])
+def test_squared_and_unsquared_frequencies_have_one_shape(a: str, b: str) -> None:
+    """The oscillator in a turning frame: |W - sqrt(a/b)| in `modes`, its square here."""
+    physics = f"T: {b}*((x' - W*y)^2 + (y' + W*x)^2)/2\nV: {a}*(x^2 + y^2)/2"
+    assert f"ω² = (W ± √({a}/{b}))²" in text("x, y", "m k W", physics, "steady_motions")
+
+
+@pytest.mark.parametrize("power", ["", "^2", "^3", "^(3/2)", "^(1/2)"])
+def test_a_difference_of_squares_of_the_file_is_not_split(power: str) -> None:
+    physics = f"T: m*x'^2/2\nV: m*g*x*(R^2 - l^2){power} + k*x^2/2"
+    found = text("x", "m g k R l", physics, "equilibria", "reduction")
+    assert "R² − l²" in found
+    assert "R + l" not in found
+    assert "R⁴" not in found
+
+
+@pytest.mark.parametrize(
+    ("physics", "name"),
+    [
+        ("T: m*x'^2/2\nV: k*x^4/4", "V"),
+        ("T: m*x'^2/2 + m*W^2*x^2/2\nV: k*x^4/4", "V_eff"),
+        ("T: m*(x'^2 + y'^2)/2\nV: k*x^4/4", "U_eff"),
+        ("T: m*(x'^2 + y'^2)/2\nV: k*x^4/4\nconstraints: {c: y = b*x^2}", "V"),
+    ],
+)
+def test_a_potential_has_the_name_of_what_it_is(physics: str, name: str) -> None:
+    """U_eff at given momenta (Goldstein, section 3.3), V_eff = V - T_0, else V of the file."""
+    coordinates = "x, y" if "y" in physics else "x"
+    found = text(coordinates, "m k W b", physics, "reduction", "steady_motions")
+    assert {n for n in ("U_eff", "V_eff", "V") if f" {n} " in found} - {"V"} == {name} - {"V"}
+    assert f"{name} has " in found
+
+
+@pytest.mark.parametrize("terms", ["a*y' - p_x", "a*sin(y) - p_x + b"])
+def test_a_rate_has_its_own_momentum_first(terms: str) -> None:
+    """x' = (p_x − …)/m of a cyclic x whose momentum has other terms."""
+    others = terms.replace(" - p_x", "")
+    physics = f"T: m*x'^2/2 + x'*({others}) + M*y'^2/2\nV: -k*cos(y)"
+    found = text("x, y", "m M k a b", physics, "reduction")
+    assert "ẋ = (p_x − " in found
