@@ -87,14 +87,10 @@ class _SteadyStatement:
         found = steady.motions
         cyclic = tuple(steady.full.names[j] for j in self.routh.cyclic)
         manner = Manner(self.given)
-        conditions = (
-            {
-                str(k): manner.vanishing(self._shape(vanishing_part(c)))
-                for k, c in enumerate(steady.balance)
-            }
-            if self.routh.quadratic
-            else {}
-        )
+        conditions = {
+            str(k): manner.vanishing(self._shape(vanishing_part(c)))
+            for k, c in enumerate(steady.balance)
+        }
         resting = steady.only_rest_is_sought
         plane = plane_of_rotation(RestPoints(self.routh.full.dynamics))
         if found is None:
