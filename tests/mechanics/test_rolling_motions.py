@@ -140,3 +140,24 @@ constraints: {{blade: x'*sin{turned} = y'*cos{turned}}}
         for v in (1.0, -1.0):
             at = {"phi": phi, "x": v * cos(phi + direction * pi / 6)}  # of x the rate alone occurs
             assert (value(falls.left, **at) > value(falls.right, **at)) == (arm * v > 0)
+
+
+@pytest.mark.parametrize("inertia", [(1, 2, 3), (3, 1, 2), (2, 2, 1)])
+def test_at_a_pole_of_the_angles_nothing_moves_steadily(inertia):
+    """Suslov: with ω₃ = 0, φ' and ψ' turn nothing at θ = π, where ω = 0 for every φ'."""
+    A, B, C = inertia
+    section, missing = steady_motions(
+        derive(f"""
+coordinates: {{theta: {{assume: positive}}, phi: , psi: }}
+definitions:
+  w1: phi'*sin(theta)*sin(psi) + theta'*cos(psi)
+  w2: phi'*sin(theta)*cos(psi) - theta'*sin(psi)
+  w3: phi'*cos(theta) + psi'
+T: ({A}*w1^2 + {B}*w2^2 + {C}*w3^2)/2
+constraints: {{suslov: psi' + phi'*cos(theta) = 0}}
+""")
+    )
+    assert not missing
+    assert section.motions
+    angles = [value(m.at["theta"]) for m in section.motions if "theta" in m.at]
+    assert all(abs(sin(angle)) > 0.1 for angle in angles)

@@ -15,6 +15,7 @@ chapter V.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from functools import cached_property
 from itertools import combinations
 
@@ -280,13 +281,24 @@ class RollingMotions:
         return {**{x: at(value, new) for x, value in values.items()}, **new}
 
     def _holds(self, values: Mapping[Symbol, Expr]) -> bool:
-        """Whether F vanishes there; not known where the coordinates are singular."""
+        """Whether F vanishes there; not known where the coordinates are singular.
+
+        At a pole, where F has no derivatives, only rest counts: a rate may turn nothing there.
+        """
         try:
             rates = [at(f.xreplace(self._still), values) for f in self._equations or ()]
         except ZeroDivisionError:
             rates = [S.NaN]
         self.complete &= not any(f.has(*NO_VALUE) for f in rates)
-        return all(is_zero(f) is True for f in rates)
+        if not all(is_zero(f) is True for f in rates):
+            return False
+        if self._moves(values) and self._jacobian(values) is None:
+            self.complete = False
+            return False
+        return True
+
+    def _moves(self, values: Mapping[Symbol, Expr]) -> bool:
+        return any(values.get(self.system.qdot[j]) != 0 for j in self.turning)
 
     # -- stability --------------------------------------------------------------------------------
 
@@ -297,10 +309,8 @@ class RollingMotions:
         """
         if not any(self._equations or ()):
             return Stability(stable=True, reason=_UNIFORM), ()
-        try:
-            powers = self._characteristic(motion)
-        except ZeroDivisionError:
-            powers = None
+        jacobian = self._jacobian(motion.values)
+        powers = None if jacobian is None else _characteristic(jacobian)
         if powers is None:
             found = undecided("the linearised equations were not found")
             return self._at_rest(motion, found) or found, ()
@@ -311,8 +321,7 @@ class RollingMotions:
 
     def _at_rest(self, motion: RollingMotion, found: Stability) -> Stability | None:
         """The verdict on the equilibrium that it is, unless the roots alone decide."""
-        rates = (motion.values.get(self.system.qdot[j]) for j in self.turning)
-        moves = any(rate != 0 for rate in rates)
+        moves = self._moves(motion.values)
         rest = None if moves else self._equilibria.verdict_at(motion.values)
         return None if rest is None or (rest.is_open and not found.is_open) else rest
 
@@ -342,20 +351,27 @@ class RollingMotions:
             return len(unknowns) - len(conditions)
         return sum(1 for x in unknowns if x not in motion.values)
 
-    def _characteristic(self, motion: RollingMotion) -> list[Expr] | None:
-        """The coefficients of det(s - J) by powers of s, simplified."""
-        system, s = self.system, Symbol("#s", real=True)
+    def _jacobian(self, values: Mapping[Symbol, Expr]) -> list[list[Expr]] | None:
+        """J of the linearised equations of r and u; None where F has no derivatives."""
+        system = self.system
         state = [system.q[j] for j in self.coordinates] + [system.qdot[j] for j in self.velocities]
         flow = [system.qdot[j] for j in self.coordinates] + list(self._equations or ())
-        matrix = [
-            [
-                (s if a == b else S.Zero) - at(f.diff(x).xreplace(self._still), motion.values)
-                for b, x in enumerate(state)
-            ]
-            for a, f in enumerate(flow)
-        ]
-        powers = determinant_in(s, matrix)
-        return None if powers is None else [simplify(c) for c in powers]
+        slopes = [[f.diff(x).xreplace(self._still) for x in state] for f in flow]
+        with suppress(ZeroDivisionError):
+            there = [[at(slope, values) for slope in row] for row in slopes]
+            return None if any(s.has(*NO_VALUE) for row in there for s in row) else there
+        return None
+
+
+def _characteristic(jacobian: Sequence[Sequence[Expr]]) -> list[Expr] | None:
+    """The coefficients of det(s - J) by powers of s, simplified."""
+    s = Symbol("#s", real=True)
+    matrix = [
+        [(s if a == b else S.Zero) - entry for b, entry in enumerate(row)]
+        for a, row in enumerate(jacobian)
+    ]
+    powers = determinant_in(s, matrix)
+    return None if powers is None else [simplify(c) for c in powers]
 
 
 def _within(one: RollingMotion, other: RollingMotion) -> bool:
