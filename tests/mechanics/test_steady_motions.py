@@ -491,3 +491,38 @@ def test_equilibria_that_stand_with_their_modes_are_not_listed_again(also, repea
     problem = read_problem("a.yaml", (text + "{k: {assume: positive}}").encode()).checked()
     answers = solve(problem, [*also, "steady_motions"])
     assert ("Steady motion 1" in render([answers], "text", Options())) == (repeated or cyclic)
+
+
+@pytest.mark.first_quick
+@pytest.mark.parametrize("power", ["-k/r", "k*r", "-k/sqrt(r)"])
+def test_a_routhian_that_is_not_quadratic_has_conditions(power):
+    """γ m r φ'² = V'(r), Goldstein, section 7.9: with p_φ = γ m r² φ' it is 0 on the circle."""
+    section, _ = steady_motions(
+        derive(f"""
+coordinates: {{r: {{assume: positive}}, phi: }}
+parameters: {{k: {{assume: positive}}}}
+L: -4*sqrt(1 - (r'^2 + r^2*phi'^2)/4) - ({power})
+""")
+    )
+    [condition] = section.conditions.values()
+    for r, v, k in ((0.7, 0.6, 1.1), (1.9, 1.7, 0.3)):
+        gamma = (1 - v**2 / 4) ** -0.5
+        pull = {"-k/r": k / r**2, "k*r": k, "-k/sqrt(r)": k / (2 * r**1.5)}[power]
+        at = {"r": r, "p_phi": gamma * r * v, "k": k * gamma * v**2 / (r * pull)}
+        values = {name: mpmath.mpf(x) for name, x in at.items()}
+        assert evaluated(condition, values, FUNCTIONS) == pytest.approx(0, abs=1e-12)
+        assert abs(evaluated(condition, {**values, "k": values["k"] + 1}, FUNCTIONS)) > 1e-3
+
+
+@pytest.mark.parametrize("frame", ["0", "J*phi'^2/2"])
+def test_a_precession_includes_rotation_about_a_diameter(frame):
+    """A φ' = p_φ, p_ψ = A φ' cos θ: where cos θ = 0 it turns about a diameter at any rate."""
+    found = motions(f"""
+coordinates: {{theta: POSITIVE, phi: , psi: }}
+parameters: {{A: POSITIVE, C: POSITIVE, J: POSITIVE}}
+T: A*(theta'^2 + phi'^2*sin(theta)^2)/2 + C*(psi' + phi'*cos(theta))^2/2 + {frame}
+""")
+    [precession] = (m for m in found if set(m.free) == {"theta", "phi'"})
+    values = {"theta": mpmath.pi / 2, "phi'": mpmath.mpf(2), "A": 3, "C": 2, "J": 1}
+    assert evaluated(precession.momenta["psi"], values, FUNCTIONS) == pytest.approx(0)
+    assert evaluated(precession.momenta["phi"], values, FUNCTIONS) > 5

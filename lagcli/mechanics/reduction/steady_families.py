@@ -12,7 +12,7 @@ Whittaker, *Analytical Dynamics*, 4th ed., sections 83 and 84.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import combinations
+from itertools import chain, combinations
 
 import sympy
 from sympy import Expr, S, Symbol
@@ -26,6 +26,7 @@ from lagcli.algebra.positivity import deciding
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SystemSolution, solve_system
+from lagcli.algebra.vanishing_factors import divisors
 from lagcli.mechanics.inequalities import never_together
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_motion import Steady
@@ -58,19 +59,39 @@ class SteadyFamilies:
 
     def motions(self) -> list[Steady] | None:
         """Those of the choice of the unknown with the shortest answer; None without any."""
-        best: list[Steady] | None = None
-        least = 0
-        for unknown, chart in self._charts():
-            found = self._solved(unknown, chart)
-            if found is None:
-                continue
-            cost = sum(_cost(v) for each in found for v in each.values.values())
-            if best is None or cost < least:
-                best, least = found, cost
-        if best is None:
+        solved = (self._solved(unknown, chart) for unknown, chart in self._charts())
+        choices = [found for found in solved if found is not None]
+        if not choices:
             return None
+        best = min(choices, key=lambda found: sum(map(_cost_of, found)))
+        known = [*chain(*choices)]
+        whole = [self._without_poles(one, known) for one in best]
         q = self.system.q
-        return [one for one in best if not any(one.within(other, q) for other in best)]
+        return [one for one in whole if not any(one.within(other, q) for other in whole)]
+
+    def _without_poles(self, one: Steady, others: Sequence[Steady]) -> Steady:
+        """The same family by another rate or momentum, which has no pole at any place.
+
+        With p_φ = p_ψ/cos θ rotation about a diameter, p_ψ = 0 and cos θ = 0, would be left out.
+        """
+        if not self._poles(one):
+            return one
+        wider = [each for each in others if not self._poles(each) and self._contains(each, one)]
+        return min(wider, key=_cost_of, default=one)
+
+    def _poles(self, one: Steady) -> bool:
+        """Whether a value is infinite somewhere."""
+        values = (*one.values.values(), *(one.rates or {}).values())
+        below = (d for value in values for d in divisors(value))
+        return any(not free_of(d, self.system.q) and sign(d) not in (1, -1) for d in below)
+
+    def _contains(self, family: Steady, one: Steady) -> bool:
+        put_in = {**one.values, **{self.full.qdot[j]: v for j, v in (one.rates or {}).items()}}
+        fixed = [{q: e.values.get(q, q) for q in self.system.q} for e in (family, one)]
+        return fixed[0] == fixed[1] and all(
+            is_zero(one.values.get(x, x) - at(value, put_in)) is True
+            for x, value in family.values.items()
+        )
 
     def _charts(self) -> Iterator[tuple[Symbol, dict[Expr, Expr]]]:
         """What to solve for, and p_c by the rate of c where the rate is what is given."""
@@ -199,6 +220,10 @@ class SteadyFamilies:
             return [Steady(whole, rates, tuple(positive), mirrored)]
         except ZeroDivisionError:
             return []
+
+
+def _cost_of(motion: Steady) -> int:
+    return sum(map(_cost, motion.values.values()))
 
 
 def _cost(value: Expr) -> int:
