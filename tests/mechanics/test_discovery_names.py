@@ -181,3 +181,16 @@ def test_a_damping_that_turns_has_no_complex_exponents():
         'forces: {x: "-c*(x\' + w*y)", y: "-c*(y\' - w*x)"}}'
     ).discovery
     assert found.stopped == []
+
+
+@pytest.mark.long
+def test_charges_at_a_special_value_have_names_of_their_own():
+    """The spherical top turns about its own axes, too: no name of what holds for any C."""
+    derivation = derive(
+        f"{{coordinates: [theta, phi, psi], parameters: {{A: {POS}, C: {POS}}}, "
+        "T: \"A*(theta'^2 + phi'^2*sin(theta)^2)/2 + C*(psi' + phi'*cos(theta))^2/2\"}"
+    )
+    names = [c.name for c in derivation.discovery.charges]
+    [case] = (each for each in derivation.special_cases if each.parameter.name == "C")
+    assert case.charges
+    assert not {c.name for c in case.charges} & {*names}

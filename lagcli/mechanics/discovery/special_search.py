@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 
 import sympy
 from sympy import Expr, Symbol
@@ -14,6 +15,7 @@ from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.discovery.modular import NoPoint
+from lagcli.mechanics.discovery.names import distinct
 from lagcli.mechanics.discovery.pivots import Pivots
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import point_slots
@@ -28,6 +30,7 @@ from lagcli.mechanics.discovery.special import (
     problem_at,
 )
 from lagcli.mechanics.discovery.spectrum import Exponent
+from lagcli.mechanics.noether import NoetherCharge
 from lagcli.problem_data import Problem
 
 _MOST_COORDINATES = 4  # measured: up to 5
@@ -78,11 +81,21 @@ def special_cases(
                 )
             ]  # fmt: skip
             charges = new_charges(known, there.charges, there.dynamics, allowed)
+            charges = _named_apart(charges, [c.name for c in discovery.charges])
             if charges:
                 found.append(SpecialCase(parameter, value, len(there.charges), charges))
     except TooMuchWork:
         discovery.words.append(_NOT_TRIED)
     return tuple(found)
+
+
+def _named_apart(
+    charges: Sequence[NoetherCharge], taken: Sequence[str]
+) -> tuple[NoetherCharge, ...]:
+    """None has the name of another one that is conserved for all values."""
+    own = ["" if c.name.startswith("charge_") else c.name for c in charges]
+    names = distinct([*taken, *own])[len(taken) :]
+    return tuple(replace(c, name=name) for c, name in zip(charges, names, strict=True))
 
 
 def _has_more(there: Discovery, here: Discovery) -> bool:
