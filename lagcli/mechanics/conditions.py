@@ -26,6 +26,7 @@ def conditions(
 ) -> tuple[Above, ...]:
     """What must be positive, without what the others imply."""
     positive = _with_numerators(positive)
+    expressions = [e for e in expressions if not isinstance(e, sympy.acos)]  # 0 at its end alone
     solved = _in_ratios([_times_known(e, positive) for e in expressions], positive)
     split = [part for expression in solved for part in _without_squares(expression)]
     pairs = _in_pairs(split)

@@ -124,7 +124,9 @@ class Inversion:
 
     def inverse_of(self, block: Block) -> Inverse | None:
         """The variables of a block by their images and the other variables."""
-        candidates = self._inverses(block)
+        candidates = (
+            x for x in self._inverses(block) if not any(v.has(sympy.I) for v in x.explicit)
+        )
         return next((x for x in candidates if self._inverts(block, x.explicit)), None)
 
     @cached_property

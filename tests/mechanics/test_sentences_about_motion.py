@@ -10,6 +10,8 @@ import pytest
 import sympy
 
 from lagcli.algebra.positivity import sign_of
+from lagcli.document import Equations
+from lagcli.expression import ZERO, factors_of
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.options import Options
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
@@ -227,3 +229,29 @@ def test_no_condition_is_stated_that_existence_excludes():
     found = equilibria(derive(text).dynamics).equilibria
     upside_down = [e for e in found if to_grammar(e.at["a"]) == "pi"]
     assert [e.verdict.stable for e in upside_down] == [False]
+
+
+@pytest.mark.parametrize("n", [2, 3])
+def test_a_characteristic_polynomial_is_printed_in_factors(n):
+    """Equal oscillators that only their differences damp: together they are free."""
+    q = [f"x{j}" for j in range(n)]
+    squares = " + ".join(f"{x}^2" for x in q)
+    moving = squares.replace("^", "'^")
+    differences = " + ".join(f"({x}' - {y}')^2" for x, y in pairwise(q))
+    text = (
+        f"coordinates: [{', '.join(q)}]\n{_POSITIVE}\n"
+        f"T: m*({moving})/2\nV: k*({squares})/2\n"
+        f"dissipation: c*({differences})/2\n"
+    )
+    steps = (s for s in explain(derive(text), ("modes",)).steps if s.title == "Small oscillations")
+    rows = [row for s in steps for b in s.blocks if isinstance(b, Equations) for row in b.rows]
+    [polynomial] = (row.right for row in rows if row.left == ZERO)
+    assert "m*s^2 + k" in map(to_grammar, factors_of(polynomial))
+
+
+@pytest.mark.parametrize("wall", ["x >= 0", "x >= -2"])
+def test_a_contact_that_is_closed_at_the_minimum_is_not_called_a_constraint(wall):
+    text = f"coordinates: [x]\nT: x'^2/2\nV: x^2/2 + x\ncontacts: {{wall: {wall}}}\n"
+    found = answered(text, "reduction")
+    assert ("contacts are not open" in found) == (wall == "x >= 0")
+    assert "one-sided constraints do not hold" not in found

@@ -381,3 +381,24 @@ def test_where_the_lagrangian_is_not_real_nothing_is_said_to_be_conserved(root):
     parameters = "{R: {assume: positive}, l: {assume: positive}}"
     text = f"coordinates: [x]\nparameters: {parameters}\nT: x'^2/2\nV: -{root}*cos(x)\n"
     assert "imaginary" not in said(text, "Discovered symmetries", "discovered")
+
+
+@pytest.mark.parametrize("name", ["theta", "alpha"])
+def test_an_angle_that_is_an_arccosine_is_not_asked_to_be_positive(name):
+    """0 ≤ arccos x ≤ π; what is asked is that it is real."""
+    x, y = sympy.symbols(f"{name} y", positive=True)
+    [real] = conditions([1 - (x / y) ** 2, sympy.acos(x / y)], [name, "y"])
+    assert {to_grammar(real.left), to_grammar(real.right)} == {"y", name}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("mass", ["m*r^2", "m*(1 + r^2)"])
+def test_a_cubic_momentum_is_inverted_in_real_numbers(mass):
+    """p = M φ' + b φ'³: Cardano's root that is real for every p, not one of complex parts."""
+    derivation = derive(
+        f"{{coordinates: {{r: {{assume: positive}}, phi: }}, parameters: {{m: {{assume: positive}}}}, "
+        f"L: m*r'^2/2 + {mass}*phi'^2/2 + phi'^4/4}}"
+    )
+    routh = Routh(derivation)
+    assert routh.reduced is not None
+    assert not any(v.has(sympy.I) for v in routh.velocities)

@@ -6,12 +6,25 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, cast
 
+import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, nullspace, shape, simplify
+from lagcli.algebra.build import free_of
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign
 from lagcli.document import Block, Equations, Label, Row, equations_of, vanishing
-from lagcli.expression import ZERO, Call, Expression, Name, Number, Power, operation_count, sum_of
+from lagcli.expression import (
+    ZERO,
+    Call,
+    Expression,
+    Name,
+    Number,
+    Power,
+    operation_count,
+    product_of,
+    sum_of,
+)
 from lagcli.mechanics.conditions import above
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
@@ -165,8 +178,14 @@ def _damped(explainer: Explainer, place: Place) -> Iterator[Block]:
     if powers is None:
         return
     symbol, order = Symbol(s.name, real=True), (*explainer.system.order, s.name)
-    falling = [shape(c * symbol**k, order) for k, c in reversed([*enumerate(powers)]) if c != 0]
-    written = sum_of(falling)
+    whole = simplify(sympy.Add(*(c * symbol**k for k, c in enumerate(powers))))
+    factors = []
+    found = ((f, k) for f, k in factors_of(whole) if not free_of(f, [symbol]))
+    for factor, power in sorted(found, key=lambda pair: pair[0] != symbol):
+        falling = sympy.Poly(factor, symbol).terms()
+        written = sum_of(shape(c * symbol**k, order) for (k,), c in falling)
+        factors += [written if power == 1 else Power(written, Number(Fraction(power)))]
+    written = product_of(factors)
     if operation_count(written) <= _LONG:
         yield says("This gives")
         yield vanishing((written,))

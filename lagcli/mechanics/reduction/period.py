@@ -105,7 +105,9 @@ class Periods:
         for point in points:
             pressed = self.motion.contacts.where_pressed(point.values)
             if pressed is None and sign(simplify(at(curvature, point.values))) != -1:
-                self.reason = "the one-sided constraints do not hold at a minimum of U_eff"
+                contacts = self.motion.contacts.routh.given.problem.contacts
+                held = "contacts are not open" if contacts else "one-sided constraints do not hold"
+                self.reason = f"the {held} at a minimum of U_eff"
             if point.free or pressed is None:
                 continue
             if not free_of(sympy.Add(*pressed), [self.motion.system.t]):
