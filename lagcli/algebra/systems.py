@@ -338,10 +338,13 @@ def _within_a_turn(angle: Expr) -> Expr:
 
 
 def _lies_on(solution: SystemSolution, other: SystemSolution) -> bool:
-    """Whether a solution is one of a family that is given by a relation."""
-    if other is solution or other.relation is None:
+    """Whether a solution is one of a family, given by a relation or by fewer values."""
+    if other is solution or not (other.relation or len(other.values) < len(solution.values)):
         return False
-    ties = [other.relation, *(s - v for s, v in other.values.items())]
+    if any(sign(p.xreplace(solution.values)) != 1 for p in other.positive):
+        return False
+    ties = [s - v for s, v in other.values.items()]
+    ties += [] if other.relation is None else [other.relation]
     there = [tie.xreplace(solution.values) for tie in ties]
     own = solution.relation
     return all(is_zero(tie) is True or (own is not None and same(tie, own)) for tie in there)

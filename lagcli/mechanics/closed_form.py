@@ -23,7 +23,7 @@ Featherstone, *Rigid Body Dynamics Algorithms*, chapter 6 (the same along a chai
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import cached_property
 from itertools import combinations_with_replacement
@@ -90,17 +90,11 @@ class ClosedForm:
         form = self.form
         if len(form.independent) < len(form.constraints):
             return None
-        names = StepNames(self.taken, wide=self._wide)
-        try:
-            steps = SymbolicElimination(
-                self.graph, *self._system(self._mass_matrix, self._forcing), names
-            )
-        except ZeroDivisionError:  # fewer coordinates with inertia than constraints
+        found = next(filter(None, map(self._eliminated, self._elimination_orders)), None)
+        if found is None:
             return None
-        if not self._holds(steps, *self._system(form.mass_matrix, form.forcing)):
-            return None
-        self._steps = steps
-        n, order = len(form.q), self._elimination_order
+        order, steps = found
+        self._steps, n = steps, len(form.q)
         x = [steps.solution[order.index(i)] for i in range(len(order))]
         self._lambda = [self.graph.scaled(each, -1) for each in x[n:]]
         values = [*x[:n], *self._lambda]
@@ -110,12 +104,29 @@ class ClosedForm:
         trees = written.values
         return ClosedSolution(accelerations=trees[:n], multipliers=trees[n:], where=written.where)
 
-    @cached_property
-    def _elimination_order(self) -> list[int]:
-        """Coordinates without inertia after the multipliers: their pivots are 0 before them."""
-        n = len(self.form.q)
+    def _eliminated(self, order: list[int]) -> tuple[list[int], SymbolicElimination] | None:
+        names = StepNames(self.taken, wide=self._wide)
+        system = self._system(self._mass_matrix, self._forcing, order)
+        try:
+            steps = SymbolicElimination(self.graph, *system, names)
+        except ZeroDivisionError:
+            return None
+        given = self._system(self.form.mass_matrix, self.form.forcing, order)
+        return (order, steps) if self._holds(steps, *given) else None
+
+    @property
+    def _elimination_orders(self) -> Iterator[list[int]]:
+        """Coordinates without inertia after multipliers: their pivots are 0 before them.
+
+        The pivot of a multiplier is 0 where the constraints before it leave nothing with inertia
+        free; it then follows the coordinates without.
+        """
+        n, m = len(self.form.q), len(self.form.constraints)
         massless = [i for i in range(n) if self._mass_matrix[i][i] is self.graph.zero]
-        return [k for k in range(n + len(self.form.constraints)) if k not in massless] + massless
+        others = [k for k in range(n + m) if k not in massless]
+        for last in range(m + 1 if massless else 1):
+            place = len(others) - last
+            yield [*others[:place], *massless, *others[place:]]
 
     @cached_property
     def constraint_forces(self) -> Written | None:
@@ -147,10 +158,10 @@ class ClosedForm:
         return [[self.form.read(entry) for entry in row] for row in self._given_matrix]
 
     def _system(
-        self, mass_matrix: Sequence[Sequence[Node]], forcing: Sequence[Node]
+        self, mass_matrix: Sequence[Sequence[Node]], forcing: Sequence[Node], order: list[int]
     ) -> tuple[list[list[Node]], list[Node]]:
         """K and what stands beside K x, in the order of elimination."""
-        zero, rows, order = self.graph.zero, self.form.constraints, self._elimination_order
+        zero, rows = self.graph.zero, self.form.constraints
         above = [[*line, *(row.row[i] for row in rows)] for i, line in enumerate(mass_matrix)]
         K = [*above, *([*row.row, *([zero] * len(rows))] for row in rows)]
         right = [*forcing, *(self.graph.scaled(row.bias, -1) for row in rows)]

@@ -16,6 +16,7 @@ from lagcli.evaluation import FUNCTIONS, evaluated
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
+from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.reader import read_problem
 
@@ -239,3 +240,24 @@ def test_a_spring_between_free_bodies_is_at_rest_at_its_length(seed):
     for one, other, way in zip(a, b, (cos(angle), sin(angle)), strict=True):
         assert m1 * shape[one] == pytest.approx(-m2 * shape[other])
         assert shape[one] * way == pytest.approx(shape[a[0]] / cos(angle) * way**2)
+
+
+@pytest.mark.parametrize(
+    "potential",
+    [
+        "g*(cos(x)*cos(y) - cos(x) - cos(y))",
+        "g*(3*cos(x) - cos(y) - 3*cos(x)*cos(y))",
+        "k*x^2*y^2",
+        "k*x^2*(x - 1)^2*sin(y)^2",
+        "g*sin(x)^2*sin(y)^2",
+    ],
+)
+def test_no_equilibrium_is_listed_that_is_one_of_a_family(potential):
+    text = (
+        "coordinates: [x, y]\nparameters: {g: {assume: positive}, k: {assume: positive}}\n"
+        f"T: (x'^2 + y'^2)/2\nV: {potential}\n"
+    )
+    places = [dict(point.values) for point in RestPoints(derivation(text).dynamics).points]
+    assert any(len(place) == 1 for place in places)
+    for one in places:
+        assert not any(other.items() < one.items() for other in places)

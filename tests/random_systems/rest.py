@@ -87,12 +87,12 @@ def _examine(judge, each, q):
         if not forces_vanish(motion, q):
             judge.say("wrong", "equilibria", f"{each['at']} is none: {needs(motion, q)}")
             return
-        _stability(judge, each, about(motion, q))
+        _stability(judge, each, about(motion, q), q)
     except (Undefined, ZeroDivisionError):
         return
 
 
-def _stability(judge, each, linear_):
+def _stability(judge, each, linear_, q):
     if not linear_.regular or any(judge.motion.on_velocities.values()):
         return
     if max(abs(x) for row in linear_.K for x in row) > KINK:
@@ -112,7 +112,7 @@ def _stability(judge, each, linear_):
     if said is not None and not unstable and not safe and minimum:
         _flat(judge, each, linear_, where)
     if said is None:
-        _conditions(judge, each, linear_, s, where, unstable or safe)
+        _conditions(judge, each, linear_, s, q, where, unstable or safe)
 
 
 def _flat(judge, each, linear_, where):
@@ -123,18 +123,23 @@ def _flat(judge, each, linear_, where):
     if "on" in each or max(abs(x) for row in linear_.C for x in row) > NEAR:
         return
     q = [read(each["at"][name])(motion.constants) for name in motion.coordinates]
-    U0, around = -motion.L(at_rest(motion, q)), []
-    for k in range(60):
-        angle = [mp.cos(k * mp.pi / 30 + j * mp.pi / 2) for j in range(motion.n)]
+    U0 = -motion.L(at_rest(motion, q))
+
+    def beside(turn):
+        angle = [mp.cos(turn + j * mp.pi / 2) for j in range(motion.n)]
         near = [x + a * mpf("1e-3") for x, a in zip(q, angle, strict=True)]
-        around.append(-motion.L(at_rest(motion, near)) - U0)
-    low = min(around)
+        return -motion.L(at_rest(motion, near)) - U0
+
+    lowest = min((k * mp.pi / 30 for k in range(60)), key=beside)
+    for width in (30, 300, 3000, 30000):  # a valley may be as narrow as y = 3 x²/2
+        lowest = min((lowest + k * mp.pi / (10 * width) for k in range(-10, 11)), key=beside)
+    low = beside(lowest)
     if (each["stable"] and low < -mpf("1e-20")) or (not each["stable"] and low > mpf("1e-16")):
         judge.say("wrong", "equilibria", f"{where}: around it U - U0 is at least {short(low)}")
 
 
-def _conditions(judge, each, linear_, s, where, decided):
-    names = dict(judge.motion.constants)
+def _conditions(judge, each, linear_, s, q, where, decided):
+    names = judge.motion.constants | dict(zip(judge.motion.coordinates, q, strict=True))
     tests = {
         "minimum": (bounds(linear_.K)[0] > CLEAR, bounds(linear_.K)[0] < -CLEAR),
         "hurwitz": (

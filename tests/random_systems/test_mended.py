@@ -41,6 +41,17 @@ MENDED = {
             "cy": "l*sin(a) + d*sin(a + b) - l*sin(c) = 0",
         },
     ),
+    "a driven chain whose last link has no mass: its constraints leave nothing with inertia free": System(
+        coordinates=dict.fromkeys("abc"),
+        parameters=dict.fromkeys(("m", "l", "d", "g", "w"), "positive"),
+        points={"A": (["l*cos(a) + d*cos(a + b)", "l*sin(a) + d*sin(a + b)"], "m")},
+        V="m*g*(l*sin(a) + d*sin(a + b))",
+        constraints={
+            "cx": "l*cos(a) + d*cos(a + b) + l*cos(a + b + c) = d",
+            "cy": "l*sin(a) + d*sin(a + b) + l*sin(a + b + c) = 0",
+            "motor": "a = w*t",
+        },
+    ),
     "y = a x twice: one multiplier is not determined": System(
         coordinates=dict.fromkeys("xy"),
         parameters={**M, "a": "positive"},
