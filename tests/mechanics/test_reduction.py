@@ -373,3 +373,20 @@ def test_one_coordinate_has_no_gyroscopic_force(drive: str):
     )
     assert section.gyroscopic_change
     assert not section.gyroscopic_forces
+
+
+@pytest.mark.parametrize("b", ["1/2", "2"])
+def test_the_time_of_a_relativistic_charge_in_polar_coordinates(b):
+    """m = c = 1 in a magnetic field: (dr/dt)² = 1 - ((p_φ - b r²)²/r² + 1)/E²."""
+    section, missing = reduced(f"""
+coordinates: {{r: POSITIVE, phi: {{}}}}
+L: -sqrt(1 - r'^2 - r^2*phi'^2) + {b}*r^2*phi'
+""")
+    assert not missing
+    one = section.one_freedom
+    names = {"r": symbol("r"), "p_phi": symbol("p_phi"), one.constant: symbol(one.constant)}
+    rate = Builder(names, {}, lambda e: Symbol(e.name + "'"))(one.rate)
+    for r, p, E in ((0.8, 0.7, 1.9), (1.1, -0.4, 3.7)):
+        found = rate.subs(dict(zip(names.values(), (r, p, E), strict=True)))
+        away = (p - float(sympy.Rational(b)) * r**2) / r
+        assert float(found) ** -2 == pytest.approx(1 - (away**2 + 1) / E**2)

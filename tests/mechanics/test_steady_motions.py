@@ -526,3 +526,18 @@ T: A*(theta'^2 + phi'^2*sin(theta)^2)/2 + C*(psi' + phi'*cos(theta))^2/2 + {fram
     values = {"theta": mpmath.pi / 2, "phi'": mpmath.mpf(2), "A": 3, "C": 2, "J": 1}
     assert evaluated(precession.momenta["psi"], values, FUNCTIONS) == pytest.approx(0)
     assert evaluated(precession.momenta["phi"], values, FUNCTIONS) > 5
+
+
+@pytest.mark.first_quick
+@pytest.mark.parametrize("k", ["b", "2*b"])
+def test_a_condition_on_a_free_momentum_is_met_by_either_sign(k):
+    """A relativistic charge circles with γ m φ' = -2 k, p_φ = -k r²; p_φ = k r² is rest."""
+    text = f"""
+coordinates: {{r: {{assume: positive}}, phi: }}
+parameters: {{b: {{assume: positive}}}}
+L: -sqrt(1 - r'^2 - r^2*phi'^2) + {k}*r^2*phi'
+"""
+    problem = read_problem("a.yaml", text.encode()).checked()
+    answers = solve(problem, ["steady_motions"])
+    assert not answers.warnings
+    assert len(answers.sections["steady_motions"].motions) == 2

@@ -9,7 +9,7 @@ from functools import cached_property
 import sympy
 from sympy import Expr, S
 
-from lagcli.algebra import shape, terms
+from lagcli.algebra import shape, simplify, terms
 from lagcli.algebra.build import symbol
 from lagcli.algebra.conjugate_roots import written_alike
 from lagcli.algebra.decimals import written
@@ -248,6 +248,8 @@ class _Statement:
         points, writer = motion.turning_points, Writer(order)
         assert motion.pace is not None
         parts = sympy.fraction(sympy.together(motion.pace))
+        if sympy.sqrt(parts[0]).has(sympy.I):  # -E²/(p² c² - E²) is E²/(E² - p² c²)
+            parts = [simplify(-part) for part in parts]
         above_, below = (shape(sympy.sqrt(part), order) for part in parts)
         return OneFreedom(
             coordinate=motion.q.name,

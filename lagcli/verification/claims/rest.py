@@ -94,12 +94,13 @@ class RestPlace:
                 (n, 0): state.environment[n, 0] * random.choice(s) * arb(2) ** random.randint(-3, 3)
                 for n, s in signs.items()
             }
-            yield {**state.environment, **scaled}
+            momenta = {key: p * random.choice((1, -1)) for key, p in self._momenta.items()}
+            yield {**momenta, **state.environment, **scaled}
 
     def unreal(self) -> bool:
         """Whether a printed value is not real for parameters that its conditions allow."""
         for known in self._spread(1):
-            at = self.x.reference.values({**self._momenta, **known})
+            at = self.x.reference.values(known)
             real = all(at(place).is_finite() for place in self.values.values())
             if not real and all(at(place) > 0 for place in self.where):
                 return True
