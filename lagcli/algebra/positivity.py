@@ -41,13 +41,26 @@ def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
         elif isinstance(factor, sympy.Abs):
             nonzero[factor.args[0]] = None
         elif even:
-            nonzero |= {factor: None} if power > 0 else {}
+            nonzero |= {_without_logarithms(factor): None} if power > 0 else {}
         else:
-            odd.append(factor)
+            odd.append(_without_logarithms(factor))
     others = [x for x in nonzero if x not in odd]
     plain = [e for e in radicands if not _exceeds_a_square(e, (*odd, *others))]
     roots = [e for e in (deciding(x, positive) for x in plain) if e not in {x**2 for x in others}]
     return direction * sympy.Mul(*odd, *roots, *(x**2 for x in others))
+
+
+def _without_logarithms(factor: Expr) -> Expr:
+    """a - b of ln a - ln b, x - 1 of ln x: what has the same sign where they are real."""
+    above, below = S.One, S.One
+    numbers = set()
+    for term in sympy.Add.make_args(factor):
+        number, log = term.as_coeff_Mul()
+        if not isinstance(log, sympy.log):
+            return factor
+        numbers.add(abs(number))
+        above, below = (above * log.args[0], below) if number > 0 else (above, below * log.args[0])
+    return simplify(above - below) if len(numbers) == 1 else factor
 
 
 def vanishing_part(expression: Expr) -> Expr:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-#: Functions whose powers stand behind their names: sin²(x).
-TRIGONOMETRIC = frozenset(("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh"))
+#: Functions whose powers stand behind their names: sin²(x), ln²(x).
+POWERED = frozenset(("sin", "cos", "tan", "cot", "sec", "csc", "sinh", "cosh", "tanh", "log"))
 
 #: Those that have another name on paper than in the grammar.
 ON_PAPER = {
@@ -18,4 +18,4 @@ ON_PAPER = {
 }
 
 #: Functions whose names are set upright.
-FIXED = TRIGONOMETRIC | {"exp", "atan2", *ON_PAPER}
+FIXED = POWERED | {"exp", "atan2", *ON_PAPER}

@@ -25,7 +25,7 @@ from lagcli.expression import (
     Rate,
     Sum,
 )
-from lagcli.formatters.functions import FIXED, ON_PAPER, TRIGONOMETRIC
+from lagcli.formatters.functions import FIXED, ON_PAPER, POWERED
 from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.latex_width import BINARY, SCRIPT, THIN_SPACE, digits, text_width
 from lagcli.formatters.layout import (
@@ -59,7 +59,7 @@ _FUNCTIONS = {
     for name, shown in ((name, ON_PAPER.get(name, name)) for name in FIXED)
 }
 #: Functions that may go without brackets.
-_BARE = (*TRIGONOMETRIC, "log")
+_BARE = POWERED
 
 #: Brackets by the height of what is in them.
 _SIZES = (("", ""), (r"\bigl", r"\bigr"), (r"\Bigl", r"\Bigr"), (r"\biggl", r"\biggr"))
@@ -229,7 +229,7 @@ class LatexPrinter(FractionPrinter[Box]):
         raised = TextPiece(f"^{{{exponent.text}}}", SCRIPT * exponent.width + 1)
         base = node.base
         is_natural = isinstance(node.exponent, Number) and node.exponent.value.denominator == 1
-        if isinstance(base, Call) and base.function in TRIGONOMETRIC and is_natural:
+        if isinstance(base, Call) and base.function in POWERED and is_natural:
             return self._function(base, raised)
         box = self.at(base, Level.ATOM)
         return Box((*box.pieces, raised), Level.POWER, box.height)

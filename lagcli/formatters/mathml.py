@@ -21,7 +21,7 @@ from lagcli.expression import (
     Rate,
     Sum,
 )
-from lagcli.formatters.functions import FIXED, ON_PAPER, TRIGONOMETRIC
+from lagcli.formatters.functions import FIXED, ON_PAPER, POWERED
 from lagcli.formatters.numbers import decimal_parts, digit_groups
 from lagcli.formatters.precedence import FractionPrinter, Level, begins_with_number, whole_ratio
 from lagcli.notation.greek import BY_NAME
@@ -111,8 +111,9 @@ class MathmlPrinter(FractionPrinter[str]):
         exponent = _on_one_line(node.exponent) or self.show(node.exponent)
         base = node.base
         natural = isinstance(node.exponent, Number) and node.exponent.value.denominator == 1
-        if isinstance(base, Call) and base.function in TRIGONOMETRIC and natural:
-            head = f"<msup><mi>{base.function}</mi>{exponent}</msup>"
+        if isinstance(base, Call) and base.function in POWERED and natural:
+            name = ON_PAPER.get(base.function, base.function)
+            head = f"<msup><mi>{name}</mi>{exponent}</msup>"
             return f"<mrow>{head}{_APPLIED}{self.within.arguments(base.arguments)}</mrow>"
         shown = self.at(base, Level.ATOM)
         if isinstance(base, Name) and shown.startswith(_SUB):  # one above the other

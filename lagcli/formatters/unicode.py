@@ -8,7 +8,7 @@ import unicodedata
 
 from lagcli.document import Integral, Label
 from lagcli.expression import Call, Diff, Expression, Name, Number, PartialCall, Power, Product
-from lagcli.formatters.functions import ON_PAPER, TRIGONOMETRIC
+from lagcli.formatters.functions import ON_PAPER, POWERED
 from lagcli.formatters.grammar import GrammarPrinter, text
 from lagcli.formatters.layout import PRODUCT, Layout, TextPiece, joined
 from lagcli.formatters.numbers import DecimalParts, decimal_parts
@@ -60,12 +60,12 @@ class UnicodePrinter(GrammarPrinter):
             return super().power(node)
         raised = text(exponent.translate(_SUPERSCRIPTS))
         base = node.base
-        if (
-            isinstance(base, Call)
-            and base.function in TRIGONOMETRIC
-            and not exponent.startswith("−")
-        ):
-            return (*text(base.function), *raised, *self.arguments(base.arguments))
+        if isinstance(base, Call) and base.function in POWERED and not exponent.startswith("−"):
+            return (
+                *text(_NAMES.get(base.function, base.function)),
+                *raised,
+                *self.arguments(base.arguments),
+            )
         return (*self.at(base, Level.ATOM), *raised)
 
     def call(self, node: Call) -> Layout:

@@ -56,6 +56,7 @@ from lagcli.notation.fractions import Brackets
 from lagcli.notation.given_formulas import given, order_of_names
 from lagcli.notation.given_sums import GivenPotential, GivenSums, arranged
 from lagcli.notation.likeness import EVEN, ODD, Key, Monomial, multiplied_out, parity, signed_key
+from lagcli.notation.logarithms import ratios_in, with_ratios
 from lagcli.notation.ordering import Ordering, accelerates, positive_first
 from lagcli.problem_data import Problem
 from lagcli.rewriting import rebuilt
@@ -88,6 +89,7 @@ class Manner:
                     self._signs[key] = sign if self._signs.get(key, sign) == sign else 0
         self._ordering = Ordering(order_of_names(problem))
         self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
+        self._ratios = ratios_in(given(problem))
         self._potential = GivenPotential(problem.potential, self._ordering)
         names = [q.name for q in problem.coordinates]
         self._momenta = NamedMomenta(names, self._positive, self._ordering)
@@ -166,6 +168,10 @@ class Manner:
                 return negative_of(inner)
             case Negative(operand=Product() | Quotient() as inner):
                 return self._signed(node, inside=inside) if _sums(inner) else node
+            case Sum() if self._ratios and (joined := with_ratios(node, self._ratios)) != node:
+                return (
+                    joined if not isinstance(joined, Sum) else self._written(joined, inside=inside)
+                )
             case Sum(terms=(one, other)) if angle := difference_of_angles(one, other):
                 return angle
             case Sum():

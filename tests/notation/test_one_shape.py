@@ -73,3 +73,25 @@ def test_a_rate_has_its_own_momentum_first(terms: str) -> None:
     physics = f"T: m*x'^2/2 + x'*({others}) + M*y'^2/2\nV: -k*cos(y)"
     found = text("x, y", "m M k a b", physics, "reduction")
     assert "ẋ = (p_x − " in found
+
+
+@pytest.mark.parametrize("factor", ["", "Q*", "2*Q*"])
+def test_the_logarithm_of_a_ratio_is_not_parted(factor: str) -> None:
+    """The cylindrical capacitor of Jackson: ln(b/a), and b > a for ln b > ln a."""
+    physics = f"T: m*x^2*x'^2/2\nV: {factor}k*log(x/a)/log(b/a) + m*g/x"
+    found = text("x", "m g k a b Q", physics, "equilibria", "modes", "reduction")
+    assert "ln(b/a)" in found
+    assert "ln(b)" not in found
+    assert "ln(a)" not in found
+
+
+@pytest.mark.parametrize(("turned", "free"), [("q - a", "a"), ("a - q", "q")])
+def test_sums_of_angles_of_the_file_are_not_turned_into_others(turned: str, free: str) -> None:
+    """A pendulum on a sliding carriage has sin(a - q) as the file does, no sin(a - 2 q)."""
+    physics = (
+        f"T: M*s'^2/2 + m*(s'^2 + l^2*q'^2 + 2*l*s'*q'*cos({turned}))/2\n"
+        "V: -(M + m)*g*s*sin(a) - m*g*l*cos(q)"
+    )
+    found = text("s, q", "M m l g a", physics, "accelerations")
+    assert "2 q" not in found.replace("sin(2 (q − a))", "").replace("sin(2 (a − q))", "")
+    assert free in found

@@ -46,6 +46,9 @@ Angles: TypeAlias = tuple[tuple[int, int], ...]  # (cosine generator, multiple),
 _SHORTENED = ("abs", "sign", "exp", "cosh", "sinh")
 
 
+_UNLIKE = 4  # operations that sin(2 α - θ) is more than it shows: no book prints it
+
+
 class Atoms:
     """The atoms of one field: their trees, their cost, and the way back to SymPy."""
 
@@ -195,6 +198,9 @@ class Atoms:
             tree = Call(function, (self._translator.tree(argument),))
             expression = getattr(sympy, function)(argument)
             known = self._trigonometric[key] = self._shortened(tree, (argument,), expression)
+            multiples = {abs(k) for _, k in angles}
+            if len(multiples) > 1:  # sin(α - 2 θ) where a book has a product of sin θ
+                self.costs[known] = operation_count(self.trees[known]) + _UNLIKE
         return known
 
     def has_double_angle(self, terms: Terms) -> bool:
