@@ -153,7 +153,7 @@ def _state(reference: Reference, random: Random, number: int, attempt: int) -> S
                 environment[parameter.name, 0] *= arb(2) ** random.randint(-3, 3)
     if near:
         environment |= _near_the_file(reference, random)
-    if reference.rows and not _onto_constraints(reference, environment):
+    if reference.rows and not onto_constraints(reference, environment):
         return None
     state = State(reference, environment)
     values = list(state.laws.drift)
@@ -220,7 +220,7 @@ def _given(reference: Reference, value: Expression, known: Environment) -> arb |
         return None
 
 
-def _onto_constraints(reference: Reference, environment: Environment) -> bool:
+def onto_constraints(reference: Reference, environment: Environment) -> bool:
     """Move q and q' onto the constraints; whether that worked."""
     positions = [row.value for row in reference.rows if row.holonomic]
     velocities = [row.velocity for row in reference.rows]

@@ -152,3 +152,20 @@ def test_charges_on_a_sphere_are_counted(numbers, kept):
         in_involution=in_involution, integrable=None, number=dimension,
     )  # fmt: skip
     assert printed(problem, answers, discovered=known, algebra=section).complete is kept
+
+
+@pytest.mark.parametrize("length", ["l", "2*l", "l + 1"])
+def test_charges_at_a_special_value_are_examined_on_the_constraints(length):
+    """Atwood's machine with equal masses: m x (x' - y') - … is constant where x + y = l."""
+    text = f"""
+coordinates: [x, y]
+parameters: {{m: {{assume: positive}}, n: {{assume: positive}}, g: , l: {{assume: positive}}}}
+T: m*x'^2/2 + n*y'^2/2
+V: -m*g*x - n*g*y
+constraints: {{string: x + y = {length}}}
+"""
+    problem = read_problem("a.yaml", text.encode()).checked()
+    answers = state(derive(problem), Request(sections=("algebra",)))
+    assert not answers.warnings
+    special = {s.parameter for s in answers.sections["algebra"].special}
+    assert special & {"m", "n"}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from flint import arb
 
@@ -12,7 +12,7 @@ from lagcli.verification.claims.canonical_samples import nearby
 from lagcli.verification.comparison import is_zero
 from lagcli.verification.examination import LOOKED_AT, Examination
 from lagcli.verification.linear import Unclear, rank
-from lagcli.verification.states import State
+from lagcli.verification.states import State, onto_constraints
 
 #: States of a special value beyond those that a rank needs.
 _MORE = 4
@@ -25,7 +25,7 @@ def holds(x: Examination, special: SpecialValue, known: Sequence[int]) -> bool:
     if places is None:
         return False
     value, *charges = places
-    there = list(_there(x, special.parameter, value))
+    there = list(_on_constraints(_there(x, special.parameter, value)))
     if not there and x.states():
         x.refute(what, "the parameter has another sign, or no value there")
         return False
@@ -35,7 +35,7 @@ def holds(x: Examination, special: SpecialValue, known: Sequence[int]) -> bool:
         return True
     everything = [*(p for p in known if first.at(p).is_finite()), *charges]
     tried, values = 0, []
-    for state in nearby(first, 4 * (len(everything) + _MORE)):
+    for state in _on_constraints(nearby(first, 4 * (len(everything) + _MORE))):
         found = [state.at(place) for place in everything]
         try:
             rates = [state.laws.rate(place) for place in charges]
@@ -71,6 +71,13 @@ def _counted(
         x.refute(what, f"{count} charges are known there, not {special.number}")
         return False
     return True
+
+
+def _on_constraints(states: Iterable[State]) -> Iterator[State]:
+    for state in states:
+        environment = dict(state.environment)
+        if onto_constraints(state.reference, environment):
+            yield State(state.reference, environment)
 
 
 def _there(x: Examination, parameter: str, value: int) -> Iterator[State]:
