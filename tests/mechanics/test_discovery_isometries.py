@@ -9,11 +9,13 @@ Acta 45 (1972) 802 (free particles).
 import pytest
 
 from lagcli.mechanics.discovery.summary import summary
+from lagcli.pipeline import explain
 from tests.marks import mostly_long
 from tests.oracle.constancy import digits_of
 
 from .derived import derive
 from .test_discovery_literature import POS, problem
+from .test_explanation import words
 
 RADIAL = f"{{r: {POS}, phi: {{}}}}"
 PLANES = {
@@ -176,3 +178,17 @@ def test_a_length_has_the_isometries_of_space_and_time(root):
     assert (found.dimension, found.independent) == ((n + 1) * (n + 2) // 2, 2 * n)
     assert name in found.name
     assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("mass", ["m", "M"])
+def test_coordinates_are_called_cartesian_where_their_masses_are_equal(mass):
+    """T = m (r'² + r² φ'²)/2 + M z'²/2: z has another scale than r cos φ."""
+    text = (
+        "{coordinates: {r: {assume: positive}, phi: , z: }, parameters: {m: {assume: positive}, "
+        "M: {assume: positive}}, functions: {V: [r, z]}, "
+        f'T: "m*(r\'^2 + r^2*phi\'^2)/2 + {mass}*z\'^2/2", V: "V(r, z)"}}'
+    )
+    found = words(explain(derive(text), ("discovered",)), "Discovered symmetries")
+    assert ("The Cartesian coordinates are" in found) == (mass == "m")
+    assert ("constant multiples of" in found) == (mass == "M")

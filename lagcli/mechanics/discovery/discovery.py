@@ -58,6 +58,8 @@ class Discovery(Setting):
         Of symmetries that nonholonomic constraints admit without a constant charge.
     cartesian : tuple of Expr
         The functions in which the ansatz is affine, where these are not the coordinates.
+    cartesian_lead : str
+        The beginning of a sentence that ends with them.
     unproved : str
         The sentence of `stopped` where a symmetry is known, but not its charge.
     """
@@ -67,6 +69,7 @@ class Discovery(Setting):
         self.momentum_equations: tuple[NoetherCharge, ...] = ()
         self.unsearched = bool(self.unusable)
         self.cartesian: tuple[Expr, ...] = ()
+        self.cartesian_lead = ""
         self.unproved = ""
         self._of_lagrangian: list[Transformation] = []
         self._degree = 1  # of the integrals that were sought, in the velocities
@@ -114,7 +117,9 @@ class Discovery(Setting):
         if isometries is not None and (
             isometries.beyond(kinds) or (times.pushed and isometries.flat)
         ):
-            self.cartesian = tuple(isometries.functions) if isometries.flat else ()
+            if isometries.flat:
+                self.cartesian = tuple(isometries.functions)
+                self.cartesian_lead = isometries.what_they_are
             return isometries.search(times, allowed), isometries.words + _timed(times)
         slots = point_slots(equations)
         if self.spacetime is not None:

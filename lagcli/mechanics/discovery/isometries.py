@@ -104,15 +104,26 @@ class Isometries:
         ]
 
     @cached_property
+    def _gram(self) -> sympy.Matrix:
+        """G_ab = grad X_a . grad X_b, constant in a flat space."""
+        lowered = [[dot(row, D) for row in self.metric.g] for D in self._gradients]
+        return sympy.Matrix([[simplify(dot(D, low)) for low in lowered] for D in self._gradients])
+
+    @property
+    def what_they_are(self) -> str:
+        """The X_a of a flat space as what stands before them in a sentence."""
+        if len(self.functions) == 1:
+            return "In proportion to the arc length is "
+        if not self._gram.is_diagonal():
+            return "Cartesian coordinates are linear combinations of "
+        if len({*self._gram.diagonal()}) > 1:
+            return "Cartesian coordinates are constant multiples of "
+        return "The Cartesian coordinates are "
+
+    @cached_property
     def dilation(self) -> Vector:
         """G^ab X_a grad X_b, half the gradient of the square of the distance."""
-        mass = self.metric.g
-        lowered = [[dot(row, D) for row in mass] for D in self._gradients]
-        gram = sympy.Matrix([
-            [simplify(dot(D, low)) for low in lowered]
-            for D in self._gradients
-        ])  # fmt: skip
-        inverse = gram.inv(method="ADJ")
+        inverse = self._gram.inv(method="ADJ")
         n = range(len(self.functions))
         square = sympy.Add(
             *(inverse[a, b] * self.functions[a] * self.functions[b] for a in n for b in n)

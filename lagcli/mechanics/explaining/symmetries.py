@@ -41,12 +41,10 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
         f"{discovery.ansatz}."
     )
     if discovery.cartesian:
-        one = "In proportion to the arc length is "
-        lead = "The Cartesian coordinates are " if len(discovery.cartesian) > 1 else one
         named = [
             part for X in discovery.cartesian for part in (", ", explainer.readable.as_written(X))
         ]
-        yield says(lead, *named[1:], ".")
+        yield says(discovery.cartesian_lead, *named[1:], ".")
     yield says(
         "For a point transformation the Euler-Lagrange expression of the change of ",
         letters.L,
