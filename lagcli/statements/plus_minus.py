@@ -20,6 +20,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.notation.likeness import signed_key
+from lagcli.notation.ordering import positive_first
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt
 from lagcli.statements.answers import ModesOfFrequency
@@ -148,7 +149,7 @@ def _inward(node: Expression) -> Expression:
     """(b − a) g/c for −(a − b) g/c; the node where no bracket takes its sign."""
     match node:
         case Negative(operand=Sum(terms=terms)):
-            return Sum(tuple(map(opposite, terms)))
+            return Sum((*positive_first([*map(opposite, terms)]),))
         case Negative(operand=Quotient(numerator=above, denominator=below)):
             inner = _inward(Negative(above))
             return node if isinstance(inner, Negative) else Quotient(inner, below)

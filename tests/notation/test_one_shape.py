@@ -95,3 +95,21 @@ def test_sums_of_angles_of_the_file_are_not_turned_into_others(turned: str, free
     found = text("s, q", "M m l g a", physics, "accelerations")
     assert "2 q" not in found.replace("sin(2 (q − a))", "").replace("sin(2 (a − q))", "")
     assert free in found
+
+
+@pytest.mark.parametrize(
+    ("T", "V", "radicand"),
+    [
+        (  # Fetter and Walecka, section 22: two masses and three springs
+            "(m1*x'^2 + m2*y'^2)/2", "a*x^2/2 + b*(y - x)^2/2 + c*y^2/2",
+            "4 m₁ m₂ b² + (m₁ (b + c) − m₂ (a + b))²",
+        ),
+        ("(m1*x'^2 + m2*y'^2)/2", "a*x^2/2 + b*x*y + c*y^2/2", "4 m₁ m₂ b² + (m₁ c − m₂ a)²"),
+        ("(m1*x'^2 + m2*y'^2)/2 + b*x'*y'", "(a*x^2 + c*y^2)/2", "(m₁ c − m₂ a)² + 4 a b² c"),
+    ],
+)  # fmt: skip
+def test_the_radicand_of_two_oscillators_has_the_square_of_their_difference(
+    T: str, V: str, radicand: str
+) -> None:
+    found = text("x, y", "m1 m2 a b c", f"T: {T}\nV: {V}", "modes")
+    assert radicand in " ".join(found.split())

@@ -27,6 +27,7 @@ from lagcli.algebra.simplification import fraction
 from lagcli.expression import Expression, Power, Quotient, length, walk
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.oscillations.discriminant import Discriminant, Rewrite
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.normal_modes import (
     NormalMode,
@@ -300,14 +301,20 @@ class SmallOscillations:
 
     def modes(self, place: Place) -> list[ModesOfFrequency]:
         """The modes about one equilibrium as statements."""
+        linear = place.linear
+        of_two = Discriminant(linear.M, linear.K, self.system.order)
+
+        def known(tree: Expression) -> Expression:
+            return of_two.within(tree, self.system.build)
+
         return [
             ModesOfFrequency(
                 at=self._at(place.point),
                 on=relation_sides(place.point, self.system.q, self.system.order),
-                frequency=self._tree_or_none(mode.frequency),
-                frequency_squared=self._tree_or_none(mode.square),
-                shape=self._shape(mode.shapes[0]) if mode.shapes else None,
-                more_shapes=tuple(map(self._shape, mode.shapes[1:])),
+                frequency=self._tree_or_none(mode.frequency, known),
+                frequency_squared=self._tree_or_none(mode.square, known),
+                shape=self._shape(mode.shapes[0], known) if mode.shapes else None,
+                more_shapes=tuple(self._shape(each, known) for each in mode.shapes[1:]),
                 multiplicity=mode.multiplicity,
                 negative=mode.negative,
                 damped=mode.damped,
@@ -326,9 +333,9 @@ class SmallOscillations:
     def _at(self, point: RestPoint) -> dict[str, Expression]:
         return {q.name: self._tree(value) for q, value in shown(point).items()}
 
-    def _shape(self, displacements: Sequence[Expr]) -> dict[str, Expression]:
+    def _shape(self, displacements: Sequence[Expr], known: Rewrite) -> dict[str, Expression]:
         pairs = zip(self.system.names, displacements, strict=True)
-        return {name: self._amplitude(value) for name, value in pairs}
+        return {name: known(self._amplitude(value)) for name, value in pairs}
 
     def _amplitude(self, value: Expr) -> Expression:
         """One fraction where that is shorter to read, and has no (a + b)^(3/2)."""
@@ -339,8 +346,8 @@ class SmallOscillations:
     def _tree(self, expression: Expr) -> Expression:
         return written(expression, self.system.order)
 
-    def _tree_or_none(self, expression: Expr | None) -> Expression | None:
-        return None if expression is None else self._tree(expression)
+    def _tree_or_none(self, expression: Expr | None, known: Rewrite) -> Expression | None:
+        return None if expression is None else known(self._tree(expression))
 
     def verdict_at(self, values: Mapping[Symbol, Expr]) -> Stability | None:
         """The verdict on the equilibrium at these values of the coordinates, where there is one."""
