@@ -9,6 +9,7 @@ import sympy
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.signs import sign
+from lagcli.document import Equations
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.inequalities import one_is_negative
@@ -18,6 +19,7 @@ from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.rest.exceptions import without_unknowns
 from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.pipeline import explain
+from lagcli.reader import parse_text
 from lagcli.statements.wording import enumerated
 
 from .derived import derive
@@ -402,3 +404,40 @@ def test_a_cubic_momentum_is_inverted_in_real_numbers(mass):
     routh = Routh(derivation)
     assert routh.reduced is not None
     assert not any(v.has(sympy.I) for v in routh.velocities)
+
+
+@pytest.mark.parametrize("shape", ["x*(1 + c*x)", "x + c*x^3", "x*exp(c*x)"])
+def test_no_equilibrium_is_said_to_be_there_where_1_vanishes(shape):
+    """k x = F(x) cos(w t) at all times: F(x) = 0 and x = 0 for no F that pushes at x = 0."""
+    states = equilibria(
+        derive(
+            "{coordinates: [x], parameters: {k: {assume: positive}, F: {assume: positive}, "
+            "w: {assume: positive}, c: {assume: positive}}, "
+            f"L: x'^2/2 - k*x^2/2 + F*({shape})*cos(w*t)}}"
+        ).dynamics
+    )
+    assert states.equilibria == ()
+    assert states.unless == ()
+
+
+@pytest.mark.parametrize(("drive", "rate"), [("cos", "W"), ("sin", "W"), ("sin", "2*W")])
+def test_a_rapid_drive_without_equilibria_has_those_of_the_average(drive, rate):
+    """Landau and Lifshitz, section 30, problem 2: cos φ = 2 g l/(a² γ²), where that is below 1."""
+    explanation = explain(
+        derive(
+            "{coordinates: [phi], parameters: {m: {assume: positive}, g: {assume: positive}, "
+            "l: {assume: positive}, a: {assume: positive}, W: {assume: positive}}, "
+            f"points: {{bob: {{position: [a*{drive}({rate}*t) + l*sin(phi), -l*cos(phi)], "
+            "mass: m}}, V: -m*g*l*cos(phi)}"
+        ),
+        ("reduction",),
+    )
+    [step] = (s for s in explanation.steps if s.title == "The reduction")
+    found = [str(b) for b in step.blocks]
+    assert sum("The averaged motion has the equilibrium" in b for b in found) == 3
+    rows = [row for b in step.blocks if isinstance(b, Equations) for row in b.rows]
+    inclined = next(row.right for row in rows if "acos" in str(row.right))
+    bound = {"W": "2*g*l/(a^2*W^2)", "2*W": "g*l/(2*a^2*W^2)"}[rate]
+    system = derive("{coordinates: [q], parameters: [g, l, a, W], L: q'^2}").system
+    cosine = sympy.cos(system.build(inclined.operand))
+    assert is_zero(cosine - system.build(parse_text(bound))) is True

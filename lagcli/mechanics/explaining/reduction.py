@@ -6,16 +6,23 @@ from collections.abc import Iterator
 from fractions import Fraction
 from typing import cast
 
+from sympy import Expr, S
+
 from lagcli.document import Block, Equations, Label, equations_of, vanishing
 from lagcli.expression import Expression, Name, Number, Power, Product, walk
 from lagcli.mechanics.averaged import averaged
+from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, names, says, shows
-from lagcli.mechanics.minimal import minimal
+from lagcli.mechanics.minimal import minimal, with_lagrangian
+from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
+from lagcli.mechanics.rest.equilibria import RestPoints
+from lagcli.record import replace
 from lagcli.statements.answers import ReductionSection, Section
 from lagcli.statements.motions import OneFreedom, PeriodSeries
 from lagcli.statements.plus_minus import once, single
+from lagcli.statements.stability import stability
 from lagcli.statements.wording import (
     POTENTIALS,
     conditions,
@@ -102,7 +109,8 @@ def averaged_potential(explainer: Explainer) -> Iterator[Block]:
     if explainer.averaged:
         return
     explainer.averaged = True
-    found = averaged(minimal(explainer.derivation).dynamics)
+    derivation = minimal(explainer.derivation)
+    found = averaged(derivation.dynamics)
     if found is None:
         return
     write = explainer.readable.as_written
@@ -116,6 +124,21 @@ def averaged_potential(explainer: Explainer) -> Iterator[Block]:
         "(Landau and Lifshitz, section 30)",
     )
     yield shows(Label("V", ("eff",)), write(found.potential))
+    if not RestPoints(derivation.dynamics).points:
+        yield from _averaged_equilibria(derivation, found.potential)
+
+
+def _averaged_equilibria(derivation: Derivation, potential: Expr) -> Iterator[Block]:
+    """Where V_eff is stationary, of a drive that leaves no equilibrium."""
+    [[mass]], [v] = derivation.dynamics.lagrange.mass_matrix, derivation.system.qdot
+    L, parameters = mass * v**2 / 2 - potential, derivation.problem.parameters
+    slow = equilibria(with_lagrangian(derivation, [0], L, [S.Zero], parameters).dynamics)
+    for each in once(slow.equilibria or ()):
+        yield says("The averaged motion has the equilibrium")
+        yield Equations(place_rows(each.at, each.on))
+        if each.where:
+            yield says("It exists for ", *conditions(each.where), ".")
+        yield says(*stability(replace(each.verdict, potential="V_eff"), each.free, each.on))
 
 
 def _one_freedom(motion: OneFreedom, potential: Part) -> Iterator[Block]:

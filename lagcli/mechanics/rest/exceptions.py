@@ -50,10 +50,10 @@ def _decided_by_parameters(
         solved = solve_system(others, unknowns, families=True) if others else SolvedSystem()
         rests = [simplify(left.xreplace(dict(each.values))) for each in solved.solutions]
         plain = [e for e in rests if e.free_symbols and free_of(e, unknowns)]
-        special = [e for e in plain if sign(e) not in (1, -1)]
+        product = sympy.Mul(*(f for e in plain for f in _perhaps_zero(e, unknowns)))
+        special = _perhaps_zero(simplify(product), unknowns)  # (k + r) (k - r) is -4 F² c
         if special and solved.complete and len(plain) == len(rests):
-            factors = [f for e in special for f in _perhaps_zero(e, unknowns)]
-            return (sympy.Mul(*dict.fromkeys(factors)),)
+            return (sympy.Mul(*special),)
         may_hold = may_hold or bool(special or (rests and _perhaps_zero(left, unknowns)))
     return None if may_hold else ()
 
