@@ -13,7 +13,7 @@ from lagcli.algebra.factors import factors_of
 from lagcli.algebra.one_ratio import in_one_ratio
 from lagcli.algebra.positivity import deciding, sign_of, weak_sign, with_sines
 from lagcli.algebra.signs import sign
-from lagcli.expression import ZERO, added_and_subtracted, operation_count
+from lagcli.expression import ZERO, Power, Sum, added_and_subtracted, operation_count, walk
 from lagcli.mechanics.inequalities import shorter_sums
 from lagcli.statements.motions import Above
 
@@ -193,8 +193,11 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
     right = -sympy.Add(*(n * m for m, n in by_monomial.items() if n.is_negative))
     left = sympy.Add(*(n * m for m, n in by_monomial.items() if not n.is_negative))
     found = Above(shape(left, order), shape(right, order))
+    tree = shape(rest, order)
+    powers = (p.base for p in walk(tree) if isinstance(p, Power))
     # k - m a² sin² is not k + m a² cos² - m a², k² (R² - l²)³ > g² is not multiplied out
-    found = min(found, Above(*added_and_subtracted(shape(rest, order))), key=_operations)
+    if rest.has(sympy.sin, sympy.cos) or any(isinstance(base, Sum) for base in powers):
+        found = min(found, Above(*added_and_subtracted(tree)), key=_operations)
     constant, others = left.as_coeff_Add()
     if constant > 0 and right == 0 and not others.is_Add:  # n > -3
         number, power = others.as_coeff_Mul()

@@ -46,7 +46,9 @@ Angles: TypeAlias = tuple[tuple[int, int], ...]  # (cosine generator, multiple),
 _SHORTENED = ("abs", "sign", "exp", "cosh", "sinh")
 
 
-_UNLIKE = 4  # operations that sin(2 α - θ) is more than it shows: no book prints it
+#: Operations that sin(2 α - θ) counts for beside those that it shows: no book prints it.  With 4
+#: the triple pendulum and the slider-crank are longer, with 2 a pendulum on a slope has it.
+_UNLIKE = 3
 
 
 class Atoms:
