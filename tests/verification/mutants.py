@@ -1,8 +1,8 @@
-"""Changes of a sign, a factor, a term in the program, and which of them an answer shows.
+"""Changes of a sign, a factor, a term, a condition in the program, and which of them an answer shows.
 
     python -m tests.verification.mutants [--count 200] [--seed 1]
 
-A mutant is one change of one expression in `lagcli.mechanics` or `lagcli.algebra`.  It solves
+A mutant is one change of one expression in the packages below.  It solves
 some of the problems below that reach its line, without and with the verification.
 
 It *changes an answer* where a sheet claims something else than before (`tests.verification.meaning`:
@@ -32,7 +32,7 @@ from typing import Any
 from tests.verification.meaning import Difference, Meaning
 from tests.verification.sites import ROOT, Mutating, Site, sites
 
-PACKAGES = ("lagcli/mechanics", "lagcli/algebra")
+PACKAGES = ("lagcli/mechanics", "lagcli/algebra", "lagcli/graph", "lagcli/notation")
 #: Explanations and numbers of runs are no answers of `solve`.
 LEFT_OUT = ("explaining", "float_states")
 #: CPU seconds after which a mutant is stopped: most problems take one or two.

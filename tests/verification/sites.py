@@ -1,4 +1,4 @@
-"""Changes of a sign, a factor, a term in the program: where they are, and a program with one."""
+"""Changes of a sign, a factor, a term, a condition in the program: where they are, and a program with one."""
 
 from __future__ import annotations
 
@@ -52,7 +52,19 @@ def changes_of(node: ast.AST) -> list[str]:
             return ["a**b -> a"]
         case ast.AugAssign(op=ast.Add() | ast.Sub()):
             return ["x += a -> x -= a"]
+        case ast.Compare(ops=[op]) if type(op) in _OPPOSITE:
+            return ["a condition is negated"]
+        case ast.UnaryOp(op=ast.Not()):
+            return ["not a -> a"]
+        case ast.BoolOp():
+            return ["and <-> or", "the first condition is dropped"]
     return []
+
+
+_OPPOSITE: dict[type[ast.cmpop], type[ast.cmpop]] = {
+    ast.Eq: ast.NotEq, ast.Lt: ast.GtE, ast.Gt: ast.LtE, ast.In: ast.NotIn, ast.Is: ast.IsNot,
+}  # fmt: skip
+_OPPOSITE |= {b: a for a, b in _OPPOSITE.items()}
 
 
 def _name(node: ast.AST) -> str:
@@ -79,8 +91,16 @@ def changed(node: Any, change: str) -> ast.AST:
             return left
         case "a/b -> a*b":
             return ast.BinOp(left, ast.Mult(), right)
-        case "-a -> a":
+        case "-a -> a" | "not a -> a":
             return node.operand
+        case "a condition is negated":
+            return ast.Compare(node.left, [_OPPOSITE[type(node.ops[0])]()], node.comparators)
+        case "and <-> or":
+            other = ast.Or() if isinstance(node.op, ast.And) else ast.And()
+            return ast.BoolOp(other, node.values)
+        case "the first condition is dropped":
+            rest = node.values[1:]
+            return rest[0] if len(rest) == 1 else ast.BoolOp(node.op, rest)
         case "S.One -> -S.One":
             return ast.UnaryOp(ast.USub(), node)
     return _without_first(node)

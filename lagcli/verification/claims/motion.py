@@ -13,6 +13,7 @@ from lagcli.statements.answers import (
     Multiplier,
     MultipliersSection,
 )
+from lagcli.verification.claims.integrability import refuted_kinds
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot
 from lagcli.verification.states import State
@@ -109,4 +110,10 @@ def multipliers(x: Examination, section: MultipliersSection) -> MultipliersSecti
         ) and x.holds(what, each.value, lambda s, k=k: s.laws.multipliers[k])  # type: ignore[misc]
         if not holds:
             found[name] = replace(each, value=None, verified=None)
+    for name in refuted_kinds(x, section):
+        x.refute(
+            f"whether the constraint '{name}' is integrable",
+            "the derivatives of its form say otherwise",
+        )
+        found[name] = replace(found[name], kind=None)
     return replace(section, multipliers=found)
