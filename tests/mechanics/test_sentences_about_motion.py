@@ -255,3 +255,18 @@ def test_a_contact_that_is_closed_at_the_minimum_is_not_called_a_constraint(wall
     found = answered(text, "reduction")
     assert ("contacts are not open" in found) == (wall == "x >= 0")
     assert "one-sided constraints do not hold" not in found
+
+
+@pytest.mark.parametrize(
+    ("contact", "points", "conditions"),
+    [("x <= d", 2, 1), ("x >= -d", 2, 1), ("x >= d", 1, 1), ("x <= -d", 1, 1)],
+)
+def test_a_turning_point_that_a_stop_never_reaches_needs_no_condition(contact, points, conditions):
+    """±sqrt(2 E/k) with d > 0: -sqrt(2 E/k) <= d always, and sqrt(2 E/k) <= -d never."""
+    found = answered(
+        f"coordinates: [x]\n{_POSITIVE.replace('c:', 'd:')}\nL: m*x'^2/2 - k*x^2/2\n"
+        f"contacts: {{stop: '{contact}'}}\n",
+        "reduction",
+    )
+    assert ("±" in found) == (points == 2)
+    assert found.count("one-sided constraints hold") == conditions

@@ -24,7 +24,8 @@ from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.numeric import FINE_DIGITS, Evaluator
 from lagcli.algebra.place import at
-from lagcli.algebra.positivity import weak_sign
+from lagcli.algebra.positivity import sign_of, weak_sign
+from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.inequalities import contradictory
 from lagcli.mechanics.parameter_values import admissible_values
@@ -120,13 +121,18 @@ class ReducedFreedom:
 
     @cached_property
     def _reached(self) -> dict[Expr, tuple[Expr, ...]]:
-        bounds = self.bounds
-        pressed = {root: self.contacts.where_pressed({self.q: root}) for root in self._roots or ()}
-        return {
-            root: where
-            for root, where in pressed.items()
-            if where is not None and not (where and contradictory((*where, *bounds)))
-        }
+        bounds, reached = self.bounds, {}
+        for root in self._roots or ():
+            where = self.contacts.where_pressed({self.q: root})
+            if where is None:
+                continue
+            real = [*not_negative_where_real(root)]  # d + sqrt(2 E/k) > 0 needs no condition
+            signs = {each: sign_of(each, real) for each in where}
+            open_ = tuple(each for each, known in signs.items() if known != 1)
+            excluded = -1 in signs.values() or (open_ and contradictory((*open_, *bounds)))
+            if not excluded:
+                reached[root] = open_
+        return reached
 
     @cached_property
     def _roots(self) -> tuple[Expr, ...] | None:
