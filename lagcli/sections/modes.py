@@ -99,10 +99,8 @@ def _without_rows(mode: ModesOfFrequency) -> str:
         return "Exponents s of exp(s t) take the place of frequencies (lagcli explain)."
     if mode.negative:
         return "No other root ω² is real and positive: the amplitudes of some displacements grow."
-    count = (
-        "One frequency has" if mode.multiplicity == 1 else f"{mode.multiplicity} frequencies have"
-    )
-    return f"{count} no closed form."
+    count = "one frequency" if mode.multiplicity == 1 else f"{mode.multiplicity} frequencies"
+    return f"No closed form was found for {count}."
 
 
 def _shape(shape: Mapping[str, Expression]) -> Iterator[Row]:

@@ -134,22 +134,30 @@ class RestPlace:
         """One parameter moved until left - right of a condition is near 0, on this side."""
         reference = self.x.reference
         signs = {p.name: p.assume for p in self.x.problem.parameters if not p.integer}
-        symbols = {name: reference.program.symbol(name) for name in signs}
         by = reference.values(known).gradient(bound)
-        weights = {n: size(by.get(s, arb(0)) * known[n, 0]) for n, s in symbols.items()}
-        name = max(weights, key=weights.__getitem__, default="")
-        if not name or not 0 < weights[name] < float("inf"):
-            return None
-        there, goal = dict(known), arb(side * weights[name]) * _BESIDE
+        slopes = {n: by.get(reference.program.symbol(n), arb(0)) for n in signs}
+        weights = {n: size(slope * known[n, 0]) for n, slope in slopes.items()}
+        for name in sorted(weights, key=weights.__getitem__, reverse=True):
+            if 0 < weights[name] < float("inf"):
+                goal = arb(side * weights[name]) * _BESIDE
+                there = self._with(known, name, bound, goal)
+                if there is not None and _has_sign(signs[name], there[name, 0]):
+                    return there
+        return None
+
+    def _with(self, known: Environment, name: str, place: int, goal: arb) -> Environment | None:
+        """The parameter for which a value is the goal, by Newton's method."""
+        reference, there = self.x.reference, dict(known)
+        symbol = reference.program.symbol(name)
         for _ in range(_NEWTON_STEPS):
             at = reference.values(there)
-            slope = at.gradient(bound).get(symbols[name], arb(0))
-            step = ((goal - at(bound)) / slope).mid() if not slope.contains(0) else arb("nan")
+            slope = at.gradient(place).get(symbol, arb(0))
+            step = ((goal - at(place)) / slope).mid() if not slope.contains(0) else arb("nan")
             if not step.is_finite() or size(step) > 1e3:
                 return None
             there[name, 0] = (there[name, 0] + step).mid()
             if size(step) < NOTHING:
-                return there if _has_sign(signs[name], there[name, 0]) else None
+                return there
         return None
 
     def near(self, known: Environment, *, allowed: bool = True) -> LinearMotion | None:
