@@ -53,3 +53,17 @@ def _turned(node: Expression, place: Name) -> Expression:
     ):
         return Sum(tuple(opposite(term) if within(term) else term for term in node.terms))
     return rebuilt(node, lambda part: _turned(part, place))
+
+
+def without_root_below(value: Expr) -> Expr:
+    """(a - sqrt(b)) c/(a² - b) of c/(a + sqrt(b)); anything else as it is."""
+    above, below = sympy.fraction(sympy.together(value))
+    roots = [power for power in below.atoms(sympy.Pow) if power.exp == sympy.S.Half]
+    if len(roots) != 1:
+        return value
+    [root], place = roots, sympy.Dummy()
+    hidden = below.xreplace({root: place})
+    if not hidden.is_polynomial(place) or sympy.degree(hidden, place) != 1:
+        return value
+    slope, rest = hidden.coeff(place, 1), hidden.coeff(place, 0)
+    return simplify(above * (rest - slope * root) / simplify(rest**2 - slope**2 * root.base))

@@ -8,7 +8,7 @@ from lagcli.algebra import shape, simplify, terms
 from lagcli.algebra.place import NO_VALUE
 from lagcli.algebra.terms import is_flat
 from lagcli.algebra.writing import Writer
-from lagcli.expression import Expression, Name, Power, Product, operation_count
+from lagcli.expression import Expression, Name, Power, Product, Sum, operation_count, walk
 from lagcli.mechanics.dynamics import Dynamics
 
 #: How many times as long as the shortest shape the terms one by one may be.
@@ -38,13 +38,19 @@ class Readable:
         """Term by term, or with the parameters that all terms share before a bracket."""
         by_terms, short = self.by_terms(expression), self.as_written(expression)
         shorter = is_flat(short) and operation_count(short) < operation_count(by_terms)
-        return short if shorter and not self._has_coordinate_before(short) else by_terms
+        return short if shorter and self._is_of_rates(short) else by_terms
 
-    def _has_coordinate_before(self, node: Expression) -> bool:
-        """Whether a coordinate stands before a bracket with terms: r² (m φ' + q B/2)."""
+    def _is_of_rates(self, node: Expression) -> bool:
+        """Whether no coordinate stands before a bracket, and rates in each term of it.
+
+        But r² (m φ' + q B/2), R² (m φ' + q B/2).
+        """
         factors = node.factors if isinstance(node, Product) else ()
-        bases = (f.base if isinstance(f, Power) else f for f in factors)
-        return any(isinstance(b, Name) and str(b) in self.system.names for b in bases)
+        bases = [f.base if isinstance(f, Power) else f for f in factors]
+        if any(isinstance(b, Name) and str(b) in self.system.names for b in bases):
+            return False
+        terms = (term for b in bases if isinstance(b, Sum) for term in b.terms)
+        return all(any(isinstance(p, Name) and p.primes for p in walk(term)) for term in terms)
 
     def rate(self, moving: Expr, rest: Expr) -> Expression:
         """p' as -dT/dq and -dV/dq, apart where that is not long; `rest` is dL/dq at rest."""

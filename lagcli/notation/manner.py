@@ -480,7 +480,7 @@ def _brackets(node: Sum) -> Iterator[Sum]:
 def _begins_better(node: Sum) -> bool:
     """Whether the square of −f(x) y + x is better written as that of x − f(x) y."""
     match node.terms:
-        case (first, Negative(operand=Name())):
+        case (first, Negative(operand=Name() | Product(factors=(Number(), Name())))):
             return not isinstance(first, (Name, Negative, Number))
         case _:
             return False

@@ -113,3 +113,30 @@ def test_the_radicand_of_two_oscillators_has_the_square_of_their_difference(
 ) -> None:
     found = text("x, y", "m1 m2 a b c", f"T: {T}\nV: {V}", "modes")
     assert radicand in " ".join(found.split())
+
+
+def test_a_momentum_with_a_constant_is_written_by_its_terms() -> None:
+    """The canonical momentum m R² θ' + q B R²/2 of a charge on a cylinder, squared as p − …."""
+    physics = "L: m*(R^2*y'^2 + z'^2)/2 + q*B*R^2*y'/2 - k*z^2/2"
+    found = text("y, z", "m R q B k", physics, "momenta", "reduction")
+    assert "p_y = m R² ẏ + q B R²/2" in found
+    assert "(p_y − q B R²/2)²" in found
+
+
+@pytest.mark.parametrize("V", ["k*x^2/2", "F*x", "k*x^4", "g*cosh(x)"])
+def test_a_relativistic_time_is_written_with_the_potential_of_the_file(V: str) -> None:
+    """Goldstein, section 7.9: dt = (E − V) dx/(c sqrt((E − V)² − m² c⁴))."""
+    found = text("x", "m c k F g", f"L: -m*c^2*sqrt(1 - x'^2/c^2) - {V}", "reduction")
+    shown = V.replace("*", " ").replace("^2", "²").replace("^4", "⁴")
+    assert f"∫ ((E − {shown})/(c √((E − {shown})² − m² c⁴))) dx" in found
+
+
+def test_shapes_of_modes_have_no_root_in_a_denominator() -> None:
+    """A pendulum on the rim of a disk: both modes are one pair of rows."""
+    physics = (
+        "T: M*a^2*y'^2/4 + m*(a^2*y'^2 + l^2*x'^2 + 2*a*l*y'*x'*cos(x-y))/2\n"
+        "V: m*g*(a*(1-cos(y)) + l*(1-cos(x)))"
+    )
+    found = text("x, y", "M m l a g", physics, "modes")
+    assert found.count("a_y = ") == 1
+    assert "∓ √" in found

@@ -19,6 +19,7 @@ from functools import cached_property
 from sympy import Expr, I, S, Symbol, im
 
 from lagcli.algebra import dot, is_zero
+from lagcli.algebra.conjugate_roots import without_root_below
 from lagcli.algebra.decimals import written
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of, vanishing_part
@@ -58,6 +59,8 @@ from lagcli.mechanics.theorems import KELVIN_TAIT_CHETAEV, LAGRANGE_DIRICHLET
 from lagcli.record import replace
 from lagcli.statements.answers import EquilibriaSection, Equilibrium, ModesOfFrequency, ModesSection
 
+#: How many times as long an amplitude may be with its root above the line.
+_ABOVE = 1.25
 _STICKS = "static friction holds it with force to spare"
 _KINK = f"{{V}} has a strict minimum there ({LAGRANGE_DIRICHLET.name})"
 _PRESSED = "it is pressed against what it touches"
@@ -339,6 +342,9 @@ class SmallOscillations:
 
     def _amplitude(self, value: Expr) -> Expression:
         """One fraction where that is shorter to read, and has no (a + b)^(3/2)."""
+        above = without_root_below(value)
+        if length(self._tree(above)) <= _ABOVE * length(self._tree(value)):
+            value = above
         tree, whole = self._tree(value), fraction(value, self.system.order)
         halves = any(isinstance(p, Power) and isinstance(p.exponent, Quotient) for p in walk(whole))
         return tree if halves else min(tree, whole, key=length)

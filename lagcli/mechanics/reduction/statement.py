@@ -10,7 +10,7 @@ import sympy
 from sympy import Expr, S
 
 from lagcli.algebra import shape, simplify, terms
-from lagcli.algebra.build import symbol
+from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.conjugate_roots import written_alike
 from lagcli.algebra.decimals import written
 from lagcli.algebra.factors import square_part
@@ -29,6 +29,7 @@ from lagcli.expression import (
     Sum,
     factors_of,
     operation_count,
+    opposite,
     quotient_of,
     sum_of,
     terms_of,
@@ -43,9 +44,11 @@ from lagcli.mechanics.reduction.one_freedom import free_name
 from lagcli.mechanics.reduction.period import AmplitudeSeries as Found
 from lagcli.mechanics.reduction.period import Periods
 from lagcli.mechanics.reduction.routh import Routh
+from lagcli.rewriting import put_in
 from lagcli.statements.answers import EquationsSection, LagrangeEquation, ReductionSection
 from lagcli.statements.motions import Irreducible, OneFreedom, PeriodSeries
 
+_EXCESS = "#E - V"  # no name of a file
 #: How many times as long one fraction may be as a bracket with fractions.
 _WHOLE = 1.25
 _ONCE = Fraction(1)
@@ -247,10 +250,18 @@ class _Statement:
         """Of a relativistic motion: the energy, the turning points and the time."""
         points, writer = motion.turning_points, Writer(order)
         assert motion.pace is not None
-        parts = sympy.fraction(sympy.together(motion.pace))
+        # by E - V, which exceeds m c²
+        excess, V = symbol(_EXCESS, "positive"), motion.potential.as_independent(motion.q)[1]
+        pace = simplify(motion.pace.xreplace({motion.E: excess + V}))
+        whole = sum_of((Name(motion.E.name), *map(opposite, terms_of(shape(V, order)))))
+        if not free_of(pace, [motion.q]):
+            pace, whole = motion.pace, Name(_EXCESS)
+        parts = sympy.fraction(sympy.together(pace))
         if sympy.sqrt(parts[0]).has(sympy.I):  # -E²/(p² c² - E²) is E²/(E² - p² c²)
             parts = [simplify(-part) for part in parts]
-        above_, below = (shape(sympy.sqrt(part), order) for part in parts)
+        above_, below = (
+            put_in(shape(sympy.sqrt(part), order), {Name(_EXCESS): whole}) for part in parts
+        )
         return OneFreedom(
             coordinate=motion.q.name,
             constant=motion.E.name,
@@ -271,7 +282,7 @@ class _Statement:
             for k, c in enumerate(found.coefficients)
             if c != 0
         ]
-        period = _two_pi_times(shape(found.root, order))
+        period = _two_pi_times(_over_one_root(found.root, order))
         if corrections:
             period = Product((period, Sum((ONE, *corrections))))
         q = self.routh.reduced.system.q[0] if self.routh.reduced else None
@@ -320,6 +331,18 @@ def _is_fraction(term: Expression) -> bool:
     return isinstance(term, Quotient) and all(
         isinstance(part, Number) for part in (term.numerator, term.denominator)
     )
+
+
+def _over_one_root(root: Expr, order: Sequence[str]) -> Expression:
+    """sqrt((a + b)/c) for sqrt(a/c + b/c)."""
+    tree = shape(root, order)
+    match tree:
+        case Call(function="sqrt", arguments=(Sum(terms=parts),)) if any(
+            isinstance(part, Quotient) for part in parts
+        ):
+            return Call("sqrt", (fraction(root**2, order),))
+        case _:
+            return tree
 
 
 def _two_pi_times(root: Expression) -> Expression:
