@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from sympy import Expr, S
+from functools import cached_property
+
+from sympy import Expr, Mul, S
 
 from lagcli.algebra import shape, simplify, terms
 from lagcli.algebra.place import NO_VALUE
@@ -41,7 +43,7 @@ class Readable:
         return short if shorter and self._is_of_rates(short) else by_terms
 
     def _is_of_rates(self, node: Expression) -> bool:
-        """Whether no coordinate stands before a bracket, and rates in each term of it.
+        """Whether no coordinate stands before a bracket, and no mass of all of T remains in it.
 
         But r² (m φ' + q B/2), R² (m φ' + q B/2).
         """
@@ -49,8 +51,18 @@ class Readable:
         bases = [f.base if isinstance(f, Power) else f for f in factors]
         if any(isinstance(b, Name) and str(b) in self.system.names for b in bases):
             return False
-        terms = (term for b in bases if isinstance(b, Sum) for term in b.terms)
-        return all(any(isinstance(p, Name) and p.primes for p in walk(term)) for term in terms)
+        within = {
+            str(p) for b in bases if isinstance(b, Sum) for p in walk(b) if isinstance(p, Name)
+        }
+        return not within & self._masses
+
+    @cached_property
+    def _masses(self) -> frozenset[str]:
+        """The parameters by which all terms of second degree in the velocities are multiplied."""
+        entries = [simplify(m) for row in self.dynamics.lagrange.mass_matrix for m in row if m != 0]
+        shared = [{f.name for f in Mul.make_args(m) if f.is_Symbol} for m in entries]
+        names = frozenset.intersection(*map(frozenset, shared)) if shared else frozenset()
+        return names - {*self.system.names}
 
     def rate(self, moving: Expr, rest: Expr) -> Expression:
         """p' as -dT/dq and -dV/dq, apart where that is not long; `rest` is dL/dq at rest."""

@@ -65,6 +65,14 @@ class NamedMomenta:
             return None
         return isinstance(bare[0], Negative)
 
+    def are_subtracted(self, node: Sum) -> bool:
+        """Whether momenta occur in what a difference subtracts alone: q B r² − 2 p."""
+        match node.terms:
+            case (first, Negative(operand=other)):
+                return self.occur(other) and not (isinstance(first, Negative) or self.occur(first))
+            case _:
+                return False
+
     def is_bare(self, term: Expression) -> bool:
         """Whether it is a momentum, or one with a minus."""
         term = term.operand if isinstance(term, Negative) else term

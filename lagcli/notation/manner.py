@@ -314,7 +314,7 @@ class Manner:
             if like is not None and abs(like[0]) == 1:
                 return Power(like[1], node.exponent)
             wrong = self._wrong(base)
-            turned = _begins_better(base) or self._late(base)
+            turned = _begins_better(base) or self._late(base) or self._momenta.are_subtracted(base)
             if wrong or (wrong is None and turned):
                 return Power(negative_of(base), node.exponent)
         return with_whole_powers(node)
@@ -480,7 +480,7 @@ def _brackets(node: Sum) -> Iterator[Sum]:
 def _begins_better(node: Sum) -> bool:
     """Whether the square of −f(x) y + x is better written as that of x − f(x) y."""
     match node.terms:
-        case (first, Negative(operand=Name() | Product(factors=(Number(), Name())))):
+        case (first, Negative(operand=Name())):
             return not isinstance(first, (Name, Negative, Number))
         case _:
             return False

@@ -340,7 +340,7 @@ def _over_one_root(root: Expr, order: Sequence[str]) -> Expression:
         case Call(function="sqrt", arguments=(Sum(terms=parts),)) if any(
             isinstance(part, Quotient) for part in parts
         ):
-            return Call("sqrt", (fraction(root**2, order),))
+            return min(tree, Call("sqrt", (fraction(root**2, order),)), key=operation_count)
         case _:
             return tree
 

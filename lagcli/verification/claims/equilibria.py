@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import chain, islice
 from math import isqrt
 
 from flint import arb, arb_mat, ctx
@@ -30,6 +31,8 @@ from lagcli.verification.examination import Examination
 #: Relative differences of eigenvalues: those of multiplicity 2 are right to 1e-19.
 _AGREE = 1e-9
 
+#: States with parameters of other sizes at which several conditions are tried.
+_SPREAD = 12
 _WHY = "the verdict was not confirmed at random states"
 #: Of a place whose conditions no parameters satisfy: it is left out, the others stay.
 _NOWHERE = Verdict(stable=None, reason="no parameters were found that satisfy its conditions")
@@ -211,9 +214,12 @@ def _refuted_beside_bounds(
     given = (verdict.minimum or (), verdict.hurwitz or (), verdict.spectrum or (), verdict.unstable)
     bounds = conditions(x, what, [each for group in given for each in group])
     always = () in (verdict.hurwitz, verdict.spectrum)
+    beside = () if always else place.beside(bounds)
+    # of two conditions one may hide where the other is wrong
+    spread = islice(place.spread(), None if always else _SPREAD if len(bounds) > 2 else 0)
     found = (
         refutes(x, what, near, verdict, zeros, place.dimension(near))
-        for near in (place.spread() if always else place.beside(bounds))
+        for near in chain(beside, spread)
         if near.defined and (zeros or near.residual < NOTHING)
     )
     return next(filter(None, found), "")

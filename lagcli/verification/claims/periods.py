@@ -58,6 +58,14 @@ class Well:
         for state in self.x.states(LOOKED_AT, BITS):
             yield {**state.environment, **state.following, (self.one.coordinate, 1): arb(0)}
 
+    def _spread(self) -> Iterator[Environment]:
+        """The same with parameters of other sizes."""
+        random = Random(7)
+        parameters = [p.name for p in self.x.problem.parameters if not p.integer]
+        for known in self.scenes():
+            scales = {(n, 0): known[n, 0] * arb(2) ** random.randint(-3, 3) for n in parameters}
+            yield {**known, **scales}
+
     def _value(self, known: Environment, place: int, q: arb) -> arb:
         return self.x.reference.values({**known, (self.one.coordinate, 0): q})(place)
 
@@ -91,7 +99,25 @@ class Well:
                 break
         if not tried:
             x.unchecked.append(what)
-        return True
+        why = "" if root or x.problem.contacts else self._why_not_where(above, places[-1])
+        if why:
+            x.refute(what, why)
+        return not why
+
+    def _why_not_where(self, above: Sequence[int], place: int) -> str:
+        """Why the printed conditions are not those under which there is a minimum."""
+        for known in self._spread():
+            at = self.x.reference.values(known)
+            q0, holds = at(place), [at(each) for each in above]
+            if q0.is_finite() and self._value(known, self.M, q0) < 0:
+                continue
+            real = q0.is_finite() and not (self.one.positive and q0 < 0)
+            minimum = real and self._is_minimum(known, q0)
+            if all(each > 0 for each in holds) and not minimum:
+                return "its conditions hold where there is no minimum"
+            if any(each < 0 for each in holds) and minimum:
+                return "there is a minimum where its conditions do not hold"
+        return ""
 
     def _is_minimum(self, known: Environment, q: arb) -> bool:
         slope, curvature, M = (
