@@ -8,10 +8,10 @@ from math import isqrt
 
 from flint import arb, arb_mat, ctx
 
-from lagcli.expression import Expression, Negative
+from lagcli.expression import Call, Expression, Name, Negative, walk
 from lagcli.record import replace
 from lagcli.statements.answers import EquilibriaSection, Equilibrium
-from lagcli.statements.motions import SteadyMotion, SteadySection, Verdict
+from lagcli.statements.motions import Above, SteadyMotion, SteadySection, Verdict
 from lagcli.verification.claims.eliminated import reduced_momenta
 from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues_of_motion, occur
 from lagcli.verification.claims.poles import refuted_at_a_pole
@@ -212,6 +212,8 @@ def _refuted_beside_bounds(
 ) -> str:
     """Why a verdict cannot be right near where its conditions begin to hold, or always."""
     given = (verdict.minimum or (), verdict.hurwitz or (), verdict.spectrum or (), verdict.unstable)
+    if any(_is_void(each) for group in given for each in group):
+        return "one of its conditions says nothing"
     bounds = conditions(x, what, [each for group in given for each in group])
     always = () in (verdict.hurwitz, verdict.spectrum)
     beside = () if always else place.beside(bounds)
@@ -223,6 +225,12 @@ def _refuted_beside_bounds(
         if near.defined and (zeros or near.residual < NOTHING)
     )
     return next(filter(None, found), "")
+
+
+def _is_void(condition: Above) -> bool:
+    """Whether no quantity occurs in it, as in 0 > 0."""
+    parts = (part for side in (condition.left, condition.right) for part in walk(side))
+    return not any(isinstance(part, (Name, Call)) for part in parts)
 
 
 def _constant(near: LinearMotion, eliminated: Sequence[str]) -> bool:
