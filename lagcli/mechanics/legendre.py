@@ -325,7 +325,7 @@ def _positive_roots(closure: Expr, s: Symbol) -> list[Expr]:
         power = sympy.Rational(1, high - low)
         signed = [(sign * above) ** power / (sign * below) ** power for sign in (1, -1)]
         return [root for root in signed if not root.has(sympy.I)]
-    return list(sympy.roots(polynomial)) if polynomial.degree() <= 4 else []
+    return _by_radicals(polynomial)
 
 
 def _undone(expression: Expr, images: Sequence[Symbol]) -> Expr:
@@ -348,7 +348,7 @@ def _real_inverses(momentum: Expr, v: Symbol, p: Symbol) -> list[Expr]:
             n = max(terms)
             ratio = -polynomial.coeff_monomial(1) / polynomial.coeff_monomial(v**n)
             return [sympy.sign(ratio) * sympy.Abs(ratio) ** sympy.Rational(1, n)]
-        return list(sympy.roots(polynomial)) if polynomial.degree() <= 4 else []
+        return _by_radicals(polynomial)
     if momentum.has(sympy.sinh, sympy.cosh):  # SymPy would write logarithms
         known = solve_for(momentum - p, v)
         if known is not None:
@@ -358,6 +358,12 @@ def _real_inverses(momentum: Expr, v: Symbol, p: Symbol) -> list[Expr]:
     except (NotImplementedError, ValueError):
         return []
     return [x for x in roots if isinstance(x, Expr) and not x.has(sympy.Piecewise)]
+
+
+def _by_radicals(polynomial: sympy.Poly) -> list[Expr]:
+    """The roots up to the fourth degree, without those that SymPy has by cases."""
+    found = sympy.roots(polynomial) if polynomial.degree() <= 4 else ()
+    return [x for x in found if not x.has(sympy.Piecewise)]
 
 
 def _bends(formula: Expr) -> set[Expr]:

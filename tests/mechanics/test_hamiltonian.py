@@ -6,7 +6,8 @@ import pytest
 import sympy as sp
 
 from lagcli.algebra import is_zero
-from lagcli.reader import parse_text
+from lagcli.reader import parse_text, read_problem
+from tests.solved import solve
 
 from .derived import derive, same
 
@@ -187,3 +188,11 @@ def test_a_momentum_that_jumps_is_not_inverted(kinked):
         f'L: "m*x\'^2/2 + {kinked}"'
     )
     assert d.hamiltonian.canonical_equations is None
+
+
+@pytest.mark.parametrize("L", ["m/(x'^2 + x^2*y'^2)/2 + k*x^2*y'", "m/(x'^2 + y'^2 + k)"])
+def test_velocities_that_are_known_by_cases_only_are_not_found(L):
+    """Roots of a quartic, which SymPy has by cases."""
+    file = f"coordinates: [x, y]\nparameters: {{m: {{}}, k: {{}}}}\nL: {L}\n"
+    found = solve(read_problem("t.yaml", file.encode()).checked(), ["reduction"])
+    assert not any("bug" in warning for warning in found.warnings)

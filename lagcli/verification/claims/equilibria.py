@@ -46,6 +46,9 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
     with ctx.workprec(BITS):
         for each in section.equilibria:
             what = f"the equilibrium {named(each.at, each.on)}"
+            if {*each.free, *each.indeterminate} & {*each.at}:
+                x.refute(what, "a coordinate with a value is called free")
+                return replace(section, equilibria=None, reason=not_confirmed("an equilibrium"))
             if each.sticking or each.kinked:
                 x.unchecked.append(what)
                 found.append(each)
@@ -97,6 +100,9 @@ def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
     with ctx.workprec(BITS):
         for each in section.motions:
             what = f"the steady motion {named(each.at, each.on)}"
+            if {*each.free} & {*each.at}:
+                x.refute(what, "a coordinate with a value is called free")
+                return replace(section, motions=None, reason=not_confirmed("a steady motion"))
             if each.rates is None:
                 if why := refuted_at_a_pole(x, what, each):
                     x.refute(what, why)

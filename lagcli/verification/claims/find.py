@@ -129,6 +129,9 @@ def _is_root(x: Examination, what: str, question: Where, root: int, reached: Rea
     unknown = program.symbol(*key)
     pinned = [program.sum(unknown, program.negative(root))]
     sides = [x.reference.place(s) for s in (question.equation.left, question.equation.right)]
+    if not program.symbols([root]) and not x.reference.values({})(root).is_finite():
+        x.refute(what, "it is not real")
+        return False
     gaps = []
     for base in x.states(5):
         try:

@@ -149,10 +149,26 @@ def _one_freedom(x: Examination, one: OneFreedom, R: Expression) -> bool:
 
     if not x.decide("the rate of the one degree of freedom", paces):
         return False
+    if one.turning_points == () and (q := _turns_at(x, one, h)):
+        x.refute("that there are no turning points", f"there is one beside {one.coordinate} = {q}")
+        return False
     before = len(x.unchecked)
     holds = not turning or x.decide("the turning points", turns)
     del x.unchecked[before:]  # for no random energy are they real
     return holds and _real_between(x, one, turning) and periods(x, one, h)
+
+
+def _turns_at(x: Examination, one: OneFreedom, energy: int) -> str:
+    """A place at which the potential exceeds the energy of a motion; empty where none was found."""
+    for state in x.states():
+        known = {**state.environment, **state.following, (one.coordinate, 1): arb(0)}
+        for place in (arb(2) ** (k // 2 - 4) * (-1 if k % 2 else 1) for k in range(20)):
+            if one.positive and place < 0:
+                continue
+            U = x.reference.values({**known, (one.coordinate, 0): place})(energy)
+            if U.is_finite() and state.at(energy) < U:
+                return f"{float(place):.6g}"
+    return ""
 
 
 def _real_between(x: Examination, one: OneFreedom, turning: Sequence[int]) -> bool:
