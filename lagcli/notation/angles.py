@@ -3,9 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 
-from lagcli.expression import ONE, Call, Expression, Negative, Product, Sum, quotient_of
+from lagcli.expression import (
+    ONE,
+    Call,
+    Expression,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Sum,
+    quotient_of,
+)
 from lagcli.notation.factors import parts_of
+
+_TWO = Number(Fraction(2))
 
 
 def with_versines(terms: Sequence[Expression]) -> list[Expression]:
@@ -24,6 +37,27 @@ def with_versines(terms: Sequence[Expression]) -> list[Expression]:
             found[found.index(other)] = joined if minus else Negative(joined)
             found.remove(term)
     return found
+
+
+_OTHER = {"sin": "cos", "cos": "sin"}
+
+
+def with_added_square(node: Sum) -> Sum:
+    """1 + 2 cos² x for 3 − 2 sin² x."""
+    match node.terms:
+        case (Number(value=whole), Negative(operand=part)):
+            minus, above, below = parts_of(part)
+            numbers = [f.value for f in above if isinstance(f, Number)]
+            squares = [f for f in above if isinstance(f, Power) and f.exponent == _TWO]
+            size = numbers[0] if numbers else Fraction(1)
+            if minus or below or len(numbers) + len(squares) != len(above) or size >= whole:
+                return node
+            match squares:
+                case [Power(base=Call(function="sin" | "cos" as name, arguments=x))]:
+                    square = Power(Call(_OTHER[name], x), _TWO)
+                    term = Product((*(Number(n) for n in numbers), square)) if numbers else square
+                    return Sum((Number(whole - size), term))
+    return node
 
 
 def difference_of_angles(one: Expression, other: Expression) -> Expression | None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Container, Iterable, Mapping
 from fractions import Fraction
-from math import gcd, prod
+from math import gcd, lcm, prod
 
 from lagcli.expression import (
     ONE,
@@ -86,22 +86,41 @@ def with_base(node: Expression, base: Expression) -> Expression:
 
 
 def with_content(node: Sum) -> tuple[Fraction, Sum]:
-    """(6, p² − 3 p q) of 6 p² − 18 p q: the number that all terms of a sum have in front."""
+    """(6, p² − 3 p q) of 6 p² − 18 p q, (1/3, 1 + 3 q²) of 1/3 + q²: the number of all terms.
+
+    But of m/2 + M: only a fraction that stands alone has its denominator taken out.
+    """
     parts = [parts_of(term) for term in node.terms]
-    numbers = [
-        [int(f.value) for f in above if isinstance(f, Number) and f.value.denominator == 1]
-        for _, above, _ in parts
-    ]
-    common = gcd(*map(prod, numbers))
-    if common == 1:
+    alone = not any(isinstance(part, Number) and part.decimal for part in walk(node)) and any(
+        all(isinstance(f, Number) for f in (*above, *below)) and _number_of(above, below) % 1
+        for _, above, below in parts
+    )
+    values, rests = [], []
+    for _, above, below in parts:
+        taken = [f for f in above if isinstance(f, Number) and (alone or f.value.denominator == 1)]
+        lower = [f for f in below if isinstance(f, Number)] if alone else []
+        values.append(_number_of(taken, lower))
+        rests.append(
+            tuple([f for f in fs if f not in gone] for fs, gone in ((above, taken), (below, lower)))
+        )
+    scale = lcm(*(value.denominator for value in values))
+    common = gcd(*(int(value * scale) for value in values))
+    if common == scale:
         return Fraction(1), node
     terms = []
-    for (minus, above, below), inside in zip(parts, numbers, strict=True):
-        left = Number(Fraction(prod(inside) // common))
-        rest = [f for f in above if not (isinstance(f, Number) and f.value.denominator == 1)]
-        term = quotient_of([left, *rest] if left != ONE or not rest else rest, below)
+    for (minus, *_), value, (rest, under) in zip(parts, values, rests, strict=True):
+        left = Number(value * scale / common)
+        term = quotient_of([left, *rest] if left != ONE or not rest else rest, under)
         terms.append(Negative(term) if minus else term)
-    return Fraction(common), Sum(tuple(terms))
+    return Fraction(common, scale), Sum(tuple(terms))
+
+
+def _number_of(above: Iterable[Expression], below: Iterable[Expression]) -> Fraction:
+    over, under = (
+        prod((f.value for f in fs if isinstance(f, Number)), start=Fraction(1))
+        for fs in (above, below)
+    )
+    return over / under
 
 
 def cancelled(

@@ -34,7 +34,7 @@ from lagcli.expression import (
     terms_of,
     walk,
 )
-from lagcli.notation.angles import difference_of_angles, with_versines
+from lagcli.notation.angles import difference_of_angles, with_added_square, with_versines
 from lagcli.notation.brackets import NamedMomenta, squares_as_brackets
 from lagcli.notation.factors import (
     base_and_exponent,
@@ -177,7 +177,9 @@ class Manner:
             case Sum():
                 node = self._beside_roots(node)
                 like = self._sums.like(node)
-                return self._sum(node) if like is None or like[0] != 1 else like[1]
+                if like is not None and like[0] == 1:
+                    return like[1]
+                return self._sum(with_added_square(node))
             case Call(function=function, arguments=(Sum() as inner,)) if function in _ARC:
                 return self._arc(node, inner)
             case Call(function="sqrt", arguments=(Quotient(numerator=Number(value=1)) as inner,)):

@@ -140,3 +140,26 @@ def test_shapes_of_modes_have_no_root_in_a_denominator() -> None:
     found = text("x, y", "M m l a g", physics, "modes")
     assert found.count("a_y = ") == 1
     assert "∓ √" in found
+
+
+@pytest.mark.parametrize("square", ["sin(q)^2", "cos(q)^2"])
+@pytest.mark.parametrize("fraction", ["1/3", "1/4", "2/5"])
+def test_a_number_and_a_square_have_no_fraction(fraction: str, square: str) -> None:
+    """The rod that falls on a smooth floor: m a² (1 + 3 sin² θ)/3, not m a² (1/3 + sin² θ)."""
+    physics = f"T: {fraction}*m*a^2*q'^2/2 + m*a^2*{square}*q'^2/2\nV: m*g*a*cos(q)"
+    found = text("q", "m g a", physics, "accelerations", "canonical_equations")
+    assert fraction not in found
+
+
+def test_a_decimal_stays_beside_its_square() -> None:
+    physics = "T: m*a^2*(0.4 + sin(q)^2)*q'^2/2\nV: m*g*a*cos(q)"
+    assert "0.4" in text("q", "m g a", physics, "momenta", "hamiltonian")
+
+
+@pytest.mark.parametrize(("one", "other"), [("sin", "cos"), ("cos", "sin")])
+def test_squares_are_added_not_subtracted(one: str, other: str) -> None:
+    """1 + 2 cos² θ for 3 − 2 sin² θ."""
+    T = f"m*a^2*(4 - {one}(q)^2)*q'^2/2 + m*a^2*(1 - {one}(q)^2)*q'^2"
+    found = text("q", "m g a", f"T: {T}\nV: m*g*a*cos(q)", "momenta")
+    assert f"− 3 {one}²" not in found
+    assert f"{other}²" in found
