@@ -304,6 +304,8 @@ class SmallOscillations:
 
     def modes(self, place: Place) -> list[ModesOfFrequency]:
         """The modes about one equilibrium as statements."""
+        if not place.modes:
+            return []
         linear = place.linear
         of_two = Discriminant(linear.M, linear.K, self.system.order)
 
