@@ -6,12 +6,15 @@ that are no single terms as letters.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
+from itertools import combinations
 from math import gcd
 from typing import cast
 
 from lagcli.expression import (
+    ONE,
     Call,
     Expression,
     Name,
@@ -28,13 +31,23 @@ from lagcli.expression import (
     terms_of,
     walk,
 )
-from lagcli.notation.factors import product_of_powers
+from lagcli.notation.factors import (
+    base_and_exponent,
+    odd_base,
+    parts_of,
+    power_product,
+    product_of_powers,
+    whole_power,
+    with_base,
+    with_content,
+)
 from lagcli.notation.likeness import (
     Monomial,
     Polynomial,
     inverse,
     joined,
     multiplied_out,
+    parity,
     signed_key,
 )
 from lagcli.notation.ordering import Ordering, is_rate
@@ -145,6 +158,72 @@ class GivenSums:
                 if value == {joined(t, scale): ratio * c for t, c in other.items()}:
                     return ratio, scale, given
         return None
+
+    def in_product(
+        self, minus: bool, above: list[Expression], below: list[Expression]
+    ) -> tuple[bool, list[Expression], list[Expression]]:
+        """The sign and the factors, with the sums of the file for their multiples."""
+        number, above, below = self._divided(above, below)
+        for factors, sign in (above, 1), (below, -1):
+            number *= self._joined(factors) ** sign
+            for place, factor in enumerate(factors):
+                base, exponent = whole_power(factor)
+                if not isinstance(base, Sum):
+                    continue
+                ratio, shown = self.like(base) or with_content(base)
+                if ratio != 1:
+                    number *= ratio ** (sign * exponent)
+                    factors[place] = with_base(factor, shown)
+        whole = [any(isinstance(f, Number) for f in factors) for factors in (above, below)]
+        within = any(isinstance(f, Number) for factors in (above, below) for f in factors[1:])
+        if number == 1 and not within and not all(whole):
+            return minus, above, below
+        for factors, sign in (above, 1), (below, -1):
+            numbers = [f for f in factors if isinstance(f, Number)]
+            factors[:] = [f for f in factors if not isinstance(f, Number)]
+            for each in numbers:
+                number *= each.value**sign
+        if number.denominator != 1:
+            below.insert(0, Number(Fraction(number.denominator)))
+        if abs(number.numerator) != 1 or not above:
+            above.insert(0, Number(Fraction(abs(number.numerator))))
+        return minus ^ (number < 0), above, below
+
+    def _joined(self, factors: list[Expression]) -> Fraction:
+        """A number, with R² − l² of the file for (R + l) (R − l) among the factors."""
+        number = Fraction(1)
+        sums = [f for f in factors if odd_base(f)[0] is not None]
+        for one, other in combinations(sums, 2):
+            (a, m), (b, n) = base_and_exponent(one), base_and_exponent(other)
+            like = self.like(Product((a, b))) if m == n else None
+            if like is None or not {one, other} <= {*factors}:
+                continue
+            if like[0] == 1 or parity(m) is not None:
+                factors[factors.index(one)] = with_base(one, like[1])
+                factors.remove(other)
+                number *= like[0] ** whole_power(one)[1]
+        return number
+
+    def _divided(
+        self, above: list[Expression], below: list[Expression]
+    ) -> tuple[Fraction, list[Expression], list[Expression]]:
+        """A number, and the factors with a sum of the file for (rs − r)/r, a/b + cos θ."""
+        number = Fraction(1)
+        for place, factor in enumerate(above):
+            like = self.multiple(factor) if isinstance(factor, Sum) else None
+            if like is None or not like[1]:
+                continue
+            letters = {repr(n): n for n in walk(factor) if isinstance(n, Name)}
+            left = Counter[Expression](dict(map(whole_power, below)))
+            for letter, exponent in like[1]:
+                left[letters.get(letter, ONE)] -= exponent
+            if ONE in left or min(left.values(), default=0) < 0:
+                continue
+            number *= like[0]
+            above[place] = like[2]
+            kept = [Power(x, Number(Fraction(e))) for x, e in left.items() if e]
+            below = parts_of(power_product(kept, self._ordering))[1] if kept else []
+        return number, above, below
 
 
 class GivenPotential:

@@ -9,10 +9,8 @@ minus goes and whether a number comes first does not change a value, and follows
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator
 from fractions import Fraction
-from itertools import combinations
 
 from lagcli.evaluation import finite_value, sign_at_random
 from lagcli.expression import (
@@ -37,17 +35,14 @@ from lagcli.expression import (
 from lagcli.notation.angles import difference_of_angles, with_added_square, with_versines
 from lagcli.notation.brackets import NamedMomenta, squares_as_brackets
 from lagcli.notation.factors import (
-    base_and_exponent,
     cancelled,
     multiplied,
     odd_base,
     parts_of,
-    power_product,
     product_of_powers,
     whole_power,
     with_base,
     with_conjugates,
-    with_content,
     with_last,
     with_one_root,
     with_whole_powers,
@@ -59,7 +54,7 @@ from lagcli.notation.likeness import EVEN, ODD, Key, Monomial, multiplied_out, p
 from lagcli.notation.logarithms import ratios_in, with_ratios
 from lagcli.notation.ordering import Ordering, accelerates, positive_first
 from lagcli.problem_data import Problem
-from lagcli.rewriting import rebuilt
+from lagcli.rewriting import put_in, rebuilt
 
 _ARC = frozenset(("acos", "asin", "acosh", "asinh"))
 
@@ -200,7 +195,7 @@ class Manner:
             return node
         whole, inside = found
         shown = self._written(inside, inside=True)
-        return _with_part(whole, inside, shown)
+        return put_in(whole, {inside: shown})
 
     def _arc(self, node: Call, inner: Sum) -> Expression:
         """arccos((a + b)/c) for arccos(a/c + b/c), but 1 − E/(m g l)."""
@@ -331,7 +326,7 @@ class Manner:
 
     def _signed(self, node: Expression, *, inside: bool) -> Expression:
         """A product or quotient with every sum in its right sign, the sign of all before it."""
-        minus, above, below = self._with_given_sums(*parts_of(node))
+        minus, above, below = self._sums.in_product(*parts_of(node))
         above, below = map(with_conjugates, cancelled(above, below))
         free: list[tuple[list[Expression], int]] = []  # sums that may stand either way
         for factors in (above, below):
@@ -369,72 +364,6 @@ class Manner:
             above = [*arranged(above, self._ordering)]
         whole = quotient_of(above, below)
         return Negative(whole) if minus else whole
-
-    def _divided_by_letters(
-        self, above: list[Expression], below: list[Expression]
-    ) -> tuple[Fraction, list[Expression], list[Expression]]:
-        """A number, and the factors with a sum of the file for (rs − r)/r, a/b + cos θ."""
-        number = Fraction(1)
-        for place, factor in enumerate(above):
-            like = self._sums.multiple(factor) if isinstance(factor, Sum) else None
-            if like is None or not like[1]:
-                continue
-            letters = {repr(n): n for n in walk(factor) if isinstance(n, Name)}
-            left = Counter[Expression](dict(map(whole_power, below)))
-            for letter, exponent in like[1]:
-                left[letters.get(letter, ONE)] -= exponent
-            if ONE in left or min(left.values(), default=0) < 0:
-                continue
-            number *= like[0]
-            above[place] = like[2]
-            kept = [Power(x, Number(Fraction(e))) for x, e in left.items() if e]
-            below = parts_of(power_product(kept, self._ordering))[1] if kept else []
-        return number, above, below
-
-    def _with_given_products(self, factors: list[Expression]) -> Fraction:
-        """A number, with R² − l² of the file for (R + l) (R − l) among the factors."""
-        number = Fraction(1)
-        sums = [f for f in factors if odd_base(f)[0] is not None]
-        for one, other in combinations(sums, 2):
-            (a, m), (b, n) = base_and_exponent(one), base_and_exponent(other)
-            like = self._sums.like(Product((a, b))) if m == n else None
-            if like is None or not {one, other} <= {*factors}:
-                continue
-            if like[0] == 1 or parity(m) is not None:
-                factors[factors.index(one)] = with_base(one, like[1])
-                factors.remove(other)
-                number *= like[0] ** whole_power(one)[1]
-        return number
-
-    def _with_given_sums(
-        self, minus: bool, above: list[Expression], below: list[Expression]
-    ) -> tuple[bool, list[Expression], list[Expression]]:
-        """The sign and the factors, with the sums of the file for their multiples."""
-        number, above, below = self._divided_by_letters(above, below)
-        for factors, sign in (above, 1), (below, -1):
-            number *= self._with_given_products(factors) ** sign
-            for place, factor in enumerate(factors):
-                base, exponent = whole_power(factor)
-                if not isinstance(base, Sum):
-                    continue
-                ratio, shown = self._sums.like(base) or with_content(base)
-                if ratio != 1:
-                    number *= ratio ** (sign * exponent)
-                    factors[place] = with_base(factor, shown)
-        whole = [any(isinstance(f, Number) for f in factors) for factors in (above, below)]
-        within = any(isinstance(f, Number) for factors in (above, below) for f in factors[1:])
-        if number == 1 and not within and not all(whole):
-            return minus, above, below
-        for factors, sign in (above, 1), (below, -1):
-            numbers = [f for f in factors if isinstance(f, Number)]
-            factors[:] = [f for f in factors if not isinstance(f, Number)]
-            for each in numbers:
-                number *= each.value**sign
-        if number.denominator != 1:
-            below.insert(0, Number(Fraction(number.denominator)))
-        if abs(number.numerator) != 1 or not above:
-            above.insert(0, Number(Fraction(abs(number.numerator))))
-        return minus ^ (number < 0), above, below
 
 
 def _energies(problem: Problem) -> Iterator[Sum]:
@@ -486,15 +415,6 @@ def _begins_better(node: Sum) -> bool:
             return not isinstance(first, (Name, Negative, Number))
         case _:
             return False
-
-
-def _with_part(node: Expression, part: Expression, other: Expression) -> Expression:
-    """The product with another factor in the place of one."""
-    if node is part:
-        return other
-    if isinstance(node, (Negative, Product, Quotient)):
-        return rebuilt(node, lambda inner: _with_part(inner, part, other))
-    return node
 
 
 def _sums(node: Expression) -> bool:
