@@ -9,16 +9,16 @@ from __future__ import annotations
 import random
 from collections.abc import Sequence
 
-from lagcli.algebra.numeric import DIGITS
 from lagcli.graph.nodes import Constant, Node, Symbol, ancestry
 from lagcli.graph.values import Digits, Program
 from lagcli.mechanics.matrix_form import MatrixForm
 
+_DIGITS = 50  # those of algebra.numeric, which would load SymPy
 _POINTS = 2  # two: one may lie on a root
 _ATTEMPTS = 8  # of which two are real where half of the states are
 
 
-def vanish(nodes: Sequence[Node], form: MatrixForm, digits: int = DIGITS) -> bool | None:
+def vanish(nodes: Sequence[Node], form: MatrixForm, digits: int = _DIGITS) -> bool | None:
     """Whether all of the nodes are 0 for all values of their symbols; None: no value found."""
     if any(isinstance(node, Constant) and node.value for node in nodes):
         return False
@@ -29,7 +29,7 @@ def vanish(nodes: Sequence[Node], form: MatrixForm, digits: int = DIGITS) -> boo
 
     quantities = (*form.problem.parameters, *form.problem.coordinates)
     negative = {q.name for q in quantities if q.assume == "negative"}
-    with mpmath.workdps(DIGITS + 15):
+    with mpmath.workdps(_DIGITS + 15):
         scales = [part for node in open_nodes for part in node.parts]
         program = Program([*open_nodes, *scales], Digits(), form.functions)
         names = [
