@@ -68,6 +68,8 @@ def place(at: Mapping[str, Expression], on: tuple[Expression, Expression] | None
 
 FORMULA: Schema = {"type": "string", "description": "in the grammar of the problem format"}
 OR_NULL: Schema = {"type": ["string", "null"]}
+TEXT: Schema = {"type": "string"}
+TRUTH: Schema = {"type": ["boolean", "null"]}
 
 
 def map_of(values: Schema, *, null: bool = True) -> Schema:
@@ -75,9 +77,9 @@ def map_of(values: Schema, *, null: bool = True) -> Schema:
     return {"type": ["object", "null"] if null else "object", "additionalProperties": values}
 
 
-def record_of(required: tuple[str, ...], properties: dict[str, Schema]) -> Schema:
-    """An object with these keys."""
-    return {"type": "object", "required": list(required), "properties": properties}
+def record_of(required: tuple[str, ...] = (), /, **properties: Schema) -> Schema:
+    """An object with these keys, of which all are required where none is named."""
+    return {"type": "object", "required": list(required or properties), "properties": properties}
 
 
 def written(objects: list[Object], options: Options) -> str:

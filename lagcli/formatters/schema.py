@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from lagcli.formatters.json_values import FORMULA, Schema, map_of, record_of
+from lagcli.formatters.json_values import FORMULA, TEXT, Schema, map_of, record_of
 from lagcli.statements.registry import every_section
+
+_TEXTS: Schema = {"type": "array", "items": TEXT}
 
 
 def _or_null(section: Schema) -> Schema:
@@ -17,16 +19,14 @@ def answers_schema() -> Schema:
     declared = [each for each in every_section() if each.schema is not None]
     answer = record_of(
         ("schema", "title", "coordinates", "parameters", "degrees_of_freedom", "warnings"),
-        {
-            "schema": {"const": 1},
-            "title": {"type": "string"},
-            "coordinates": {"type": "array", "items": {"type": "string"}},
-            "parameters": {"type": "array", "items": {"type": "string"}},
-            "degrees_of_freedom": {"type": ["integer", "null"], "minimum": 0},
-            **{each.name: _or_null(dict(each.schema or {})) for each in declared},
-            "where": map_of(FORMULA, null=False),
-            "warnings": {"type": "array", "items": {"type": "string"}},
-        },
+        schema={"const": 1},
+        title=TEXT,
+        coordinates=_TEXTS,
+        parameters=_TEXTS,
+        degrees_of_freedom={"type": ["integer", "null"], "minimum": 0},
+        **{each.name: _or_null(dict(each.schema or {})) for each in declared},
+        where=map_of(FORMULA, null=False),
+        warnings=_TEXTS,
     )
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",

@@ -81,7 +81,7 @@ SECTION = declared(
     abbreviated=True,
     heading="Canonical equations",
     order=110,
-    schema=map_of(record_of(("q", "p"), {"q": FORMULA, "p": FORMULA})),
+    schema=map_of(record_of(q=FORMULA, p=FORMULA)),
     by_default=attrgetter("hamiltonian"),
     explained=Explained(
         title="Canonical equations", blocks=step("phase_space:canonical_equations"), order=60

@@ -7,7 +7,16 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Heading, Label, Paragraph, Row
 from lagcli.expression import ZERO, Expression, Name
-from lagcli.formatters.json_values import FORMULA, OR_NULL, Object, fields_of, map_of, record_of
+from lagcli.formatters.json_values import (
+    FORMULA,
+    OR_NULL,
+    TEXT,
+    TRUTH,
+    Object,
+    fields_of,
+    map_of,
+    record_of,
+)
 from lagcli.notation.letters import own
 from lagcli.problem_data import NOT_CONSERVED
 from lagcli.reader.nodes import DocumentNode, Scalar
@@ -203,16 +212,13 @@ def json(section: ChargesSection) -> Object:
 CHARGES = {
     "type": ["array", "null"],
     "items": record_of(
-        ("name", "source", "transformation", "gauge", "conserved", "charge", "rate"),
-        {
-            "name": {"type": "string"},
-            "source": {"type": "string"},
-            "transformation": map_of(FORMULA, null=False),
-            "gauge": OR_NULL,
-            "conserved": {"type": ["boolean", "null"]},
-            "charge": OR_NULL,
-            "rate": OR_NULL,
-        },
+        name=TEXT,
+        source=TEXT,
+        transformation=map_of(FORMULA, null=False),
+        gauge=OR_NULL,
+        conserved=TRUTH,
+        charge=OR_NULL,
+        rate=OR_NULL,
     ),
 }
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Label, Paragraph
 from lagcli.expression import Expression
-from lagcli.formatters.json_values import OR_NULL, Object, plain, record_of
+from lagcli.formatters.json_values import OR_NULL, TEXT, TRUTH, Object, plain, record_of
 from lagcli.reader.scope import STATE
 from lagcli.reader.shapes import formula
 from lagcli.sections._expected import expected_of
@@ -72,15 +72,7 @@ SECTION = declared(
     globals(),
     heading="Energy",
     order=90,
-    schema=record_of(
-        ("function", "conserved", "is_total_energy", "reason"),
-        {
-            "function": OR_NULL,
-            "conserved": {"type": ["boolean", "null"]},
-            "is_total_energy": {"type": ["boolean", "null"]},
-            "reason": {"type": "string"},
-        },
-    ),
+    schema=record_of(function=OR_NULL, conserved=TRUTH, is_total_energy=TRUTH, reason=TEXT),
     by_default=always,
     expected=(expected_of("energy", formula("the expected energy", STATE), compare),),
 )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, equations_of
 from lagcli.expression import ZERO, Equation, Expression, Name, operation_count, walk
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
-from lagcli.formatters.json_values import FORMULA, Object, list_or_null, record_of
+from lagcli.formatters.json_values import FORMULA, TEXT, Object, list_or_null, record_of
 from lagcli.reader.scope import EQUATION
 from lagcli.reader.shapes import equation, list_of
 from lagcli.sections._expected import expected_of
@@ -157,9 +157,7 @@ SECTION = declared(
     order=20,
     schema={
         "type": ["array", "null"],
-        "items": record_of(
-            ("coordinate", "equation"), {"coordinate": {"type": "string"}, "equation": FORMULA}
-        ),
+        "items": record_of(coordinate=TEXT, equation=FORMULA),
     },
     by_default=always,
     expected=(expected_of("equations", _EXPECTED, compare),),

@@ -98,13 +98,10 @@ SECTION = declared(
     heading="Matrix form",
     order=30,
     schema=record_of(
-        ("mass_matrix", "constraint_jacobian", "forcing", "constraint_bias", "shared"),
-        {
-            "mass_matrix": _MATRIX,
-            "constraint_jacobian": _MATRIX,
-            "forcing": _COLUMN,
-            "constraint_bias": _COLUMN,
-            "shared": map_of(FORMULA, null=False),
-        },
+        mass_matrix=_MATRIX,
+        constraint_jacobian=_MATRIX,
+        forcing=_COLUMN,
+        constraint_bias=_COLUMN,
+        shared=map_of(FORMULA, null=False),
     ),
 )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, get_args
 
 from lagcli.document import Block, Equations, Paragraph, Row
 from lagcli.expression import Expression, Name
-from lagcli.formatters.json_values import OR_NULL, Object, fields_of, map_of, record_of
+from lagcli.formatters.json_values import OR_NULL, TEXT, Object, fields_of, map_of, record_of
 from lagcli.reader.scope import ANSWER
 from lagcli.reader.shapes import formula, of_known
 from lagcli.sections._expected import expected_of
@@ -138,14 +138,7 @@ SECTION = declared(
     heading="Multipliers",
     order=50,
     schema=map_of(
-        record_of(
-            ("symbol", "value", "kind"),
-            {
-                "symbol": {"type": "string"},
-                "value": OR_NULL,
-                "kind": {"enum": [*get_args(ConstraintKind), None]},
-            },
-        )
+        record_of(symbol=TEXT, value=OR_NULL, kind={"enum": [*get_args(ConstraintKind), None]})
     ),
     by_default=attrgetter("constraints"),
     abbreviated=True,
