@@ -1,8 +1,8 @@
 """The old variables from the new ones: Q(q, p) = Q, P(q, p) = P solved, one after another.
 
 A variable is solved for where an equation can be peeled: what stands around it is undone
-step by step, at the end a polynomial of second degree or one with two powers.  Every branch
-of a root is a candidate, so whoever uses one has to test it.
+step by step, and the rest is solved as an equation in it.  Every branch of a root is a
+candidate, so whoever uses one has to test it.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from sympy import Expr, Pow, Symbol
 
 from lagcli.algebra import simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.equations import solve_for
 
 _MOST_CANDIDATES = 16
 _MOST_OPERATIONS = 300  # measured: at most 16
@@ -114,7 +115,8 @@ def undone(expression: Expr, x: Symbol, value: Expr) -> list[Expr]:
         if not (within.is_Add and expression.is_Add) and not (within.is_Mul and expression.is_Mul):
             rest = value - apart if expression.is_Add else value / apart
             return undone(within, x, rest)
-        return _of_polynomial(expression - value, x)
+        found = solve_for(expression - value, x)
+        return list(found.values) if found else []
     if isinstance(expression, Pow) and free_of(expression.exp, [x]):
         root = value ** (1 / expression.exp)
         even = expression.exp.is_Integer and expression.exp % 2 == 0
@@ -124,22 +126,3 @@ def undone(expression: Expr, x: Symbol, value: Expr) -> list[Expr]:
     if inverse is None or len(expression.args) != 1:
         return []
     return undone(expression.args[0], x, inverse(value))
-
-
-def _of_polynomial(expression: Expr, x: Symbol) -> list[Expr]:
-    above = sympy.numer(sympy.together(expression))
-    if not above.is_polynomial(x):
-        return []
-    polynomial = sympy.Poly(above, x)
-    powers = sorted(monomial[0] for monomial in polynomial.monoms())
-    coefficient = polynomial.coeff_monomial
-    if len(powers) <= 2 and powers[0] == 0:
-        ratio = simplify(-coefficient(1) / coefficient(x ** powers[-1]))
-        return undone(x ** powers[-1], x, ratio) if powers[-1] else []
-    if polynomial.degree() == 1:
-        return [simplify(-coefficient(1) / coefficient(x))]
-    if polynomial.degree() == 2:
-        a, b, c = (coefficient(x**k) for k in (2, 1, 0))
-        root = sympy.sqrt(simplify(b**2 - 4 * a * c))
-        return [(-b + sign * root) / (2 * a) for sign in (1, -1)]
-    return []
