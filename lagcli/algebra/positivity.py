@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import sympy
@@ -10,7 +9,6 @@ from sympy import Expr, S
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.factors import factors_of
-from lagcli.algebra.one_ratio import in_one_ratio
 from lagcli.algebra.polynomial_roots import coefficients
 from lagcli.algebra.ring import factorization
 from lagcli.algebra.signs import between_angles, sign, sign_beside_zero, sign_of_circle
@@ -161,33 +159,7 @@ def _beside_zero(factor: Expr) -> int | None:
 def sign_of(expression: Expr, positive: Sequence[Expr]) -> int | None:
     """1, -1 or 0 where it has one sign for all values; else None."""
     known = sign(expression, positive)
-    for other in (_on_the_circle, _in_roots, _in_one_ratio):
-        known = other(expression, positive) if known is None else known
-    return known
-
-
-def _in_roots(expression: Expr, positive: Sequence[Expr]) -> int | None:
-    """The sign with u² for each positive letter c whose root occurs: c - d² = (u - d)(u + d)."""
-    indices: dict[Expr, list[int]] = {}
-    for power in {p for e in (expression, *positive) for p in e.atoms(sympy.Pow)}:
-        if power.base.is_Symbol and power.base.is_positive and power.exp.is_Rational:
-            indices.setdefault(power.base, []).append(int(power.exp.q))
-    put_in = {
-        letter: sympy.Dummy(letter.name, positive=True) ** math.lcm(*found)
-        for letter, found in indices.items()
-        if max(found) > 1
-    }
-    if not put_in:
-        return None
-    return sign(simplify(expression.xreplace(put_in)), [p.xreplace(put_in) for p in positive])
-
-
-def _in_one_ratio(expression: Expr, positive: Sequence[Expr]) -> int | None:
-    """1 or -1 for what has one sign at all ratios that `positive` leaves."""
-    if not all(s.is_positive for s in expression.free_symbols):
-        return None
-    rest = deciding(expression, positive)
-    return next((side for side in (1, -1) if in_one_ratio([side * rest], positive) == []), None)
+    return _on_the_circle(expression, positive) if known is None else known
 
 
 def _on_the_circle(expression: Expr, positive: Sequence[Expr]) -> int | None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache, wraps
 
@@ -289,11 +288,7 @@ def _of_factor(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | No
         return 1
     if expression.is_negative:
         return -1
-    return (
-        _between_ends(field, factor, positive)
-        or _of_known_factors(field, factor, positive)
-        or _beside_root(field, factor, positive)
-    )
+    return _between_ends(field, factor, positive) or _beside_root(field, factor, positive)
 
 
 def _beside_root(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | None:
@@ -323,16 +318,6 @@ def _roots(expression: Expr) -> int:
     return sum(not e.exp.is_Integer for e in expression.atoms(sympy.Pow)) + len(
         expression.atoms(sympy.Abs)
     )
-
-
-def _of_known_factors(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | None:
-    """The sign of a² - b² cos² - … that is (a - b sin)(a + b sin), both of them known."""
-    for equal in _with_squares_swapped(field, factor) if positive else ():
-        content, parts = factorization(field.ring.lift(equal))
-        known = [(part in positive) - (-part in positive) for part, k in parts if k % 2]
-        if len(known) > 1 and all(known):
-            return math.prod(known) if int(content) > 0 else -math.prod(known)
-    return None
 
 
 def _between_ends(field: Field, factor: Poly, positive: Sequence[Poly]) -> int | None:

@@ -19,17 +19,10 @@ from lagcli.algebra.shaping.plan import OPERATION
 from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
-    Call,
     Expression,
-    Number,
-    Quotient,
-    Sum,
     has_nested_fraction,
     operation_count,
-    terms_of,
-    walk,
 )
-from lagcli.notation.ordering import bases
 from lagcli.platform.effort import EFFORT
 
 _LONG = 60  # terms of an element of which ...
@@ -97,20 +90,9 @@ def shaped(
     before, after = operation_count(given), operation_count(tree)
     if has_nested_fraction(given):
         before = int(_FLAT * before)
-    if before < after and not _divides_by_number_root(given):
+    if before < after:
         return expression, given
     return shaper.to_sympy(tree), tree
-
-
-def _divides_by_number_root(node: Expression) -> bool:
-    """Whether a sum with the root of a number is a denominator: 9/(1 + 2 sqrt(7))."""
-    below = (part.denominator for part in walk(node) if isinstance(part, Quotient))
-    terms = (term for each in below for term in terms_of(each) if isinstance(each, Sum))
-    factors = (factor for term in terms for factor in bases(term))
-    return any(
-        isinstance(f, Call) and f.function == "sqrt" and isinstance(f.arguments[0], Number)
-        for f in factors
-    )
 
 
 def fraction(expression: Expr, order: Sequence[str] = ()) -> Expression:

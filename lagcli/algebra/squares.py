@@ -37,7 +37,7 @@ def sign_by_squares(field: Field, poly: Poly) -> tuple[int, bool] | None:
 def _outweighed(field: Field, terms: dict[_Monomial, Fraction]) -> bool | None:
     """Whether squares outweigh the rest strictly; None where they do not at all."""
     paying = {m: c for m, c in terms.items() if c > 0 and _is_nonnegative(field, m)}
-    owing = {m: abs(c) for m, c in terms.items() if m not in paying and not _helps(field, m, c)}
+    owing = {m: abs(c) for m, c in terms.items() if m not in paying}
     for monomial, size in owing.items():
         if not any(_paid(paying, target, size) for target in _bounds(field, monomial)):
             return None
@@ -94,16 +94,3 @@ def _is_positive(field: Field, monomial: _Monomial) -> bool:
     return _is_nonnegative(field, monomial) and all(
         field.generators[g].expression.is_nonzero is True for g, _ in monomial
     )
-
-
-def _helps(field: Field, monomial: _Monomial, coefficient: Fraction) -> bool:
-    """A product of factors of known sign that is not negative."""
-    value = 1 if coefficient > 0 else -1
-    for g, e in monomial:
-        expression = field.generators[g].expression
-        if e % 2 == 0 or expression.is_nonnegative:
-            continue
-        if not expression.is_nonpositive:
-            return False
-        value = -value
-    return value > 0

@@ -105,7 +105,7 @@ class SpecialValues:
         order
             Groups of equal values, ascending.
         """
-        if any(_sign(wall, self.positive) is None for wall in self.walls):
+        if any(sign(wall, self.positive) is None for wall in self.walls):
             return False
         present = {index for group in order for index in group}
         for index, root in enumerate(self.roots):
@@ -113,12 +113,12 @@ class SpecialValues:
                 return False
         for group in order:
             if any(
-                _sign(self.roots[group[0]] - self.roots[other], self.positive) != 0
+                sign(self.roots[group[0]] - self.roots[other], self.positive) != 0
                 for other in group[1:]
             ):
                 return False
         chain = [self.roots[group[0]] for group in order]
-        return all(_is_less(one, other, self.positive) for one, other in pairwise(chain))
+        return all(sign(other - one, self.positive) == 1 for one, other in pairwise(chain))
 
     def _is_present(self, root: Expr) -> bool | None:
         """Whether a root is real and in the domain; None where that is not certain."""
@@ -127,12 +127,12 @@ class SpecialValues:
         for power in root.atoms(sympy.Pow):
             if power.exp.is_Integer:
                 continue
-            below = _sign(power.base, self.positive)
+            below = sign(power.base, self.positive)
             if below is None:
                 return None
             if below < 0:
                 return False
-        side = _sign(root, self.positive)
+        side = sign(root, self.positive)
         if self.p.is_nonnegative or self.p.is_nonpositive:
             wanted = 1 if self.p.is_nonnegative else -1
             return None if side is None else side == wanted
@@ -176,24 +176,3 @@ def _factors(events: Sequence[Expr]) -> Iterator[Expr]:
                 if expression.free_symbols and expression not in seen and -expression not in seen:
                     seen.add(expression)
                     yield expression
-
-
-def _sign(expression: Expr, positive: Sequence[Expr]) -> int | None:
-    """The sign, with roots of what is positive as positive."""
-    found = sign(expression, positive)
-    if found is not None or not positive:
-        return found
-    roots = [x for x in expression.atoms(sympy.Pow) if not x.exp.is_Integer]
-    put_in = {x: sympy.Dummy(positive=True) for x in roots if sign(x.base, positive) == 1}
-    return sign(expression.xreplace(put_in), positive) if put_in else None
-
-
-def _is_less(one: Expr, other: Expr, positive: Sequence[Expr]) -> bool:
-    if _sign(other - one, positive) == 1:
-        return True
-    signs = _sign(one, positive), _sign(other, positive)
-    if signs == (1, 1):
-        return _sign(simplify(other**2 - one**2), positive) == 1
-    if signs == (-1, -1):
-        return _sign(simplify(one**2 - other**2), positive) == 1
-    return signs in {(-1, 1), (-1, 0), (0, 1)}
