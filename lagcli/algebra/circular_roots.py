@@ -13,6 +13,7 @@ from lagcli.algebra.field import Element
 from lagcli.algebra.polynomial_roots import coefficients, polynomial_roots
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.roots import substitute_square
+from lagcli.algebra.simplification import simplify
 
 
 def angle_roots(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
@@ -73,6 +74,8 @@ def hyperbolic_roots(field: Field, poly: Poly, cosine: int) -> list[Expr] | None
 def _angles(field: Field, poly: Poly, cosine: int) -> list[Expr] | None:
     ring, sine = field.ring, cosine + 1
     if ring.degree(poly, sine) == 0:
+        if (square := _square(field, poly, cosine)) is not None:
+            return _with_square(square)
         values = polynomial_roots(field, poly, cosine)
         return None if values is None else [a for c in values for a in _with_cosine(c)]
     swapped = _without_cosine(field, poly, cosine)
@@ -99,6 +102,25 @@ def _below_zero(value: Expr) -> bool:
     return value.is_nonpositive or all(
         f.is_nonnegative or (f.is_Pow and f.exp == S.Half) for f in sympy.Mul.make_args(-value)
     )
+
+
+def _square(field: Field, poly: Poly, cosine: int) -> Expr | None:
+    """The cos² at which a polynomial a cos² + b vanishes; None of any other."""
+    found = coefficients(field, poly, cosine)
+    if len(found) != 3 or not found[1].is_zero():
+        return None
+    return simplify(field.to_sympy(-found[0] / found[2]))
+
+
+def _with_square(cosine: Expr) -> list[Expr]:
+    """±x and ±(pi - x) by the shortest of cos x, sin x and tan x."""
+    squares = {sympy.acos: cosine, sympy.asin: simplify(1 - cosine)}
+    squares[sympy.atan] = simplify(1 / cosine - 1)
+    inverse = min(squares, key=lambda f: sympy.count_ops(squares[f]))
+    if inverse is sympy.acos:
+        return [a for side in (-1, 1) for a in _with_cosine(side * simplify(sympy.sqrt(cosine)))]
+    x = inverse(simplify(sympy.sqrt(squares[inverse])))
+    return [-x, x, sympy.pi - x, x - sympy.pi]
 
 
 def _with_cosine(value: Expr) -> list[Expr]:

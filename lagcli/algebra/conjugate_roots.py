@@ -9,7 +9,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra.decimals import written
 from lagcli.algebra.simplification import shape, simplify
-from lagcli.expression import Expression, Name, Sum, opposite, walk
+from lagcli.expression import Expression, Name, Negative, Sum, opposite, walk
 from lagcli.rewriting import put_in, rebuilt
 
 _ROOT = "sqrt"  # the place of the root; no name of a file, since it is a function's
@@ -36,13 +36,43 @@ def _pair(first: Expr, second: Expr, order: Sequence[str]) -> tuple[Expression, 
     if any(middle.has(f) for f in roots):
         return None
     place, mark = Name(_ROOT), Symbol(_ROOT, real=True)
-    tree, whole = shape(middle + half / root * mark, order), shape(root, order)
+    # (b + root)/(c - a) for (-b - root)/(a - c)
+    trees = [shape(middle + sign * half / root * mark, order) for sign in (1, -1)]
+    sign, tree = min(zip((1, -1), trees, strict=True), key=lambda each: _minus_signs(each[1]))
     if sum(node == place for node in walk(tree)) != 1:
         return None
-    return put_in(tree, {place: whole}), put_in(_turned(tree, place), {place: whole})
+    whole: dict[Expression, Expression] = {place: shape(root, order)}
+    one, other = put_in(tree, whole), put_in(_turned(tree, place), whole)
+    return (one, other) if sign == 1 else (other, one)
 
 
-def _turned(node: Expression, place: Name) -> Expression:
+def _minus_signs(tree: Expression) -> int:
+    return sum(isinstance(node, Negative) for node in walk(tree))
+
+
+def with_number_turned(
+    first: Expr, second: Expr, order: Sequence[str]
+) -> tuple[Expression, Expression] | None:
+    """Both shapes, where the second has -sqrt(n) for the sqrt(n) of the first: (2 ± sqrt(2)) k."""
+    numbers = {p for p in first.atoms(sympy.Pow) if p.is_number and p.exp == sympy.S.Half}
+    if len(numbers) != 1:
+        return None
+    [root] = numbers
+    if simplify(first.xreplace({root: -root}) ** 2 - second**2) != 0:
+        return None
+    tree, place = shape(first, order), shape(root, order)
+    terms = [t for node in walk(tree) if isinstance(node, Sum) for t in node.terms]
+    single = [t for t in terms if sum(n == place for n in walk(t)) == 1 and not _has_sum(t)]
+    if len(single) != sum(node == place for node in walk(tree)):
+        return None
+    return tree, _turned(tree, place)
+
+
+def _has_sum(tree: Expression) -> bool:
+    return any(isinstance(node, Sum) for node in walk(tree))
+
+
+def _turned(node: Expression, place: Expression) -> Expression:
     """The same with the opposite sign of the term in which the root stands."""
 
     def within(part: Expression) -> bool:

@@ -102,13 +102,17 @@ def _root(field: ExpressionField, base: Element, index: int) -> Element:
 def _note_scale(field: ExpressionField, above: Poly, below: Poly) -> None:
     """Remember that sqrt(above/d²) was used: it may read better than sqrt(above)/d.
 
-    Only for d >= 0: it is sqrt(above)/|d| otherwise.
+    Only for d >= 0: it is sqrt(above)/|d| otherwise; and where d² cancels in one term at least,
+    as in 1 - v²/c².
     """
     if len(below) != 1 or below.leading_coefficient() != 1:
         return
     ring = field.ring
     monomial, _ = next(ring.terms(below))
     if not monomial or any(e % 2 for _, e in monomial):
+        return
+    held = (dict(term) for term, _ in ring.terms(above))
+    if not any(all(term.get(g, 0) >= e for g, e in monomial) for term in held):
         return
     scale = ring.build([(tuple((g, e // 2) for g, e in monomial), 1)])
     if not is_nonnegative(field, scale):

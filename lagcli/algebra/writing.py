@@ -178,6 +178,8 @@ class Writer:
         """
         for index in sorted({e.denominator for _, e in pairs if e.denominator > 2}, reverse=True):
             roots = [p for p in pairs if p[1].denominator > 1 and _is_in_root(index, *p)]
+            if all(isinstance(base, Number) for base, _ in roots):  # (a + b)^(1/3)*4^(1/3)
+                roots += [p for p in pairs if p[1] == Fraction(1, index) and p not in roots][:1]
             if len(roots) > 1 and any(e.denominator == index for _, e in roots):
                 number, inside = _flattened(Fraction(1), [_raised(b, e * index) for b, e in roots])
                 absorbed = number / coefficient.denominator**index

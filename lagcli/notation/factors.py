@@ -301,6 +301,8 @@ def _distributed(term: Expression, ordering: Ordering) -> list[Expression]:
     sums = [factor for factor in above if isinstance(factor, Sum)]
     if len(sums) != 1 or below or len(above) == 1:
         return [term]
+    if not any(isinstance(part, Name) for part in walk(sums[0])):  # (2 + sqrt(2)) k
+        return [term]
     found: list[Expression] = []
     for each in sums[0].terms:
         other, factors, under = parts_of(each)

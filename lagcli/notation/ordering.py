@@ -117,7 +117,7 @@ class Ordering:
         ranked = sorted(factors, key=self._rank_of_power)
         letters = [self._place(base) for base, _ in ranked if isinstance(base, Name)]
         first = min(letters, default=_AFTER_NUMBERS)
-        # (m1 + m2) g l, but m g (R + h) and m2 (J + m1 r²)
+        # (m1 + m2) g l, (2 + sqrt(2)) k, but m g (R + h) and m2 (J + m1 r²)
         leading = [pair for pair in ranked if self._leads(pair[0], first)]
         yield from (pair for pair in ranked if isinstance(pair[0], Number))
         yield from leading
@@ -132,11 +132,15 @@ class Ordering:
         return _flat((1, max(map(self._is_fast, letters)), max(map(self._place, letters)), "~"))
 
     def _leads(self, node: Expression, first: int) -> bool:
-        """Whether it is a sum of parameters that begins before the first letter.
+        """Whether it is a sum of numbers, or of parameters that begins before the first letter.
 
         All of its terms do, where they are not letters alone.
         """
-        if not isinstance(node, Sum) or not self._is_plain(node):
+        if not isinstance(node, Sum):
+            return False
+        if not _has_letters(node):
+            return True
+        if not self._is_plain(node):
             return False
         which = any if all(map(is_letter, node.terms)) else all
         return which(self._first(term) < first for term in node.terms)
@@ -202,6 +206,8 @@ class Ordering:
                 return self._letters(operand)
             case Product(factors=(Number(value=value), *rest)):
                 return (*(k for each in rest for k in self.factor(each)), value)
+            case Product(factors=(Sum() as first, *rest)) if not _has_letters(first):
+                return (*(k for each in rest for k in self.factor(each)), *self.factor(first))
             case Quotient(numerator=numerator, denominator=denominator):
                 return (*self._letters(numerator), *self._letters(denominator))
             case _:
@@ -222,6 +228,10 @@ class Ordering:
                 return (9,)  # a constant term comes last
             case _:
                 return self.factor(node)
+
+
+def _has_letters(node: Expression) -> bool:
+    return any(isinstance(part, Name) for part in walk(node))
 
 
 def positive_first(terms: Sequence[Expression]) -> list[Expression]:

@@ -146,8 +146,9 @@ def _period(period: PeriodSeries, coordinate: str, potential: Formula) -> Iterat
         small = "" if period.order else "small "
         yield from state_blocks(period.at, f"{small}oscillations about ".capitalize())
     note = f"to order {period.order}" if period.order else ""
-    alike = "independent of the amplitude " if note and not period.amplitude else ""
-    yield Equations((Row(Label("T"), period.period, alike + note),))
+    if note and not period.amplitude:
+        note = f"independent of the amplitude{'' if period.isochronous else f' {note}'}"
+    yield Equations((Row(Label("T"), period.period, note),))
     if period.where:
         yield Paragraph(("where ", *conditions(period.where), "."))
 
@@ -179,7 +180,7 @@ def _one_freedom_json(motion: OneFreedom | None) -> Object | None:
 def _period_json(period: PeriodSeries) -> Object:
     place = fields_of(period, "at" if period.root_of is None else "root_of")
     amplitude = {"amplitude": period.amplitude or None}
-    return place | amplitude | fields_of(period, "order period where")
+    return place | amplitude | fields_of(period, "order isochronous period where")
 
 
 _EXPECTED = with_constants(

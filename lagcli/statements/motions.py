@@ -55,6 +55,7 @@ class PeriodSeries:
 
     `amplitude` is the name in `period` of half the distance of the turning points, empty
     where the period is that of small oscillations alone; `order` is its highest power.
+    Where the motion is `isochronous`, it is the same at every amplitude.
     A minimum that is not solved for is where `root_of` vanishes, `at` is empty then.
     """
 
@@ -62,6 +63,7 @@ class PeriodSeries:
     amplitude: str
     period: Expression
     order: int = 0
+    isochronous: bool = False
     root_of: Expression | None = None
     where: tuple[Above, ...] = ()
 

@@ -137,8 +137,6 @@ def _both(a: Expression, b: Expression) -> Expression | None:
             return _sum(one, other)
         case (Product() | Quotient() | Power() | Negative() | Call(), _) if _alike(a, b):
             parts = [_both(x, y) for x, y in zip(children(a), children(b), strict=True)]
-            if sum(x != y for x, y in zip(children(a), children(b), strict=True)) != 1:
-                return None
             different = iter(parts)
             return None if None in parts else rebuilt(a, lambda _: next(different) or a)
         case _:
@@ -169,14 +167,16 @@ def _sum(one: Sequence[Expression], other: Sequence[Expression]) -> Expression |
     keys, its_keys = set(map(signed_key, one)), set(map(signed_key, other))
     left = [term for term in other if signed_key(term) not in keys]
     differ = [place for place, term in enumerate(one) if signed_key(term) not in its_keys]
-    if len(left) != 1 or len(differ) != 1:
+    if not differ or len(left) != len(differ):
         return None
-    (place,) = differ
-    both = _both(one[place], left[0])
-    if both is None:
-        return None
-    terms = [*one[:place], *one[place + 1 :]]
-    terms.insert(place or isinstance(both, PlusMinus), both)
+    terms = list(one)
+    for place, its in zip(differ, left, strict=True):
+        both = _both(one[place], its)
+        if both is None:
+            return None
+        terms[place] = both
+    if isinstance(terms[0], PlusMinus) and len(differ) == 1:
+        terms[:2] = terms[1::-1]
     return Sum(tuple(terms))
 
 

@@ -196,7 +196,7 @@ T: m*(r'^2 + r^2*phi'^2)/2
 V: -k*exp(-r/a)/r
 """,
             "steady_motions",
-            ["a*(1 + sqrt(5)) > 2*r"],
+            ["(1 + sqrt(5))*a > 2*r"],
         ),
         # Bolotin, Nonconservative Problems of the Theory of Elastic Stability: 2.086 c/l
         (
@@ -208,7 +208,7 @@ V: c*u^2/2 + c*(v - u)^2/2
 forces: {u: P*l*sin(u - v)}
 """,
             "equilibria",
-            ["c*(7 - 2*sqrt(2)) > 2*P*l"],
+            ["(7 - 2*sqrt(2))*c > 2*P*l"],
         ),
     ],
 )

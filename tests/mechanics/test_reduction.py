@@ -390,3 +390,49 @@ L: -sqrt(1 - r'^2 - r^2*phi'^2) + {b}*r^2*phi'
         found = rate.subs(dict(zip(names.values(), (r, p, E), strict=True)))
         away = (p - float(sympy.Rational(b)) * r**2) / r
         assert float(found) ** -2 == pytest.approx(1 - (away**2 + 1) / E**2)
+
+
+@pytest.mark.parametrize(
+    ("inertia", "V", "alike"),
+    [
+        ("cosh(x)^2", "k*sinh(x)^2/2", True),  # s = sinh x
+        ("(1 + cos(x))", "-k*cos(x)", True),  # a cycloid
+        ("exp(2*x)", "k*(exp(x) - 3)^2", True),
+        ("1", "k*(x^2 + 1/x^2)/2", False),  # isochronous, and no harmonic oscillator
+        ("1", "-k*cos(x)", False),
+        ("(1 + x^2)", "k*x^2/2", False),
+    ],
+)
+def test_a_motion_that_is_harmonic_in_the_arc_is_isochronous(inertia, V, alike):
+    section, _ = reduced(f"""
+coordinates: [x]
+parameters: {{m: POSITIVE, k: POSITIVE}}
+T: m*{inertia}*x'^2/2
+V: {V}
+""")
+    assert section.one_freedom.periods
+    assert all(each.isochronous == alike for each in section.one_freedom.periods)
+
+
+@pytest.mark.parametrize(
+    ("V", "turning", "energies"),
+    [
+        ("U*sin(x/a)^2", ["a*asin(sqrt(E/U))"], [("0", "U")]),
+        ("U*tan(x/a)^2", ["a*atan(sqrt(E/U))"], []),
+        ("-U*cos(pi*x/a)^2", ["a*acos(sqrt(-E/U))/pi"], [("-U", "0")]),
+        ("U/cos(x/a)^2", ["a*acos(sqrt(U/E))"], []),
+    ],
+)
+def test_a_length_has_the_turning_points_of_one_period(V, turning, energies):
+    """Pöschl and Teller's well and a crystal: by the function that makes them shortest."""
+    section, _ = reduced(f"""
+coordinates: [x]
+parameters: {{m: POSITIVE, U: POSITIVE, a: POSITIVE}}
+T: m*x'^2/2
+V: {V}
+""")
+    found = [to_grammar(each) for each in section.one_freedom.turning_points]
+    assert sorted(found) == sorted([*turning, *(f"-{each}" for each in turning)])
+    ends = [tuple(map(to_grammar, pair)) for pair in section.one_freedom.turning_energies]
+    assert ends == energies
+    assert len(section.one_freedom.periods) == 1

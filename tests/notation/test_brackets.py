@@ -47,7 +47,7 @@ WRITTEN = [
     ("m*r*r'^2 + m*r*x'^2", "m*r*r'^2 + m*r*x'^2"),  # term by term in the rates
     # one sign of a bracket and its square; the constants by their values
     ("m*(r - m)/(l^2 + (m - r)^2)", "m*(r - m)/(l^2 + (r - m)^2)"),
-    ("r*(sqrt(33) - 1)", "r*(sqrt(33) - 1)"),
+    ("r*(sqrt(33) - 1)", "(sqrt(33) - 1)*r"),
     ("abs(q)*abs(B)/m", "abs(q*B)/m"),
 ]
 

@@ -163,3 +163,51 @@ def test_squares_are_added_not_subtracted(one: str, other: str) -> None:
     found = text("q", "m g a", f"T: {T}\nV: m*g*a*cos(q)", "momenta")
     assert f"− 3 {one}²" not in found
     assert f"{other}²" in found
+
+
+@pytest.mark.parametrize(
+    ("V", "turning"),
+    [
+        ("k*x^2/2 - F*x", "x = (F ± √(F² + 2 k E))/k"),
+        ("k*(x - b)^2/2 - F*x^2/2", "x = (k b ± √(k b² F + 2 (k - F) E))/(k - F)"),
+        ("F^2/(2*m*x^2) - k/x", "x = (−k ± √(k² + 2 F² E/m))/(2 E)"),
+        ("F*x^4/4 - k*x^2/2", "x = ±√((k + √(k² + 4 F E))/F)"),
+        ("k/x^12 - F/x^6", "x = ±((√(F² + 4 k E) − F)/(2 E))^(1/6)"),
+    ],
+)
+def test_a_turning_point_has_the_energy_last_under_its_root(V: str, turning: str) -> None:
+    """sqrt(b² + 4 a c) as in every book, and the sign that the equilibrium has."""
+    found = text("x", "m b k F", f"T: m*x'^2/2\nV: {V}", "reduction")
+    assert turning.replace("-", "−") in found
+
+
+@pytest.mark.parametrize(
+    ("V", "frequency"),
+    [
+        ("k*(x^2 + (y - x)^2 + (z - y)^2 + z^2)/2 + K*(x^2 + y^2 + z^2)/2", "((2 ± √2) k + K)/m"),
+        ("k*(x^2 + (y - x)^2 + (z - y)^2)/2 + k*y^2/2 + K*(x^2 + y^2 + z^2)/2", ""),
+    ],
+)
+def test_frequencies_that_differ_in_the_root_of_a_number_are_one_row(V: str, frequency: str):
+    found = text("x, y, z", "m k K", f"T: m*(x'^2 + y'^2 + z'^2)/2\nV: {V}", "modes")
+    assert frequency in found
+    assert "k √" not in found
+
+
+def test_several_coefficients_may_have_the_two_signs_at_once() -> None:
+    """A double pendulum with equal springs: one row for both modes."""
+    physics = (
+        "T: m*l^2*(2*x'^2 + y'^2 + 2*x'*y'*cos(x - y))/2\n"
+        "V: -m*g*l*(2*cos(x) + cos(y)) + k*(x^2 + (y - x)^2)/2"
+    )
+    found = text("x, y", "m l g k", physics, "modes")
+    assert "√((2 ± √2) g/l + (3 ± 2 √2) k/(m l²))" in found
+
+
+@pytest.mark.parametrize("power", [2, 3])
+def test_an_even_power_does_not_stay_under_a_root_with_a_sum(power: int) -> None:
+    """√(m (k r − 2 h)) for r² √(m (k r − 2 h)/r⁴), whatever the sign of r."""
+    physics = f"T: m*(r'^2 + r^2*p'^2)/2\nV: -k/r + h/r^{power}"
+    found = text("r, p", "m k h", physics, "steady_motions")
+    assert "r⁴)" not in found
+    assert ")/m)/r²" in found or power == 3

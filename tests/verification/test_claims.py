@@ -540,3 +540,19 @@ def test_a_period_is_kept_where_letters_may_have_any_sign(wave: str) -> None:
     found = verified(problem, answers).sections["reduction"]
     assert found.one_freedom is not None
     assert len(found.one_freedom.periods) == len(answers.sections["reduction"].one_freedom.periods)
+
+
+@pytest.mark.parametrize("V", ["-k*cos(x)", "k*(x^2 + x^4)", "k*cosh(x)"])
+def test_a_period_that_grows_is_not_kept_as_isochronous(V: str) -> None:
+    text = (
+        "coordinates: [x]\nparameters: {m: {assume: positive}, k: {assume: positive}}\n"
+        f"T: m*x'^2/2\nV: {V}\n"
+    )
+    problem = read_problem("wells", text.encode()).problem
+    answers = state(derive(problem), Request(sections=("reduction",)))
+    section = answers.sections["reduction"]
+    periods = tuple(replace(each, isochronous=True) for each in section.one_freedom.periods)
+    false = replace(section, one_freedom=replace(section.one_freedom, periods=periods))
+    found = verified(problem, replace(answers, sections={"reduction": false}))
+    assert found.sections["reduction"].one_freedom is None
+    assert any("depends on the amplitude" in each for each in found.warnings)

@@ -173,6 +173,9 @@ def _period(each: PeriodSeries, potential: Part) -> Iterator[Block]:
         a, order = Name(each.amplitude), Number(Fraction(each.order))
         yield says(f"{_TWICE} With ", a, " half their distance it is, to the order ",
                    Power(a, order), ",")  # fmt: skip
+    elif each.isochronous:
+        yield says(f"{_TWICE} The motion is that of a harmonic oscillator in the arc, so it is",
+                   " the same at every amplitude:")  # fmt: skip
     elif each.order:
         yield says(f"{_TWICE} To the order {each.order} in half their distance it is constant:")
     else:

@@ -15,11 +15,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
+from itertools import combinations
 
 from sympy import Expr, I, S, Symbol, im
 
 from lagcli.algebra import dot, is_zero
-from lagcli.algebra.conjugate_roots import without_root_below
+from lagcli.algebra.conjugate_roots import with_number_turned, without_root_below
 from lagcli.algebra.decimals import written
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of, vanishing_part
@@ -312,11 +313,12 @@ class SmallOscillations:
         def known(tree: Expression) -> Expression:
             return of_two.within(tree, self.system.build)
 
+        alike = self._alike(place.modes)
         return [
             ModesOfFrequency(
                 at=self._at(place.point),
                 on=relation_sides(place.point, self.system.q, self.system.order),
-                frequency=self._tree_or_none(mode.frequency, known),
+                frequency=alike.get(k) or self._tree_or_none(mode.frequency, known),
                 frequency_squared=self._tree_or_none(mode.square, known),
                 shape=self._shape(mode.shapes[0], known) if mode.shapes else None,
                 more_shapes=tuple(self._shape(each, known) for each in mode.shapes[1:]),
@@ -332,8 +334,19 @@ class SmallOscillations:
                     place.point.positive,
                 ),
             )
-            for mode in place.modes
+            for k, mode in enumerate(place.modes)
         ]
+
+    def _alike(self, modes: Sequence[NormalMode]) -> dict[int, Expression]:
+        """The frequencies that differ in the sign of sqrt(2) or of another number's root."""
+        found: dict[int, Expression] = {}
+        for (k, one), (j, other) in combinations(enumerate(modes), 2):
+            if one.frequency is None or other.frequency is None or {k, j} & set(found):
+                continue
+            pair = with_number_turned(one.frequency, other.frequency, self.system.order)
+            if pair is not None:
+                found[k], found[j] = pair
+        return found
 
     def _at(self, point: RestPoint) -> dict[str, Expression]:
         return {q.name: self._tree(value) for q, value in shown(point).items()}

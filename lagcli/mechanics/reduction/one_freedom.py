@@ -17,7 +17,7 @@ from functools import cached_property
 
 import sympy
 from mpmath import mpf
-from sympy import Expr, Symbol
+from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of, symbol
@@ -27,6 +27,7 @@ from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of, weak_sign
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign
+from lagcli.algebra.translates import least_period, one_of_each
 from lagcli.mechanics.inequalities import contradictory
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reduction.routh import Routh
@@ -143,6 +144,8 @@ class ReducedFreedom:
         if found is None:
             return None
         roots = [simplify(root) for root in found.values]
+        period = least_period([self.potential, self.mass], self.q)
+        roots = roots if period is None else one_of_each(roots, period)
         roots = [root for root in roots if not self._excluded(root)]
         return tuple(roots) if all(self._is_root(root, excess) for root in roots) else None
 
@@ -150,20 +153,24 @@ class ReducedFreedom:
     def turning_energies(self) -> tuple[tuple[Expr, Expr], ...]:
         """The range of E for which acos and asin in all turning points are real.
 
-        -1 <= (E - b)/a <= 1 just for b - |a| <= E <= b + |a|.
+        -1 <= (E - b)/a <= 1 just for b - |a| <= E <= b + |a|, 0 <= sqrt((E - b)/a) <= 1 for
+        E between b and b + a.
         """
         if self.negative:  # what does not turn back has a smaller E
             return ()
         arguments = {f.args[0] for root in self._roots or () for f in root.atoms(*_BOUNDED)}
         ranges: dict[tuple[Expr, Expr], None] = {}
         for argument in arguments:
+            least = -1
+            if any(not free_of(p, [self.E]) and p.exp == S.Half for p in argument.atoms(sympy.Pow)):
+                argument, least = simplify(argument**2), 0
             slope = simplify(argument.diff(self.E))
             direction = sign(slope)
             if not free_of(slope, [self.E]) or direction not in (1, -1):
                 return ()
-            middle = simplify(-(argument - self.E * slope) / slope)
-            half = simplify(direction / slope)
-            ranges[simplify(middle - half), simplify(middle + half)] = None
+            start = simplify(-(argument - self.E * slope) / slope)
+            ends = [simplify(start + end / slope) for end in (least, 1)]
+            ranges[*(ends if direction == 1 else reversed(ends))] = None
         return tuple(ranges) if len(ranges) == 1 else ()
 
     def _excluded(self, root: Expr) -> bool:

@@ -8,6 +8,11 @@ z = Z sin s the period is the integral of sqrt(M/u) dx/dz over s from 0 to 2 pi,
 and the amplitude a, half the distance between the turning points, is the odd part of
 x(z) at Z.  The series is compared with the integral itself by quadrature.
 
+Where U = U0 + w^2 s^2/2 with the arc s, ds = sqrt(M) dx, the period is that of a harmonic
+oscillator at every amplitude.  As U' = w^2 s sqrt(M), this is so where
+
+    U'^2 = 2 w^2 M (U - U0).
+
 References
 ----------
 Landau, Lifshitz, *Mechanics*, 3rd ed., section 11 (problem 1 for the pendulum) and 28.
@@ -52,13 +57,15 @@ Series = list[Expr]
 class AmplitudeSeries:
     """T = 2 pi root (1 + sum of coefficients[k] a^(k + 1)) about one equilibrium.
 
-    `point` None: about every place at which the derivative of U_eff vanishes.
+    `point` None: about every place at which the derivative of U_eff vanishes.  Where the motion is
+    `isochronous` the period is 2 pi root at every amplitude.
     """
 
     point: RestPoint | None
     root: Expr
     coefficients: tuple[Expr, ...]
     where: tuple[Expr, ...]
+    isochronous: bool = False
 
 
 class Periods:
@@ -160,7 +167,8 @@ class Periods:
         coefficients = [_on_branch(c, point.positive) for c in _readable(alpha, beta)]
         root = _on_branch(_root(masses[0], curvature), point.positive)
         where = (*point.positive, *(() if known == 1 else (curvature,)))
-        series = AmplitudeSeries(point, root, tuple(coefficients), where)
+        alike = not any(coefficients) and self._is_isochronous(place, curvature / masses[0])
+        series = AmplitudeSeries(point, root, tuple(coefficients), where, alike)
         agrees = self._agrees(series)
         if agrees:
             return series
@@ -169,6 +177,12 @@ class Periods:
             return None
         self.reason, self.failed = "a series did not agree with its integral", True
         return None
+
+    def _is_isochronous(self, place: Expr, squared: Expr) -> bool:
+        motion = self.motion
+        U, q = motion.potential, motion.q
+        rise = U - at(U, {q: place})
+        return is_zero(U.diff(q) ** 2 - 2 * squared * motion.mass * rise) is True
 
     # -- the integral itself ----------------------------------------------------------------------
 

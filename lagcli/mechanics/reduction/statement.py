@@ -7,7 +7,7 @@ from fractions import Fraction
 from functools import cached_property
 
 import sympy
-from sympy import Expr, S
+from sympy import Expr, S, Symbol
 
 from lagcli.algebra import shape, simplify, terms
 from lagcli.algebra.build import free_of, symbol
@@ -22,6 +22,7 @@ from lagcli.expression import (
     Call,
     Expression,
     Name,
+    Negative,
     Number,
     Power,
     Product,
@@ -44,7 +45,7 @@ from lagcli.mechanics.reduction.one_freedom import free_name
 from lagcli.mechanics.reduction.period import AmplitudeSeries as Found
 from lagcli.mechanics.reduction.period import Periods
 from lagcli.mechanics.reduction.routh import Routh
-from lagcli.rewriting import put_in
+from lagcli.rewriting import put_in, rebuilt
 from lagcli.statements.answers import EquationsSection, LagrangeEquation, ReductionSection
 from lagcli.statements.motions import Irreducible, OneFreedom, PeriodSeries
 
@@ -230,7 +231,7 @@ class _Statement:
             coordinate=motion.q.name,
             constant=motion.E.name,
             energy=writer.sum([self._kinetic(motion), potential]),
-            turning_points=None if points is None else tuple(written_alike(points, order)),
+            turning_points=None if points is None else self._turning(points, motion.E, order),
             rate=_rate(motion, potential, order),
             periods=found,
             positive=bool(motion.q.is_positive),
@@ -266,12 +267,37 @@ class _Statement:
             coordinate=motion.q.name,
             constant=motion.E.name,
             energy=terms(motion.energy, order, self.fast),
-            turning_points=None if points is None else tuple(written_alike(points, order)),
+            turning_points=None if points is None else self._turning(points, motion.E, order),
             rate=writer.product(_ONCE, [(above_, _ONCE), (below, -_ONCE)]),
             periods=(),
             positive=bool(motion.q.is_positive),
             when=self.routh.between_impacts.get("", ""),
         )
+
+    def _turning(
+        self, points: Sequence[Expr], E: Symbol, order: Sequence[str]
+    ) -> tuple[Expression, ...]:
+        """The turning points, with the constant energy last under a root: sqrt(b^2 + 4 a E)."""
+        assert self.routh.reduced is not None
+        build = self.routh.reduced.system.build.knowing({E.name: E})
+
+        def energy_last(tree: Expression) -> Expression:
+            match tree:
+                case Call(function="sqrt", arguments=(Sum() | Quotient() as radicand,)):
+                    whole = build(radicand)
+                    slope = simplify(whole.diff(E))
+                    if not free_of(slope, [E]):
+                        return rebuilt(tree, energy_last)
+                    first = shape(whole.xreplace({E: S.Zero}), order)
+                    if first == ZERO or isinstance(first, Negative):
+                        return tree
+                    found = sum_of((*terms_of(first), *terms_of(shape(slope * E, order))))
+                    longest = _WHOLE * operation_count(radicand)
+                    return Call("sqrt", (found,)) if operation_count(found) <= longest else tree
+                case _:
+                    return rebuilt(tree, energy_last)
+
+        return tuple(map(energy_last, written_alike(points, order)))
 
     def _period(self, found: Found) -> PeriodSeries:
         """2 pi sqrt(M/U'') (1 + c_2 a^2 + …)."""
@@ -295,6 +321,7 @@ class _Statement:
             else None,
             amplitude=name if corrections else "",
             order=len(found.coefficients),
+            isochronous=found.isochronous,
             period=period,
             where=conditions(found.where, self.order),
         )

@@ -18,6 +18,7 @@ from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.place import NO_VALUE, at
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, SystemSolution, solve_system
+from lagcli.algebra.translates import least_period, one_of_each
 from lagcli.algebra.vanishing_factors import divisors
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.inequalities import never_together
@@ -165,6 +166,7 @@ class RestPoints(RestConditions):
         """All solutions, with an angle in (-pi n, pi n] where the forces have the period 2 pi n."""
         scaled = {q: n * q for q, n in self._periods.items()}
         solved = solve_system([e.xreplace(scaled) for e in equations], self.system.q, families=True)
+        solved = replace(solved, solutions=self._one_of_each(solved.solutions))
         if not scaled:
             return solved
         back = {q: q / n for q, n in self._periods.items()}
@@ -177,6 +179,17 @@ class RestPoints(RestConditions):
             for each in solved.solutions
         ]
         return SolvedSystem(solutions, solved.complete)
+
+    def _one_of_each(self, solutions: list[SystemSolution]) -> list[SystemSolution]:
+        """Those of one coordinate, a length, that are not a whole number of periods apart."""
+        q = self.system.q
+        if len(q) != 1 or len(solutions) < 2 or self.dynamics.constraints.equations:
+            return solutions
+        period = least_period([self.system.L, *self.system.applied_forces], q[0])
+        if period is None or any(list(each.values) != list(q) for each in solutions):
+            return solutions
+        kept = one_of_each((each.values[q[0]] for each in solutions), period)
+        return [each for each in solutions if each.values[q[0]] in kept]
 
     @cached_property
     def _periods(self) -> dict[Symbol, int]:

@@ -92,6 +92,9 @@ class Well:
             if not self._is_minimum(known, q0):
                 x.refute(what, "there is no minimum of the effective potential")
                 return False
+            if series.isochronous and not self._is_harmonic(known, q0.mid()):
+                x.refute(what, "it depends on the amplitude")
+                return False
             if not self._agrees(known, series, places[0], q0.mid()):
                 x.refute(what, "it is not that of the motion near the minimum")
                 return False
@@ -124,6 +127,16 @@ class Well:
             self._value(known, place, q) for place in (self.slope, self.curvature, self.M)
         )
         return size(slope) < 1e-30 * (1 + size(curvature)) and curvature > 0 and M > 0
+
+    def _is_harmonic(self, known: Environment, q0: arb) -> bool:
+        """Whether U'^2 M0 = 2 U0'' M (U - U0) beside the minimum."""
+        M0, k, U0 = (self._value(known, p, q0) for p in (self.M, self.curvature, self.U))
+        for q in (q0 + arb(5) / 16, q0 - arb(3) / 16):
+            slope, M, U = (self._value(known, p, q) for p in (self.slope, self.M, self.U))
+            terms = slope**2 * M0, 2 * k * M * (U - U0)
+            if size(terms[0] - terms[1]) > 1e-30 * size(terms[0]):
+                return False
+        return True
 
     def _agrees(self, known: Environment, series: PeriodSeries, place: int, q0: arb) -> bool:
         """The printed period at a small amplitude; without one that of small oscillations."""

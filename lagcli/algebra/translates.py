@@ -1,0 +1,52 @@
+"""The least period of formulas in a length x, such as pi a of tan(x/a): one root of each class.
+
+An angle has one turn as its period, whatever the formulas.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra.build import CIRCULAR, free_of
+from lagcli.algebra.signs import sign
+from lagcli.algebra.simplification import is_zero, simplify
+
+#: cos(x/a)^4 - sin(x/a)^4 and the like: the highest n of which the n-th part of a turn is tried.
+_PARTS = 4
+
+
+def least_period(formulas: Sequence[Expr], x: Symbol) -> Expr | None:
+    """The least P > 0 with f(x + P) = f(x); None where x is an angle or occurs outside of sines."""
+    nodes = {node for f in formulas for node in f.atoms(*CIRCULAR) if not free_of(node, [x])}
+    hidden: dict[Expr, Expr] = {node: sympy.Dummy() for node in nodes}
+    if not nodes or any(not free_of(f.xreplace(hidden), [x]) for f in formulas):
+        return None
+    slopes = [simplify(node.args[0].diff(x)) for node in nodes]
+    ratios = [simplify(slope / slopes[0]) for slope in slopes]
+    if slopes[0].is_Rational or not all(ratio.is_Rational for ratio in ratios):
+        return None
+    rate = slopes[0] * sympy.gcd_list(ratios)
+    whole = 2 * sympy.pi * (-1 if sign(rate) == -1 else 1) / rate
+    for n in range(_PARTS, 1, -1):
+        moved = {x: x + whole / n}
+        if all(is_zero(f.xreplace(moved) - f) is True for f in formulas):
+            return whole / n
+    return whole
+
+
+def one_of_each(values: Iterable[Expr], period: Expr) -> list[Expr]:
+    """The shortest of the values that differ by whole periods."""
+    kept: dict[Expr, Expr] = {}
+    for value in sorted(values, key=lambda v: (sympy.count_ops(v), str(v))):
+        plain = value.replace(_is_of_negative, lambda f: sympy.pi - sympy.acos(-f.args[0]))
+        gaps = (simplify((plain - other) / period) for other in kept.values())
+        if not any(gap.is_Integer for gap in gaps):
+            kept[value] = plain
+    return list(kept)
+
+
+def _is_of_negative(node: Expr) -> bool:
+    return isinstance(node, sympy.acos) and node.args[0].could_extract_minus_sign()
