@@ -274,7 +274,8 @@ class Manner:
         given = self._signs.get(key, 0) or (self._below.get(key, 0) if below else 0)
         if given:
             return given != sign
-        if (like := self._sums.multiple(node)) is not None:  # r − rs as 1 − rs/r
+        has_both = self._signs.get(key) == 0
+        if not has_both and (like := self._sums.multiple(node)) is not None:  # r − rs as 1 − rs/r
             return like[0] < 0
         if below and (found := sign_at_random(node, self._positive)):
             return found < 0

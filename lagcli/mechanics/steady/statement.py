@@ -280,8 +280,9 @@ class _SteadyStatement:
         squares = [f for f in sympy.Mul.make_args(expression) if f.is_Pow and f.exp == 2]
         square = next((f for f in squares if f.base.is_Add), None)
         if square is not None and (outside := expression / square).is_positive:
-            root = sympy.expand(sympy.sqrt(outside) * square.base)
-            expression = shorter(expression, root**2)
+            root = sympy.sqrt(outside) * square.base
+            expression = shorter(expression, sympy.expand(root) ** 2)
+            expression = shorter(simplify(root) ** 2, expression)
         base, power = expression.as_base_exp()
         if power != 2 or not base.is_Add:
             return self._shape(expression)
