@@ -325,6 +325,9 @@ class _Solver:
         if any(sign(simplify(a + b)) in (0, -1) for a, b in combinations(conditions, 2)):
             return  # x - a > 0 and -x - a > 0
         if not any({*other.positive} <= {*conditions} for other in same):
+            for u in self.turning:
+                if u in ordered:
+                    ordered[u] = _shortest_angle(ordered[u], conditions)
             kept = SystemSolution(ordered, tuple(dict.fromkeys(conditions)), relation)
             self.found.solutions.append(kept)
 
@@ -335,6 +338,17 @@ def _within_a_turn(angle: Expr) -> Expr:
     if not turns.is_Rational:
         return angle
     return (turns - sympy.ceiling(turns - sympy.S.Half)) * 2 * sympy.pi
+
+
+def _shortest_angle(angle: Expr, positive: Sequence[Expr]) -> Expr:
+    """acos(-c) for pi - asin(sqrt(1 - c²)), where the sign of its sine is known."""
+    if not angle.is_Add or not angle.has(sympy.asin, sympy.atan):
+        return angle
+    side = sign(simplify(sympy.sin(angle)), positive)
+    cosine = simplify(sympy.cos(angle))
+    if side in (1, -1) and sympy.count_ops(cosine) + 2 < sympy.count_ops(angle):
+        return side * sympy.acos(cosine)
+    return angle
 
 
 def _lies_on(solution: SystemSolution, other: SystemSolution) -> bool:

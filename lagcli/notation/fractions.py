@@ -108,6 +108,7 @@ class Brackets:
 
         A fraction in a bracket stays where the bracket is not divided by anything and nothing
         before it cancels: (Ω² cos θ − g/R) sin θ; so does a form in the momenta over letters.
+        A sum of letters has none: (A − C) cos θ/C.
         """
         minus, above, below = parts_of(node)
         if any(isinstance(f.base if isinstance(f, Power) else f, Sum) for f in below):
@@ -120,7 +121,7 @@ class Brackets:
             letters = {whole_power(f)[0] for f in outside}
             constant = all(map(self._ordering.is_parameter, above))
             divided = any(not isinstance(f, Number) for f in below) or (bool(below) and constant)
-            masses = constant and all(map(is_letter, inside.terms))
+            masses = self._ordering.is_parameter(bracket) and all(map(is_letter, inside.terms))
             if not (divided or masses or letters & inverse.powers.keys()):
                 continue
             if self._is_form(bracket) and not any(

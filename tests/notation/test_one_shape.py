@@ -211,3 +211,19 @@ def test_an_even_power_does_not_stay_under_a_root_with_a_sum(power: int) -> None
     found = text("r, p", "m k h", physics, "steady_motions")
     assert "r⁴)" not in found
     assert ")/m)/r²" in found or power == 3
+
+
+def test_a_sum_of_letters_before_a_function_has_no_fraction() -> None:
+    """The spin of a heavy top: (A − C) φ' cos θ/C, not (A/C − 1) φ' cos θ."""
+    physics = "T: A*(y'^2 + x'^2*sin(y)^2)/2 + C*(z' + x'*cos(y))^2/2\nV: m*g*l*cos(y)"
+    found = text("x, y, z", "A C m g l", physics, "steady_motions")
+    assert "(A − C) ẋ cos(y)/C" in found
+
+
+@pytest.mark.parametrize("f", ["sin", "tan"])
+def test_an_angle_is_written_by_the_function_that_its_neighbour_has(f: str) -> None:
+    """Two pendulums and a spring: b = −a, both by arccos."""
+    physics = f"T: m*l^2*(x'^2 + y'^2)/2\nV: -m*g*l*(cos(x) + cos(y)) + k*d^2*({f}(x) - {f}(y))^2/2"
+    found = text("x, y", "m g l k d", physics, "equilibria")
+    assert "arcsin" not in found
+    assert f == "tan" or "y = ∓arccos(−m g l/(2 k d²))" in found
