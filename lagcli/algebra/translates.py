@@ -40,12 +40,16 @@ def least_period(formulas: Sequence[Expr], x: Symbol) -> Expr | None:
 def one_of_each(values: Iterable[Expr], period: Expr) -> list[Expr]:
     """The shortest of the values that differ by whole periods."""
     kept: dict[Expr, Expr] = {}
-    for value in sorted(values, key=lambda v: (sympy.count_ops(v), str(v))):
+    for value in sorted(values, key=_length):
         plain = value.replace(_is_of_negative, lambda f: sympy.pi - sympy.acos(-f.args[0]))
         gaps = (simplify((plain - other) / period) for other in kept.values())
         if not any(gap.is_Integer for gap in gaps):
             kept[value] = plain
     return list(kept)
+
+
+def _length(value: Expr) -> tuple[int, int, str]:
+    return sympy.count_ops(value), sum(1 for _ in sympy.preorder_traversal(value)), str(value)
 
 
 def _is_of_negative(node: Expr) -> bool:

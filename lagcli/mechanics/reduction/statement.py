@@ -286,14 +286,14 @@ class _Statement:
                 case Call(function="sqrt", arguments=(Sum() | Quotient() as radicand,)):
                     whole = build(radicand)
                     slope = simplify(whole.diff(E))
-                    if not free_of(slope, [E]):
+                    if slope == 0 or not free_of(slope, [E]):
                         return rebuilt(tree, energy_last)
                     first = shape(whole.xreplace({E: S.Zero}), order)
                     if first == ZERO or isinstance(first, Negative):
                         return tree
                     found = sum_of((*terms_of(first), *terms_of(shape(slope * E, order))))
-                    longest = _WHOLE * operation_count(radicand)
-                    return Call("sqrt", (found,)) if operation_count(found) <= longest else tree
+                    longer = operation_count(found) > operation_count(radicand)
+                    return tree if longer else Call("sqrt", (found,))
                 case _:
                     return rebuilt(tree, energy_last)
 
