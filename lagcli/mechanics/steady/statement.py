@@ -16,7 +16,7 @@ from lagcli.algebra.decimals import rounded, written
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import vanishing_part, without_moduli
 from lagcli.algebra.signs import sign, sign_beside_zero
-from lagcli.expression import Expression, Number, Power
+from lagcli.expression import Expression, Number, Power, operation_count
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
@@ -279,14 +279,11 @@ class _SteadyStatement:
         """(Ω ± sqrt(k/m))² as the square of what it is the square of."""
         squares = [f for f in sympy.Mul.make_args(expression) if f.is_Pow and f.exp == 2]
         square = next((f for f in squares if f.base.is_Add), None)
-        if square is not None and (outside := expression / square).is_positive:
-            root = sympy.sqrt(outside) * square.base
-            expression = shorter(expression, sympy.expand(root) ** 2)
-            expression = shorter(simplify(root) ** 2, expression)
-        base, power = expression.as_base_exp()
-        if power != 2 or not base.is_Add:
+        if square is None or not (outside := expression / square).is_positive:
             return self._shape(expression)
-        return Power(self._shape(base), Number(Fraction(2)))
+        root = sympy.sqrt(outside) * square.base
+        shown = [self._shape(each) for each in (simplify(root), sympy.expand(root))]
+        return Power(min(shown, key=operation_count), Number(Fraction(2)))
 
 
 def _may_be_complex(square: Expr, positive: Sequence[Expr]) -> bool:
