@@ -37,7 +37,14 @@ def declared(
 
     The value is a map with the `known` attributes, or the first of them alone.
     """
-    what, hint = "constraint", "write name: {equation: left = right}"
+    inner = (
+        [v.value for _, v in value.entries if isinstance(v, Scalar)]
+        if isinstance(value, Mapping)
+        else []
+    )
+    formula = next((each for each in inner if re.search("[-+*/^=]", each)), "left = right")
+    equation = formula if "=" in formula else f"{formula} = 0"
+    what, hint = "constraint", f"write {key.label}: {{equation: {equation}}}"
     if known == _ATTRIBUTES:
         what, hint = "contact", _HINT
     if name_mistake(f"a{key.label}") is not None or not key.label:  # lambda_<name> must be a name
@@ -67,7 +74,7 @@ def declared(
 def declare_contacts(file: FileReader, node: DocumentNode, constraints: set[str]) -> list[Declared]:
     """Enter the multipliers into the scope; a constraint's name is taken."""
     contacts = []
-    for key, value in file.entries(node, "contacts", _HINT):
+    for key, value in file.named(node, "contacts", _ATTRIBUTES, _HINT):
         if key.label in constraints:
             file.error(f"'{key.label}' is a constraint already", key.span)
         elif one := declared(file, key, value, "contact force", _ATTRIBUTES):

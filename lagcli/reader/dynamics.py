@@ -34,6 +34,7 @@ def check_energies(file: FileReader, given: dict[str, Scalar]) -> None:
             message = f"both {whole} and {both[0]} are given"
             message = f"{whole}, T and V are given" if both[1:] else message
             hint = "give L, or H" if "L" in both else f"give {whole}, or T and V"
+            hint = "leave out L: it is T - V" if both[1:] and whole == "L" else hint
             file.error(message, given[both[0]].span, hint, related)
             file.scope.refused += both  # as in L: T - V
 
@@ -102,8 +103,17 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
     points = []
     hint = "write name: {position: [x, y], mass: m}"
     file.scope.refused += [] if isinstance(node, Mapping) else ["points"]
-    for key, value in file.entries(node, "points", hint):
+    entries = [*file.named(node, "points", _POINT_ATTRIBUTES, hint)]
+    for place, (key, value) in enumerate(entries):
         what = f"the point '{key.label}'"
+        rest = [k.label for k, v in entries[place + 1 :] if isinstance(v, Scalar) and v.is_empty]
+        if isinstance(value, Scalar) and rest and key.in_flow:  # {ball: x, y}
+            axes = ", ".join([value.value, *rest])
+            file.error(
+                f"{what} must be a map, not a text", value.span, f"write {{position: [{axes}]}}"
+            )
+            file.scope.refused.append("points")
+            break
         required = Required("position", key.span, f"write position: [{_by_axes(value)}]")
         found = file.attributes(value, what, _POINT_ATTRIBUTES, required)
         attributes = {name: attribute for name, (_, attribute) in found.items()}

@@ -101,12 +101,20 @@ class ExpectReader:
     ) -> list[tuple[Scalar, DocumentNode]]:
         """The entries whose keys exist in the problem; a mistake at each other one."""
         good = []
-        for key, value in self.file.entries(node, f"'{' of '.join(path)}'"):
+        written = node.value.strip() if isinstance(node, Scalar) else "…"
+        hint = f"write {known[0] if len(known) == 1 else 'name'}: {written}"
+        if len(known) > 1:
+            hint = f"write {{name: {written}}}; known are {', '.join(known[:10])}"
+        for key, value in self.file.entries(node, f"'{' of '.join(path)}'", hint):
             self.spans[(*path, key.label)] = key.span
             if key.label in known:
                 good.append((key, value))
                 continue
             names = ", ".join(known[:10])
-            hint = did_you_mean(key.label, known) or (f"known are {names}" if known else "")
+            hint = did_you_mean(key.label, known) or (
+                f"known are {names}"
+                if known
+                else f"the problem has no {what}: it is declared first"
+            )
             self.file.error(f"there is no {what} '{key.label}'", key.span, hint)
         return good

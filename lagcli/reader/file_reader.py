@@ -12,6 +12,7 @@ from lagcli.expression import ZERO, Equation, Expression, Name
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import (
+    LISTS,
     MAPS,
     is_constant,
     key_advice,
@@ -30,6 +31,7 @@ from lagcli.reader.misshapen import (
     by_its_name,
     key_by_shape,
     one_sum,
+    source_of,
 )
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
@@ -53,6 +55,7 @@ _NUMERIC = (VALUES,)
 #: The words for it, and what they mean.
 YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
 _NAME = re.compile(r"[^\W\d]\w*")
+_RELATION = re.compile("[=<>≤≥]")
 #: `x' = 0` and `x(0): 1`, several of them.
 _GIVEN = re.compile(
     r"([^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]>|[=:→])\s*([^,;=:→]+?)"
@@ -124,7 +127,34 @@ class FileReader:
             elif isinstance(node, Sequence) and all(isinstance(x, Mapping) for x in node.items):
                 flow = node.text.source.text[node.start : node.end].strip()
                 hint = f"write {{{flow[1:-1]}}}" if flow[:1] == "[" else WITHOUT_HYPHENS
+            # behind its key a map has braces: forces: {x: -c*x'}
+            hint = re.sub(r"^write ([^{}]+: [^{}]+)$", r"write {\1}", hint)
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
+
+    def named(
+        self, node: DocumentNode, what: str, attributes: tuple[str, ...], hint: str
+    ) -> Iterator[tuple[Scalar, DocumentNode]]:
+        """The entries of a map by name; a mistake where the attributes of one stand beside it.
+
+        The first attribute may be a name: equation: x = y.
+        """
+        entries = list(self.entries(node, what, hint))
+        beside = [
+            key for key, value in entries
+            if key.label in attributes[1:] and isinstance(value, Scalar) and value.value
+            and (key.label in {"holds_while", "always"} or not _RELATION.search(value.value))
+        ]  # fmt: skip
+        if not beside:
+            yield from entries
+            return
+        own = [key for key, _ in entries if key.label not in attributes]
+        inner = [(attributes[0] if key in own else key.label, value) for key, value in entries]
+        given = ", ".join(f"{key}: {source_of(value)}" for key, value in inner)
+        message = f"'{beside[0].label}' stands inside the braces of one entry of {what}"
+        whole = f"write {own[0].label if own else 'name'}: {{{given}}}"
+        several = len(own) > 1 or any(isinstance(value, Mapping) for _, value in entries)
+        self.error(message, beside[0].span, "" if several else whole)
+        yield from ((key, value) for key, value in entries if key in own)
 
     def by_name(self, node: DocumentNode) -> str:
         """How a list or a text of values is written as a map by coordinate."""
@@ -143,6 +173,9 @@ class FileReader:
         elif isinstance(node, Scalar) and (listed := re.search(r"\(\[(.*)\]\)$", node.value)):
             given = listed[1].split(",")
         given = [part.strip() for each in given for part in each.split(";")]
+        if len(given) % 2 == 0 and {*given[::2]} <= {*names}:  # [x, -c*x']
+            stated = list(zip(given[::2], given[1::2], strict=True))
+            return "write {" + ", ".join(f"{name}: {value}" for name, value in stated) + "}"
         if len(given) == 2 * len(names):
             names += [f"{name}'" for name in names]
         values = [each.rpartition("=")[2].strip() or "…" for each in given]
@@ -170,7 +203,10 @@ class FileReader:
         if isinstance(node, Scalar):
             if node.broken:
                 return []
-            hint = hint or f"write {as_list(node.value)}"
+            listed = not hint or hint.startswith("write [")
+            hint = f"write {as_list(node.value)}" if listed and node.value.strip() else hint
+        elif isinstance(node, Mapping) and not hint:
+            hint = f"write [{', '.join(source_of(value) for _, value in node.entries)}]"
         self.error(f"{what} must be a list, not {kind(node)}", node.span, hint)
         return []
 
@@ -205,7 +241,8 @@ class FileReader:
         """
         found = {}
         names = tuple(known)
-        entries = list(self.entries(node, what, as_map(node, names)))
+        as_one = as_map(node, names, self.scope.of_kind("coordinate"))
+        entries = list(self.entries(node, what, as_one))
         given = {key.label for key, _ in entries}
         if required is not None and isinstance(node, Mapping):
             near = {key_meant(label, names) or closest(label, names) for label in given}
@@ -213,6 +250,7 @@ class FileReader:
                 self.error(f"{what} has no {required.key}", required.span, required.hint)
                 return {}
         above = ""
+        entries = self._without_split_lists(entries, names)
         for key, value in entries:
             if key.label in names:
                 found[key.label] = (key, value)
@@ -229,6 +267,31 @@ class FileReader:
                     found[meant] = (key, value)  # what is in it is read on
         return found
 
+    def _without_split_lists(
+        self, entries: list[tuple[Scalar, DocumentNode]], names: tuple[str, ...]
+    ) -> list[tuple[Scalar, DocumentNode]]:
+        """The entries; a mistake at `position: x, y` in braces, where the comma ends the value."""
+        kept: list[tuple[Scalar, DocumentNode]] = []
+        split: dict[str, list[str]] = {}
+        for key, value in entries:
+            empty = isinstance(value, Scalar) and value.is_empty and key.in_flow
+            last = kept[-1][0].label if kept else ""
+            if (
+                empty
+                and key.label not in names
+                and last in LISTS
+                and isinstance(kept[-1][1], Scalar)
+            ):
+                split.setdefault(last, []).append(key.label)
+            else:
+                kept.append((key, value))
+        for name, rest in split.items():
+            [value] = [v for k, v in kept if k.label == name]
+            hint = f"write {name}: [{source_of(value)}, {', '.join(rest)}]"
+            self.error(f"'{name}' must be a list", value.span, hint)
+            kept = [(k, v) for k, v in kept if k.label != name]
+        return kept
+
     def _unknown_key(
         self, key: Scalar, value: DocumentNode, what: str, names: tuple[str, ...], around: Mapping
     ) -> str | None:
@@ -244,7 +307,8 @@ class FileReader:
         stem = None if advice else key_of_stem(key.label, names)
         if stem and stem != closest(key.label, names):
             meant, hint = stem, f"the key is {stem}"
-        shape = key_by_shape(value, around) if what == "the problem" else None
+        plural = f"{key.label}s" in names
+        shape = key_by_shape(value, around) if what == "the problem" and not plural else None
         near = meant or closest(key.label, names)
         if (
             shape
@@ -258,9 +322,15 @@ class FileReader:
             )
         ):
             meant, hint = shape, f"the key is {shape}"
+        if "at" in names and key.label in self.scope.of_kind("coordinate"):
+            hint = f"write at: {{{key.label}: {written}}}"
         if not hint and isinstance(value, Mapping) and value.entries:
             inner = [each.label for each, _ in value.entries]
             hint = f"leave it out: {inner[0]} begins a line" if {*inner} <= {*names} else ""
+        parts = {k.label: v for k, v in around.entries if isinstance(v, Scalar)}
+        part = re.match(r"[TV](?=\d|_)", key.label)
+        if not advice and part and part[0] in parts and what == "the problem":  # V2, V_spring
+            hint = f"it is one sum: write {part[0]}: {parts[part[0]].value.strip()} + {written}"
         hint = hint or f"known are {', '.join(names)}"
         if "=" in key.label:
             hint = f"write {name_meant(key.label)}"

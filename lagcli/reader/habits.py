@@ -20,6 +20,8 @@ MAPS = frozenset(
     "coordinates parameters functions definitions points forces constraints contacts symmetries "
     "initial find simulation expect".split()
 )
+#: The keys whose value is a list.
+LISTS = frozenset("position force in_terms_of columns".split())
 DERIVED = "the equations of motion are derived: give T and V, or L"
 #: An assumption by the relation to zero that it is.
 SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegative",
@@ -110,10 +112,14 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
     for neighbour, words, advice in habits()["advice"]:
         if word in words and neighbour in known:
             return str(advice.format(word=word))
-    start = re.fullmatch(r"(q|r|x|y|z|theta|phi)_?0", word)
-    if start and "initial" in known:
+    start = re.fullmatch(r"(d|v)?_?(q|r|x|y|z|theta|phi)?(?:dot)?_?0", word)
+    if start and (start[1] or start[2]) and "initial" in known:
         value = re.sub(r"([\d.]+)\s*°", r"\1*pi/180", value.strip())
-        return f"write initial: {{{start[1]}: {value}}}"
+        rate = "'" if start[1] or "dot" in word else ""
+        return f"write initial: {{{start[2] or 'x'}{rate}: {value}}}"
+    along = re.fullmatch(r"[QF](?:_(?=\w)|(?=[xyz]$|\w\d$))(\w+)", word)
+    if along and "forces" in known:
+        return f"write forces: {{{along[1]}: {value.strip()}}}"
     if word in {"initial", "start", "init"} and "symbol" in known and "value" not in known:
         return "a state stands under initial, as in initial: {x: 1}"
     if "accelerations" in known and word.endswith("''"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from typing import get_args
 
 from lagcli.problem_data import Assumption
@@ -11,10 +12,11 @@ from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.number_units import unit_mistake
 
 #: What is found without a question.
-_FOUND = frozenset(
+FOUND = frozenset(
     "frequency frequencies period equilibrium equilibria modes energy momentum charges".split()
 )
 
+ALREADY_FOUND = "leave it out: equilibria, frequencies and charges are found"
 WITHOUT_HYPHENS = "leave out the '-' before each key"
 
 
@@ -57,24 +59,32 @@ def range_end(written: str) -> str:
     return found[2] if found else ""
 
 
-def as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
+def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str] = ()) -> str:
     """How a text or a list is written as the map that it should be."""
     written = node.text.source.text[node.start : node.end].strip()
+    names_given = [*coordinates]
+    present = [x for x in names_given if x in re.findall(r"\w+", written)]
+    unknown = next(iter([*present, *names_given]), "x")
     question = re.fullmatch(r"[\"']?(?:solve\s+)?(.*=.*\S)\s+for\s+(\w+'*)[\"']?", written)
     if isinstance(node, Scalar) and names[0] == "where" and question:
         return f"write {{where: {question[1]}, for: {question[2]}}}"
     if isinstance(node, Scalar) and names[0] == "where" and "=" in written:
-        return f"write {{where: {written}, for: x}}"
+        return f"write {{where: {written}, for: {unknown}}}"
     if isinstance(node, Scalar) and written in get_args(Assumption) and "assume" in names:
         return f"write {{assume: {written}}}"
     if isinstance(node, Scalar) and unit_behind(f"1 {written}") == written and "unit" in names:
         return f"write {{unit: {written}}}"
+    if names[0] == "at":
+        within = re.fullmatch(r"\{?\s*(\w+)\s*[:=]\s*([^=:]+?)\s*\}?", written)
+        return f"write {{at: {{{within[1]}: {within[2]}}}}}" if within else "write {at: {x: 0}}"
     if isinstance(node, Sequence) and names[0] == "unit" and unit_behind(f"1 {written[1:-1]}"):
         return f"write {{unit: {written[1:-1]}}}"
     if isinstance(node, Sequence) and names[0] == "unit" and "value" not in names:
         return "a coordinate has no range: leave it out"
     if isinstance(node, Sequence) and "value" in names:
         number, _, unit = (each.strip() for each in written[1:-1].partition(","))
+        if unit_behind(f"1 {number}"):
+            number, unit = unit, number
         if unit and unit_behind(f"1 {unit}"):
             return f"write {{value: {number}, unit: {unit}}}"
         return "one value each; several are run by lagcli sweep --vary"
@@ -84,10 +94,10 @@ def as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
         return "write {unit: rad}"
     if isinstance(node, Scalar) and names[0] == "unit" and "value" not in names:
         return f"write {{description: {written}}}"
-    if isinstance(node, Scalar) and names[0] == "where" and written in _FOUND:
-        return "leave it out: equilibria, frequencies and charges are found"
+    if isinstance(node, Scalar) and names[0] == "where" and written in FOUND:
+        return ALREADY_FOUND
     if isinstance(node, Scalar) and names[0] == "where":
-        return f"write {{value: {written or '…'}, in_terms_of: [x]}}"
+        return f"write {{value: {written or '…'}, in_terms_of: [{unknown}]}}"
     if (
         isinstance(node, Sequence)
         and names[0] == "until"
@@ -95,8 +105,9 @@ def as_map(node: DocumentNode, names: tuple[str, ...]) -> str:
         and all(isinstance(each, Scalar) for each in node.items)
     ):
         return f"write {{until: {written.strip('[]').split(',')[-1].strip()}}}"
-    if isinstance(node, Scalar) and names[0] == "position" and re.fullmatch(r"\(.*\)", written):
-        return f"write {{position: [{written[1:-1]}]}}"
+    if isinstance(node, Scalar) and names[0] == "position" and written:
+        within = re.fullmatch(r"\((.*)\)", written)
+        return f"write {{position: [{within[1] if within else written}]}}"
     if (words := written.split(None, 1)) and words[0] in names and words[1:]:
         return f"write {{{words[0]}: {words[1]}}}"
     if "accelerations" in names and (
@@ -144,7 +155,7 @@ def as_text(node: DocumentNode) -> str:
     first = (*inner, *(key for key, _ in entries))[:1]
     if not (first and isinstance(first[0], Scalar)):
         return ""
-    written = [(key.label, _source(value)) for key, value in entries]
+    written = [(key.label, source_of(value)) for key, value in entries]
     if len(entries) < 2:
         return f"write {first[0].value}"
     name, value = written[0]
@@ -169,5 +180,6 @@ def by_its_name(node: Sequence) -> str:
     )
 
 
-def _source(node: DocumentNode) -> str:
+def source_of(node: DocumentNode) -> str:
+    """What the file has there, in one line."""
     return " ".join(node.text.source.text[node.start : node.end].split())

@@ -32,7 +32,9 @@ HAMILTONIAN = "H"
 def read_observables(file: FileReader, node: DocumentNode) -> dict[str, Expression]:
     """Functions of q, p and t, each of which may use earlier ones."""
     found = {}
-    for key, value in file.entries(node, "observables", "write A: x*p_y - y*p_x"):
+    items = getattr(node, "items", [node])
+    given = items[0].value.strip() if items and isinstance(items[0], Scalar) else ""
+    for key, value in file.entries(node, "observables", f"write A: {given or 'x*p_y - y*p_x'}"):
         what = f"the observable '{key.label}'"
         expression = file.expression(value, what, BRACKETED)
         if not _is_momentum(file, key) and file.declare(key.label, "observable", key.span):

@@ -95,7 +95,10 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
     functions = {}
     if not isinstance(node, Mapping):
         file.scope.refused.append("")
-    for key, value in file.entries(node, "functions", "write U: [r]"):
+    items = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+    called = re.match(r"(\w+)\(([\w, ]+)\)", items[0]) if items else None
+    hint = "write {}: [{}]".format(*(called.groups() if called else ("U", "r")))
+    for key, value in file.entries(node, "functions", hint):
         if not file.declare(key.label, "function", key.span):
             continue
         what = f"the arguments of '{key.label}'"

@@ -16,7 +16,7 @@ from lagcli.problem_data import (
     Where,
 )
 from lagcli.reader.habits import name_meant
-from lagcli.reader.misshapen import range_end
+from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar
 from lagcli.reader.number_units import run_mistake
@@ -117,12 +117,15 @@ def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
     """The questions."""
     questions: list[Question] = []
     hint = (
-        "write name: {where: equation, for: x}, {value: expression, in_terms_of: [x]}, "
-        "{always: inequality, for: p} or {reaches: x = value, for: p}"
+        "write {name: {where: equation, for: x}}, or in the inner braces value: expression, "
+        "in_terms_of: [x]; always: inequality, for: p; reaches: x = value, for: p"
     )
-    if isinstance(node, Scalar) and "=" not in node.value:
+    words = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+    if words and {*words} <= FOUND:
+        hint = ALREADY_FOUND
+    elif words and not any("=" in word for word in words):
         hint = f"leave it out: equations of motion and charges are found; or {hint}"
-    for key, value in file.entries(node, "find", hint):
+    for key, value in file.named(node, "find", _QUESTION_ATTRIBUTES, hint):
         what = f"the question '{key.label}'"
         found = file.attributes(value, what, _QUESTION_ATTRIBUTES)
         parts = {name: part for name, (_, part) in found.items()}

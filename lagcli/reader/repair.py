@@ -82,7 +82,11 @@ def with_whole(
             return [replace(each, span=node.span) for each in refused]
         guess = found[0].hint.endswith("?")
         hint = f"did you mean {whole}?" if guess else f"write {whole}"
-        return [replace(found[0], hint=hint), *(replace(each, span=node.span) for each in wrong)]
+        spans = {each.message: each.span for each in reversed(found)}
+        undeclared = {each.message for each in wrong}
+        first = next((each for each in found if each.message not in undeclared), found[0])
+        rest = [replace(each, span=spans.get(each.message, node.span)) for each in wrong]
+        return [replace(first, hint=hint), *rest]
     return found
 
 

@@ -36,7 +36,7 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     lines = node.items if isinstance(node, Sequence) else [node]
     first = [each.value for each in lines if isinstance(each, Scalar) and "=" in each.value]
     written = first[0] if first else "equation, as in rolling: x' = R*theta'"
-    entries = file.entries(node, "constraints", f"write name: {written}")
+    entries = file.named(node, "constraints", _CONSTRAINT_ATTRIBUTES, f"write name: {written}")
     given = (declared(file, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
     return [one for one in given if one is not None]
 
@@ -131,7 +131,9 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
     coordinates = list(file.scope.of_kind("coordinate"))
     symmetries = []
     change_of = "{{{}: 1}}".format
-    hint = f"write shift: {change_of(next(iter(coordinates), 'x'))}"
+    listed = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+    named = [name for name in listed if name in {*coordinates, "t"}]
+    hint = f"write {{shift: {change_of(next(iter([*named, *coordinates]), 'x'))}}}"
     for key, value in file.entries(node, "symmetries", hint):
         what = f"the symmetry '{key.label}'"
         changes = {}
@@ -142,6 +144,8 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
         usual = change_of(*(changed or coordinates or ["x"])[:1])
         if "rot" in key.label and not changed and len(coordinates) > 1:
             usual = "{{{0}: -{1}, {1}: {0}}}".format(*coordinates)
+        if "time" in key.label or key.label in {"t", "energy"}:
+            usual = "{t: 1}"
         here = f"write {key.label}: {usual}"
         if isinstance(value, Scalar) and (moved := _MOVED.findall(value.value)):
             pairs = [f"{name}: {'-' * (sign == '-')}{change or 1}" for name, sign, change in moved]
@@ -157,7 +161,8 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
                 continue
             file.expression(change, what, STATE)
             hint = did_you_mean(name.label, [*coordinates, "t", "gauge"])
-            file.error(message, name.span, hint or "a key is a coordinate, t or gauge")
+            known = f"known are {', '.join(coordinates)}, t and gauge"
+            file.error(message, name.span, hint or known)
         time, gauge = changes.pop("t", None), changes.pop("gauge", None)
         if gauge is not None and time is None and not changes:
             file.error(f"{what} changes neither a coordinate nor t", key.span)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Literal, NamedTuple
@@ -157,6 +158,8 @@ def name_mistake(name: str, *, one: bool = False) -> tuple[str, str] | None:
         return f"'{name}' is not a name", "declare it without primes; x' is the velocity of x"
     if not name:
         return "a name is missing", ""
+    if "\N{COMBINING DOT ABOVE}" in (bare := unicodedata.normalize("NFD", name)) and len(bare) == 2:
+        return f"'{name}' is not a name", f"write {bare[0]}; its velocity is {bare[0]}'"
     if name[0].isdigit():
         better = name.lstrip("0123456789") + name[: -len(name.lstrip("0123456789"))]
         hint = "a name does not begin with a digit"

@@ -120,7 +120,8 @@ _EXPECTED = list_of(
         at=by_coordinate("the expected place of '{}'"),
         on=equation("the equation of a family of equilibria", PLACE),
         stable=STABILITY,
-    )
+    ),
+    "write [{at: {x: 0}, stable: yes}]",
 )
 SECTION = declared(
     globals(),
