@@ -59,13 +59,16 @@ def _sections(
 
 def _unknown(name: str, known: Known) -> str:
     try:
-        find_section(name)
+        section = find_section(name)
     except BrokenSection as broken:
         return str(broken)
     except LookupError:
-        pass
+        section = None
     every = known(None)
     names = [each.name for each in every]
+    if section is not None and name not in names:
+        in_all = "what applies of it is in every explanation"
+        return f"'{name}' is not added, {in_all}: there are {', '.join(names)}"
     advice = _headed(name, every) or did_you_mean(name, names) or _topic(name)
     return f"unknown section '{name}': {advice or 'there are ' + ', '.join(names)}"
 

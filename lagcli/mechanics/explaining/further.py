@@ -13,6 +13,7 @@ from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.recurring import recurring
 from lagcli.mechanics.explaining.reduction import averaged_potential
 from lagcli.mechanics.explaining.words import Part, names, says, shows
+from lagcli.mechanics.reduction.effective_potential import effective_potential
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.mechanics.statements import Statements
 from lagcli.statements.answers import EquilibriaSection, Section
@@ -95,7 +96,8 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
     if named and still != 0 and not states.at_all_times:
         yield says(Label("V", ("eff",)), " stands for the terms of ", explainer.letters.L,
                    " without velocities, with the opposite sign:")  # fmt: skip
-        yield shows(Label("V", ("eff",)), explainer.readable.as_written(-still))
+        shown = effective_potential(-still, (), explainer.system.order, explainer.system.V)
+        yield shows(Label("V", ("eff",)), shown)
     if found is None:
         yield says(f"These were not solved: {states.reason}.")
         return
