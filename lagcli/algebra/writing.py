@@ -155,10 +155,13 @@ class Writer:
         inside: list[Factor] = []
         for base, exponent in roots:
             if isinstance(base, Number):
-                # 1/2 * sqrt(2) = 1/sqrt(2)
+                # 1/2 * sqrt(2) = 1/sqrt(2), sqrt(6 g/l)/2 = sqrt(3 g/(2 l))
                 value, sign = base.value, (1 if exponent > 0 else -1)
-                if sign > 0 and coefficient.denominator % value == 0:
+                divisor = coefficient.denominator
+                if sign > 0 and divisor % value == 0:
                     coefficient, sign = coefficient * value, -1
+                elif sign > 0 and divisor > 1 and value % divisor == 0 and len(roots) > 1:
+                    coefficient, value = coefficient * divisor, value / divisor**2
                 elif sign < 0 and coefficient.numerator % value == 0:
                     coefficient, sign = coefficient / value, 1
                 number *= value**sign
@@ -180,6 +183,15 @@ class Writer:
             roots = [p for p in pairs if p[1].denominator > 1 and _is_in_root(index, *p)]
             if all(isinstance(base, Number) for base, _ in roots):  # (a + b)^(1/3)*4^(1/3)
                 roots += [p for p in pairs if p[1] == Fraction(1, index) and p not in roots][:1]
+            if (
+                len(roots) > 1 and len({e for _, e in roots}) == 1
+            ):  # (m g)^(2/3) for m^(2/3)*g^(2/3)
+                [alike] = {abs(e) for _, e in roots}
+                if alike.numerator > 1:
+                    side = 1 if roots[0][1] > 0 else -1
+                    whole = self.product(Fraction(1), [(b, Fraction(1)) for b, _ in roots])
+                    pairs = [*(pair for pair in pairs if pair not in roots), (whole, side * alike)]
+                    continue
             if len(roots) > 1 and any(e.denominator == index for _, e in roots):
                 number, inside = _flattened(Fraction(1), [_raised(b, e * index) for b, e in roots])
                 absorbed = number / coefficient.denominator**index
@@ -190,6 +202,11 @@ class Writer:
                 if isinstance(whole, Quotient) and whole.numerator == ONE:
                     return coefficient, [*rest, (whole.denominator, Fraction(-1, index))]
                 return coefficient, [*rest, (whole, Fraction(1, index))]
+        for exponent in sorted({abs(e) for b, e in pairs if _is_like_power(b, e)}):
+            own = [(b, e) for b, e in pairs if abs(e) == exponent and _is_like_power(b, e)]
+            if len(own) > 1:  # (m g/k)^(4/3) for m^(4/3)*g^(4/3)/k^(4/3)
+                whole = self.product(Fraction(1), [(b, e / exponent) for b, e in own])
+                pairs = [*(pair for pair in pairs if pair not in own), (whole, exponent)]
         half = Fraction(1, 2)
         if any(abs(e) == half for _, e in pairs):
             pairs = [
@@ -266,8 +283,16 @@ def _is_half_power(base: Expression, exponent: Fraction) -> bool:
 
 def _is_in_root(index: int, base: Expression, exponent: Fraction) -> bool:
     """Whether base^exponent may stand under a common root of this index."""
-    plain = isinstance(base, (Name, Number)) or (isinstance(base, Call) and base.function == "abs")
+    if isinstance(base, Number):  # sqrt(3)*a^(1/6), not (27*a)^(1/6)
+        return exponent.denominator == index and abs(exponent) < 1
+    plain = isinstance(base, Name) or (isinstance(base, Call) and base.function == "abs")
     return plain and abs(exponent) < 1 and index % exponent.denominator == 0
+
+
+def _is_like_power(base: Expression, exponent: Fraction) -> bool:
+    """Whether it is r^(4/3) of a letter or a modulus."""
+    plain = isinstance(base, Name) or (isinstance(base, Call) and base.function == "abs")
+    return plain and abs(exponent) > 1 and exponent.denominator > 2
 
 
 def _height(value: Fraction) -> int:

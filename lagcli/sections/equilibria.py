@@ -75,7 +75,8 @@ def _stability(equilibrium: Equilibrium, states: Sequence[State]) -> tuple[str |
             exist = ["Any ", *listed(equilibrium.free), " is an equilibrium"]
         parts += [*exist, " where ", *conditions(equilibrium.where), ". "]
     parts += [holding(equilibrium.touching, sticking=equilibrium.sticking)]
-    parts += stability(equilibrium.verdict, equilibrium.free, equilibrium.on)
+    at = states[0][0] if states else {}
+    parts += stability(equilibrium.verdict, equilibrium.free, equilibrium.on, at)
     parts += [at_the_limit(equilibrium.where, sticking=equilibrium.sticking)]
     for lead, names in ((" Free: ", equilibrium.free), (_NO_VALUE, equilibrium.indeterminate)):
         for position, name in enumerate(names):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from lagcli.document import Label
 from lagcli.expression import Expression, Name, operation_count, walk
@@ -18,16 +18,22 @@ _THEOREM = "(Kelvin, Tait and Chetaev)"
 
 
 def stability(
-    verdict: Verdict, free: Sequence[str] = (), on: tuple[Expression, Expression] | None = None
+    verdict: Verdict,
+    free: Sequence[str] = (),
+    on: tuple[Expression, Expression] | None = None,
+    at: Mapping[str, Expression] | None = None,
 ) -> list[Part]:
     """Whether an equilibrium or a steady motion is stable, and by which conditions, in sentences.
 
-    It is one of a family where coordinates are `free` or tied by the equation `on`.
+    It is one of a family where coordinates are `free` or tied by the equation `on`; those `at`
+    formulas of free ones are displaced along with them.
     """
     if verdict.rapid is not None:
         return _on_average(verdict, verdict.rapid)
     stable = "Asymptotically stable" if verdict.asymptotic else "Stable"
-    along = _up_to(free, on) if free or on is not None else _along(verdict)
+    names = {part for value in (at or {}).values() for part in walk(value)}
+    tied = on is not None or any(Name(name) in names for name in free)
+    along = _up_to(free, tied=tied) if free or on is not None else _along(verdict)
     reason = _with_potential(verdict.reason, verdict.potential)
     if verdict.stable is not None:
         words: list[Part] = [stable if verdict.stable else "Unstable"]
@@ -144,9 +150,9 @@ def _along(verdict: Verdict) -> list[Part]:
     return [" up to displacements along the family"] if verdict.across else []
 
 
-def _up_to(free: Sequence[str], on: tuple[Expression, Expression] | None) -> list[Part]:
+def _up_to(free: Sequence[str], *, tied: bool) -> list[Part]:
     """The displacements along a family, which nothing restores."""
-    if on is not None:
+    if tied:
         return [" up to displacements along the family"]
     parts: list[Part] = []
     for position, name in enumerate(free):

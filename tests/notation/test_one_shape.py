@@ -227,3 +227,32 @@ def test_an_angle_is_written_by_the_function_that_its_neighbour_has(f: str) -> N
     found = text("x, y", "m g l k d", physics, "equilibria")
     assert "arcsin" not in found
     assert f == "tan" or "y = ∓arccos(−m g l/(2 k d²))" in found
+
+
+def test_a_family_that_moves_several_coordinates_is_no_displacement_of_one() -> None:
+    """Three masses on a line with springs between them rest anywhere."""
+    springs = "k*(y - x - b)^2/2 + k*(z - y - b)^2/2"
+    found = text("x, y, z", "m b k", f"T: m*(x'^2 + y'^2 + z'^2)/2\nV: {springs}", "equilibria")
+    assert "Stable up to displacements along the family" in found
+
+
+@pytest.mark.parametrize(
+    ("V", "written"),
+    [
+        ("a/r^2 + b*r", "(b/a)^(4/3)"),
+        ("a*r^4 + b/r^2", ""),
+    ],
+)
+def test_letters_with_one_fractional_exponent_have_it_together(V: str, written: str) -> None:
+    found = text("r", "m a b", f"T: m*r'^2/2\nV: {V}", "reduction")
+    assert "^(4/3) b^(4/3)" not in found
+    assert written in found
+
+
+def test_a_whole_number_goes_under_the_root() -> None:
+    """φ' = √(3 g/(2 l cos θ)) of a rod, not √(6 g/(l cos θ))/2."""
+    physics = (
+        "T: m*l^2*(x'^2 + y'^2*sin(x)^2)/6 + J*y'^2/2\n"
+        "V: -m*g*l*cos(x)/2"
+    )
+    assert "ẏ   = √(3 g/(2 l cos(x)))" in text("x, y", "m l g J", physics, "steady_motions")

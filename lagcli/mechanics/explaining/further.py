@@ -119,7 +119,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
             yield says("It exists for ", *inequalities(each.where), ".")
         firm = holding(each.touching, sticking=each.sticking)
         limit = at_the_limit(each.where, sticking=each.sticking)
-        yield says(firm, *stability(each.verdict, each.free, each.on), limit)
+        yield says(firm, *stability(each.verdict, each.free, each.on, each.at), limit)
     if found and not states.complete:
         yield says("There may be others.")
     if found:

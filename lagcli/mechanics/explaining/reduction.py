@@ -138,7 +138,9 @@ def _averaged_equilibria(derivation: Derivation, potential: Expr) -> Iterator[Bl
         yield Equations(place_rows(each.at, each.on))
         if each.where:
             yield says("It exists for ", *conditions(each.where), ".")
-        yield says(*stability(replace(each.verdict, potential="V_eff"), each.free, each.on))
+        yield says(
+            *stability(replace(each.verdict, potential="V_eff"), each.free, each.on, each.at)
+        )
 
 
 def _one_freedom(motion: OneFreedom, potential: Part) -> Iterator[Block]:
