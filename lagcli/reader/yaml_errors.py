@@ -92,32 +92,9 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return Diagnostic("this is no value", span, f"write {{assume: {SIGNS[sign[1]]}}}")
     if after.startswith("|"):
         return Diagnostic("'|' has no meaning in an expression", span, "write abs(x)")
-    if valued := re.search(r":\s*([-\d.]+)\s*\[([^\W\d][^\]]*)\]", line):
-        hint = f"write {{value: {valued[1]}, unit: {valued[2]}}}"
-        return Diagnostic("a unit does not stand behind a number", span, hint)
-    if marks := re.search(r"\$\{\w*\}?|\{\{", line):
-        return Diagnostic("a placeholder is no value", span, f"write the value for {marks[0]}")
-    if index := re.search(r"Subscript\[(\w+),\s*(\w+)\]", line):
-        return Diagnostic("a name has no brackets", span, f"write {index[1]}_{index[2]}")
-    if index := re.search(r"\[\s*([^\W\d]\w*)\[(\d+)\]", line):
-        return Diagnostic("a name has no brackets", span, f"write {index[1]}_{index[2]}")
-    if index := re.search(r"(\w+?)_\{(\w+)\}", line):
-        return Diagnostic("a name has no braces", span, f"write {index[1]}_{index[2]}")
-    if marks := re.match(r"\s*(\*{1,2}|[-+]\s\*+)\s*(\w+)(?:\*\*)?:", line):
-        return Diagnostic(
-            "a key stands by itself", span, f"leave out '{marks[1]}': write {marks[2]}:"
-        )
-    if re.match(r"\s*[\w ]+:\s+&=?\s", line):
-        return Diagnostic("'&' has no meaning in an expression", span, "leave out '&' and '='")
-    if re.match(r"\s*(title|source|description):\s+[\[{]", line):
-        return Diagnostic(
-            "a text cannot begin with a bracket", span, "put the whole text in quotes"
-        )
-    if marks := _EMPHASIS.match(line):
-        hint = f"leave out '{marks[1]}': write {marks[2]}"
-        return Diagnostic("marks of emphasis are no part of a formula", span, hint)
-    if _BRACED.match(line):
-        return Diagnostic("'{' has no meaning in an expression", span, "group with parentheses ( )")
+    for pattern, message, hint in habits()["lines"]:
+        if found := re.search(pattern, line):
+            return Diagnostic(message, span, found.expand(hint))
     first = next((each for each in lines if each.strip()), "")
     if "<document start>" in said and first[:1] == " " != line[:1]:
         key = first.split(":")[0].strip()
@@ -139,10 +116,6 @@ _QUOTED = re.compile(r"\s*([\w ]+):\s*(['\"])([^#]*\2[^#]*)\2\s*(?:#.*)?")
 _FOREIGN = re.compile(
     r"\s*((//|/\*|;|%(?!YAML)|<!--|--\s|'''|\"\"\").*|\[\w+\]\s*$|(?:from\s+[\w.]+\s+)?import\s.*)"
 )
-#: A formula within marks of Markdown: **m*x**, `m*x`.
-_EMPHASIS = re.compile(r"\s*[\w ]+:\s+(\*\*?|`+)([^\s*`].*[^\s*`])\1\s*(?:#.*)?$")
-#: A formula that begins with a group in braces.
-_BRACED = re.compile(r"\s*[\w ]+:\s+\{[^{}:,]*\}\s*[-+*/^]")
 _BEFORE = re.compile(r"(?P<indent>\s*)(?P<key>[^\W\d][\w ]*)(?P<colon>:\s+\S)?")
 
 
