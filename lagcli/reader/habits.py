@@ -26,16 +26,7 @@ DERIVED = "the equations of motion are derived: give T and V, or L"
 #: An assumption by the relation to zero that it is.
 SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegative",
          "!=": "nonzero", "≠": "nonzero"}  # fmt: skip
-#: Keys of a part of a problem -> that part.
 _WISHES = {"yes", "true", "True", "on", "all", "find", "?"}
-_PARTS = {
-    **dict.fromkeys(("until", "accuracy", "method"), "simulation"),
-    **dict.fromkeys(("places", "rods", "springs", "trails"), "picture"),
-    **dict.fromkeys(
-        ("accelerations", "charges", "equilibria", "modes", "trajectory", "degrees_of_freedom"),
-        "expect",
-    ),
-}
 COMMENT = "a comment begins with '#'"
 CASES = frozenset("if for when where else otherwise piecewise Piecewise".split())
 CASE = "(1 + sign(x))/2 is 1 for x > 0, else 0"
@@ -53,22 +44,6 @@ RATES = frozenset("Derivative derivative D ddt dt Dt der deriv diff dot".split()
 POWERS = frozenset("pow power Pow Power".split())
 SQUARES = frozenset("square sqr sq".split())
 FOREIGN = RATES | POWERS | SQUARES | {"norm", "hypot", "Subscript"}
-#: Functions of other programs for which there is no formula here, and what is done instead.
-INSTEAD = {
-    **dict.fromkeys(CASES, CASE),
-    **dict.fromkeys(("integrate", "Integral", "int", "integral"), "write the antiderivative"),
-    **dict.fromkeys(("sum", "Sum", "prod", "Product"), "write each term"),
-    **dict.fromkeys(("dot", "norm", "cross"), "write the sum over the components"),
-    **dict.fromkeys(("grad", "gradient", "nabla"), "a force that V has is found from V"),
-    **dict.fromkeys(("Eq", "Equality"), "write left = right"),
-    **dict.fromkeys(
-        ("mod", "fmod", "floor", "ceil", "round"),
-        "a jump is written with sign: (1 + sign(x - 1))/2",
-    ),
-    **dict.fromkeys(("dirac", "DiracDelta"), "a kick at t = 0 is a velocity under initial"),
-    "max": "compare two at a time: max(a, b) is (a + b + abs(a - b))/2",
-    "min": "compare two at a time: min(a, b) is (a + b - abs(a - b))/2",
-}  # fmt: skip
 _VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "⅛": "1/8"}
 
 
@@ -84,6 +59,11 @@ def habits() -> dict[str, Any]:
 def meanings(table: str) -> dict[str, str]:
     """What each word of a table means here."""
     return {word: meant for meant, words in habits()[table].items() for word in words}
+
+
+def instead(function: str) -> str:
+    """What is done where a function of other programs has no formula here; empty for others."""
+    return meanings("instead").get(function, "")
 
 
 def key_meant(word: str, known: tuple[str, ...]) -> str | None:
@@ -129,7 +109,7 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
     key = meanings("keys").get(word.replace("-", "_"), word)
     if value.strip() == "t":
         return "leave it out: t is the time"
-    part = _PARTS.get(key)
+    part = meanings("parts").get(key)
     if part == "expect" and part in known and value in _WISHES:
         return f"an option, not a key: lagcli solve FILE --show {key}"
     if part in known:
@@ -176,7 +156,7 @@ def colon_advice(line: str) -> str:
 
 def is_constant(word: str, value: str) -> bool:
     """Whether a key with its value is a name with its number."""
-    named = re.fullmatch(r"[^\W\d]\w*", word) and word not in _PARTS
+    named = re.fullmatch(r"[^\W\d]\w*", word) and word not in meanings("parts")
     return bool(named and _NUMBER.fullmatch(value.strip()))
 
 

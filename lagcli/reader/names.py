@@ -19,7 +19,7 @@ from lagcli.expression import (
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
 from lagcli.reader.foreign.words import Vocabulary, rate_meant
-from lagcli.reader.habits import INSTEAD, foreign_function, meanings
+from lagcli.reader.habits import foreign_function, instead, meanings
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import alike, closest, did_you_mean
 from lagcli.reader.undeclared import COORDINATE, UNDECLARED
@@ -69,7 +69,7 @@ def name_mistakes(
                 yield from _name(node, scope, role, what, before)
             case Call():
                 yield from _call(node, scope, role, what)
-                if node.function in INSTEAD and node.function not in scope.kinds:
+                if node.function not in scope.kinds and instead(node.function):
                     covered |= {id(each) for each in walk(node)}
             case PartialCall():
                 yield from _partial_call(node, scope)
@@ -268,11 +268,11 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         if scope.kinds.get(name) == "coordinate" and node.arguments == (Name("t"),):
             hint = f"a coordinate is a function of t by itself: write {written}"
         yield Diagnostic(message, node.span, hint)
-    elif not scope.refused or name in INSTEAD or foreign_function(name):
+    elif not scope.refused or instead(name) or foreign_function(name):
         functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]
         best = closest(name, functions)
         hint = f"did you mean {best}(…)?" if best else "declare it under 'functions'"
-        hint = INSTEAD.get(name, hint)
+        hint = instead(name) or hint
         yield Diagnostic(f"unknown function '{name}' in {what}", node.span, hint)
 
 
@@ -292,7 +292,7 @@ def _integral(node: Call, role: Role, what: str) -> Iterator[Diagnostic]:
     """`integral(f, x, a, b)` of f by x from a to b."""
     count = len(node.arguments)
     if not role.integrals:
-        yield Diagnostic(f"an integral cannot stand in {what}", node.span, INSTEAD["integral"])
+        yield Diagnostic(f"an integral cannot stand in {what}", node.span, instead("integral"))
     elif count != 4 or node.primes:
         yield _wrong_count("integral", 4, count, node)
     elif not isinstance(node.arguments[1], Name):

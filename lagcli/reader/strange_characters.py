@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from lagcli.reader.habits import COMMENT, INSTEAD, unit_behind
+from lagcli.reader.habits import COMMENT, instead, unit_behind
 
 if TYPE_CHECKING:
     from lagcli.reader.automaton import Token
@@ -20,8 +20,8 @@ _MEANT = [
     ),
     (r"\\\s*\d", "division is written with '/'"),
     (r"\\(?:partial|nabla)", "write diff(expression, name); a force that V has is found from V"),
-    (r"\\int\b", INSTEAD["int"]),
-    (r"\\(?:sum|prod)\b", INSTEAD["sum"]),
+    (r"\\int\b", instead("int")),
+    (r"\\(?:sum|prod)\b", instead("sum")),
     (r"\.\.\.|…", "leave it out: a line that continues the one above begins with blanks"),
     (r"\.subs\b", "leave out what begins with '.subs': values stand under 'parameters'"),
     (r"\.(?:evalf|simplify|expand|n|doit|replace|rewrite)\b", "leave out what begins with '.'"),

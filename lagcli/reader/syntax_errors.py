@@ -11,7 +11,7 @@ from lagcli.reader.habits import (
     CASE,
     CASES,
     COMMENT,
-    INSTEAD,
+    instead,
     meanings,
     superscript,
     unit_behind,
@@ -63,8 +63,8 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
         if [str(other) for other in tokens[place - 3 : place]] == ["^", "-", "1"]:
             function = tokens[place - 4]
             return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt))
-        if CASES & {str(previous), str(token)} and (name := _called(tokens[:place])) in INSTEAD:
-            return Diagnostic("a formula has no loops", _span(token, excerpt), INSTEAD[name])
+        if CASES & {str(previous), str(token)} and (hint := instead(_called(tokens[:place]))):
+            return Diagnostic("a formula has no loops", _span(token, excerpt), hint)
         return _missing_product(previous, token, following, excerpt, start)
     if token.type == "COMPARISON" and CASES & {str(other) for other in tokens}:
         return Diagnostic("a formula has no cases", _span(token, excerpt), CASE)
@@ -134,7 +134,7 @@ def _missing_product(
     if left.type == "NUMBER" and str(right) == "percent":
         return Diagnostic("'percent' has no meaning", span, f"write {left}/100")
     if str(left) == "Σ":
-        return Diagnostic("a formula has no sums", span, INSTEAD["sum"])
+        return Diagnostic("a formula has no sums", span, instead("sum"))
     if {"where", "with"} & {left, right} and re.search("[=<>]", excerpt.value):
         return Diagnostic("a formula has no conditions", span, "values stand under 'parameters'")
     if {str(left), str(right)} & CASES:
@@ -200,8 +200,7 @@ def _unexpected(
         if start == "equation" and inside is None and previous is not None:
             return "an equation has one '='", "write an equation of its own for each"
         if name := _called(before):
-            hint = INSTEAD.get(name, "write the value alone")
-            return "an argument of a function has no name", hint
+            return "an argument of a function has no name", instead(name) or "write the value alone"
         if start == "equation" and inside is not None:
             return "'=' stands inside parentheses", "is a ')' missing before it?"
         alone = len(before) == 1 and previous is not None and previous.type == "NAME"
