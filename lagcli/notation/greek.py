@@ -72,27 +72,9 @@ def _romanized(character: str) -> str:
 
 _ACCENTS = "".join(chr(code) for code in range(0x300, 0x370))
 
+_SIGNS = "– - — -- − - ‘ ' ’ ' ′ ' ″ '' “ \" ” \" „ \" · * × x ß ss æ ae ø o Ø O ł l Ł L".split()
 #: Typographic signs in plain ASCII.
-PUNCTUATION: dict[str, str] = {
-    "–": "-",
-    "—": "--",
-    "−": "-",
-    "‘": "'",
-    "’": "'",
-    "′": "'",
-    "″": "''",
-    "“": '"',
-    "”": '"',
-    "„": '"',
-    "·": "*",
-    "×": "x",
-    "ß": "ss",
-    "æ": "ae",
-    "ø": "o",
-    "Ø": "O",
-    "ł": "l",
-    "Ł": "L",
-}
+PUNCTUATION: dict[str, str] = dict(zip(_SIGNS[::2], _SIGNS[1::2], strict=True))
 
 _CYRILLIC = "абвгдеёжзийклмнопрстуфхцчшщъыьэюя"
 _SCIENTIFIC = "a b v g d e e zh z i j k l m n o p r s t u f kh ts ch sh shch '' y ' e yu ya"

@@ -121,25 +121,12 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
     return ""
 
 
-_PROGRAM = re.compile(
-    r"\s*((import|from|def|class|return|print|using|function|end|model|block|package|module|program"
-    r"|syms|clear|clc|close|var|let|const|parameter|double|float|real|Real)\b|\\\w|#inc)"
-)
-
-
 def colon_advice(line: str) -> str:
     """`write V: k*x` for a line such as `V k*x`, `V = k*x`, `V:k*x` or `V：k*x`."""
     found = re.match(r"\s*([^\W\d]\w*)(?:\s*(?:<-|←|[=:]?[=:：])\s*|\s+)([^-+*/^<].*)", line)
-    if re.match(r"\s*(/[/*]|['\"]{3}|;|%|--|<!)", line):
-        return COMMENT
-    if item := re.match(r"\s*[–—•·*]\s+(.*)", line):
-        return f"an item of a list begins with a hyphen: write - {item[1].strip()}"
-    if re.match(r"\s*<\w", line):
-        return "write key: value, without tags"
-    if _PROGRAM.match(line):
-        return "leave it out: a problem has keys with their values, no program"
-    if re.match(r"\s*\|", line):
-        return "write key: value, without a table"
+    for pattern, advice in habits()["begins"]:
+        if begun := re.match(pattern, line):
+            return begun.expand(advice)
     if "''" in line:
         return DERIVED
     if found and found[1] not in habits()["keys"] and (unit := unit_behind(found[2])):
