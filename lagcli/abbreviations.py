@@ -31,7 +31,7 @@ from lagcli.notation.likeness import EVEN, ODD, SignedNumbers, parity
 from lagcli.notation.naming import PART_STEMS, Names, free_stem
 from lagcli.notation.ordering import positive_first
 from lagcli.record import replace
-from lagcli.rewriting import rebuilt, rewritten
+from lagcli.rewriting import expressions_in, rebuilt, rewritten, substituted
 from lagcli.statements.answers import Answers
 from lagcli.statements.explanation import Explanation
 from lagcli.statements.registry import in_order
@@ -70,7 +70,7 @@ def abbreviated(answers: Answers, taken: Collection[str]) -> Answers:
 
 def _has_lines(section: object) -> bool:
     """Whether a formula fills more than two lines; shorter ones are printed without names."""
-    return any(operation_count(tree) > _TWO_LINES for tree in _trees(section))
+    return any(operation_count(tree) > _TWO_LINES for tree in expressions_in(section))
 
 
 def in_steps(explanation: Explanation, taken: Collection[str]) -> Explanation:
@@ -94,22 +94,11 @@ def in_steps(explanation: Explanation, taken: Collection[str]) -> Explanation:
 
 def _found(parts: Sequence[object], taken: Collection[str]) -> _Abbreviations | None:
     """The names for formulas of which one is long; None where nothing is worth a name."""
-    trees = [tree for part in parts for tree in _trees(part)]
+    trees = [tree for part in parts for tree in expressions_in(part)]
     if not any(operation_count(tree) > LONG for tree in trees):
         return None
     names = _Abbreviations(trees, taken)
     return names if names.where else None
-
-
-def _trees(section: object) -> Iterator[Expression]:
-    found: list[Expression] = []
-
-    def keep(node: Expression) -> Expression:
-        found.append(node)
-        return node
-
-    rewritten(section, keep)
-    yield from found
 
 
 class _Abbreviations:
@@ -287,14 +276,14 @@ def written_out(answers: Answers) -> Answers:
     sizes: dict[str, int] = {}
     for name, node in answers.where.items():
         sizes[name] = _size(node, sizes)
-    total = sum(_size(tree, sizes) for s in answers.sections.values() for tree in _trees(s))
+    total = sum(_size(tree, sizes) for s in answers.sections.values() for tree in expressions_in(s))
     if total > MOST_OPERATIONS:
         sentence = f"written out, the formulas would show {total:,} operations: abbreviated"
         return replace(answers, warnings=(*answers.warnings, sentence))
     whole: dict[str, Expression] = {}
     for name, node in answers.where.items():
-        whole[name] = _put_in(node, whole)
-    sections = rewritten(answers.sections, lambda node: _put_in(node, whole))
+        whole[name] = substituted(node, whole)
+    sections = substituted(answers.sections, whole)
     return replace(answers, sections=sections, where={})
 
 
@@ -304,9 +293,3 @@ def _size(node: Expression, sizes: Mapping[str, int]) -> int:
         sizes.get(part.name, 0) if isinstance(part, Name) else max(len(children(part)) - 1, 1)
         for part in postorder(node)
     )
-
-
-def _put_in(node: Expression, whole: Mapping[str, Expression]) -> Expression:
-    if isinstance(node, Name) and not node.primes and node.name in whole:
-        return whole[node.name]
-    return rebuilt(node, lambda part: _put_in(part, whole))

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
 from typing import Any, TypeVar, cast
 
-from lagcli.expression import Expression
+from lagcli.expression import Expression, Name
 
 Value = TypeVar("Value")
 
@@ -19,6 +19,22 @@ def rewritten(value: Value, rewrite: Callable[[Expression], Expression]) -> Valu
     return cast(Value, _rewritten(value, rewrite))
 
 
+def expressions_in(value: object) -> Iterator[Expression]:
+    """The outermost expressions in a value, in order."""
+    parts: Iterable[object] = ()
+    match value:
+        case Expression():
+            yield value
+        case tuple() | list():
+            parts = value
+        case Mapping():
+            parts = value.values()
+        case _ if is_dataclass(value):
+            parts = (getattr(value, each.name) for each in fields(value))
+    for part in parts:
+        yield from expressions_in(part)
+
+
 def rebuilt(node: Expression, rewrite: Callable[[Expression], Expression]) -> Expression:
     """The node with `rewrite` applied to its direct parts."""
     return cast(Expression, _with_fields(node, rewrite))
@@ -27,6 +43,17 @@ def rebuilt(node: Expression, rewrite: Callable[[Expression], Expression]) -> Ex
 def put_in(node: Expression, whole: Mapping[Expression, Expression]) -> Expression:
     """The tree with other trees for some of its parts."""
     return whole[node] if node in whole else rebuilt(node, lambda part: put_in(part, whole))
+
+
+def substituted(value: Value, values: Mapping[str, Expression]) -> Value:
+    """A tree, or anything that holds trees, with values in place of those names."""
+
+    def with_values(node: Expression) -> Expression:
+        if isinstance(node, Name):
+            return values.get(node.name, node)
+        return rebuilt(node, with_values)
+
+    return rewritten(value, with_values)
 
 
 def _rewritten(value: Any, rewrite: Callable[[Expression], Expression]) -> Any:

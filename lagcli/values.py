@@ -22,7 +22,7 @@ from lagcli.expression import (
 )
 from lagcli.notation.decimals import number
 from lagcli.problem_data import Parameter, Problem, Question, Rewrite
-from lagcli.rewriting import rebuilt, rewritten
+from lagcli.rewriting import expressions_in, rebuilt, substituted
 
 #: Beside the terms of a constraint, a residual that is rounding.
 _ROUNDED = 1e-9
@@ -117,17 +117,6 @@ def off_constraints(problem: Problem) -> list[Diagnostic]:
     return found
 
 
-def substituted(value: Value, values: Values) -> Value:
-    """A tree, or anything that holds trees, with values in place of those names."""
-
-    def put_in(node: Expression) -> Expression:
-        if isinstance(node, Name):
-            return values.get(node.name, node)
-        return rebuilt(node, put_in)
-
-    return rewritten(value, put_in)
-
-
 def _question(question: Question, values: Values) -> Question:
     """The question with values in it; what it is put in terms of keeps only names."""
     changed = substituted(question, values)
@@ -153,14 +142,8 @@ def _unknowns(problem: Problem, names: Collection[str]) -> list[Diagnostic]:
 
 
 def _differentiated_by(problem: Problem) -> set[str]:
-    names: set[str] = set()
-
-    def look(node: Expression) -> Expression:
-        names.update(part.variable.name for part in walk(node) if isinstance(part, Diff))
-        return node
-
-    rewritten(problem, look)
-    return names
+    parts = (part for tree in expressions_in(problem) for part in walk(tree))
+    return {part.variable.name for part in parts if isinstance(part, Diff)}
 
 
 def _resolved(values: Values) -> dict[str, Expression]:
@@ -198,22 +181,18 @@ def _wrong_number(parameter: Parameter, formula: Expression) -> Diagnostic | Non
 
 def _undefined(before: Problem, after: Problem) -> list[Diagnostic]:
     """Divisions by zero that the values have made; the file alone has none of them."""
-    places: list[Expression] = []
-
-    def look(node: Expression) -> Expression:
-        for part in walk(node):
-            match part:
-                case Quotient(denominator=below) if _is_zero(below):
-                    places.append(part)
-                case Power(base=base, exponent=exponent) if _is_zero(base):
-                    places.extend([part] if _is_negative(exponent) else [])
-                case _:
-                    pass
-        return node
-
-    rewritten(replace(after, expect=before.expect), look)
-    spans = sorted({place.span for place in places})
+    trees = expressions_in(replace(after, expect=before.expect))
+    spans = sorted({part.span for tree in trees for part in walk(tree) if _divides_by_zero(part)})
     return [Diagnostic("with these values something is divided by zero", span) for span in spans]
+
+
+def _divides_by_zero(node: Expression) -> bool:
+    match node:
+        case Quotient(denominator=below):
+            return _is_zero(below)
+        case Power(base=base, exponent=exponent):
+            return _is_zero(base) and _is_negative(exponent)
+    return False
 
 
 def _is_zero(node: Expression) -> bool:

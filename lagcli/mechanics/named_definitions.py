@@ -12,11 +12,10 @@ from lagcli.algebra.generic_rank import has_full_rank
 from lagcli.algebra.signs import sign
 from lagcli.expression import Call, Expression, Name, Number, Power, walk
 from lagcli.notation.factors import half_of
-from lagcli.notation.given_formulas import expressions
 from lagcli.notation.likeness import Polynomial, multiplied_out
 from lagcli.problem_data import Assumption, Parameter, Problem
 from lagcli.record import replace
-from lagcli.rewriting import rebuilt
+from lagcli.rewriting import expressions_in, rebuilt
 
 _ASIDE = ("source", "definitions", "parameters", "coordinates", "functions", "expect", "named",
           "simulation", "picture")  # fmt: skip
@@ -55,7 +54,7 @@ def _is_constant(problem: Problem, name: str) -> bool:
 def _used(problem: Problem, chosen: tuple[str, ...]) -> set[str]:
     """The names in the formulas of the file, the other definitions written out."""
     fields = (n for n in type(problem).__dataclass_fields__ if n not in _ASIDE)
-    left = [node for n in fields for node in expressions(getattr(problem, n))]
+    left = [node for n in fields for node in expressions_in(getattr(problem, n))]
     found: set[str] = set()
     while left:
         for part in walk(left.pop()):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from itertools import combinations
 
@@ -19,6 +19,7 @@ from lagcli.expression import (
 from lagcli.notation.naming import Names
 from lagcli.notation.ordering import bases
 from lagcli.problem_data import Problem
+from lagcli.rewriting import expressions_in
 
 _PARTS = (
     "definitions", "points", "kinetic", "potential", "lagrangian", "hamiltonian", "forces",
@@ -31,25 +32,10 @@ _DECIMAL = re.compile(r"(?<![\w.])(\d+\.\d*|\.\d+)(?![\w.])")
 def given(problem: Problem) -> Iterator[Expression]:
     """The formulas of the file that say what the system is."""
     for name in _PARTS:
-        yield from expressions(getattr(problem, name))
+        yield from expressions_in(getattr(problem, name))
     for constraint in problem.constraints:
         left, right = constraint.equation.left, constraint.equation.right
         yield from (left, right)
-
-
-def expressions(value: object) -> Iterator[Expression]:
-    """The outermost formulas in a value: a map, a tuple, a record."""
-    if isinstance(value, Expression):
-        yield value
-    elif isinstance(value, Mapping):
-        for part in value.values():
-            yield from expressions(part)
-    elif isinstance(value, tuple):
-        for part in value:
-            yield from expressions(part)
-    elif hasattr(value, "__match_args__") or hasattr(type(value), "__dataclass_fields__"):
-        for name in getattr(type(value), "__dataclass_fields__", ()):
-            yield from expressions(getattr(value, name))
 
 
 def order_of_names(problem: Problem) -> tuple[str, ...]:
@@ -106,7 +92,7 @@ def decimals_of(problem: Problem, settings: Iterable[str] = ()) -> list[Fraction
     """The values that the formulas of the file, or settings, write with a decimal point."""
     lines = problem.source.text.splitlines()
     found = []
-    state = set(map(id, expressions(problem.initial)))
+    state = set(map(id, expressions_in(problem.initial)))
     for node in given(problem):
         for part in walk(node):
             if id(node) in state:

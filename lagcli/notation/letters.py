@@ -7,7 +7,7 @@ uses one for itself, ours gets the index "sys" (L_sys), and a sentence says the 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection
 from dataclasses import fields, is_dataclass
 from typing import Any, TypeVar, cast
 from unicodedata import normalize
@@ -16,7 +16,7 @@ from lagcli.document import Items, Label, Paragraph
 from lagcli.expression import FUNCTIONS, Call, Expression, Name, PartialCall, Sum, walk
 from lagcli.notation.naming import INDEX, free
 from lagcli.record import replace
-from lagcli.rewriting import rebuilt
+from lagcli.rewriting import expressions_in, rebuilt
 
 Page = TypeVar("Page")
 
@@ -45,22 +45,9 @@ def own(letter: str, primes: int = 0) -> Name:
 
 def names_in(value: object) -> set[str]:
     """The names and functions that the formulas of a value use."""
-    if isinstance(value, Expression):
-        found = set()
-        for part in walk(value):
-            if isinstance(part, Name):
-                found.add(part.name)
-            elif isinstance(part, (Call, PartialCall)) and part.function not in FUNCTIONS:
-                found.add(part.function)
-        return found
-    parts: Any = ()
-    if isinstance(value, Mapping):
-        parts = value.values()
-    elif isinstance(value, (tuple, list)):
-        parts = value
-    elif is_dataclass(value):
-        parts = (getattr(value, each.name) for each in fields(value))
-    return {name for part in parts for name in names_in(part)}
+    parts = [part for tree in expressions_in(value) for part in walk(tree)]
+    called = {part.function for part in parts if isinstance(part, (Call, PartialCall))}
+    return {part.name for part in parts if isinstance(part, Name)} | called - FUNCTIONS.keys()
 
 
 def settled(page: Page, taken: Collection[str]) -> Page:

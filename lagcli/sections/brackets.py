@@ -11,11 +11,11 @@ from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.reader.phase_space import BRACKETED
 from lagcli.reader.shapes import formula, of_known
+from lagcli.rewriting import substituted
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.phase_space import BracketsSection
-from lagcli.values import substituted
 
 if TYPE_CHECKING:
     from lagcli.mechanics.phase_space_statements import PhaseSpaceStatements

@@ -9,10 +9,11 @@ from lagcli.expression import Equation
 from lagcli.formatters.grammar import equation_to_grammar, to_grammar
 from lagcli.mechanics.verify import disjunction
 from lagcli.problem_data import ExpectAlgebra, ExpectSpecial
+from lagcli.rewriting import substituted
 from lagcli.statements.answers import AlgebraSection, SpecialValue
 from lagcli.studies.check.comparison import Comparison
 from lagcli.studies.check.findings import Judged
-from lagcli.values import Values, substituted
+from lagcli.values import Values
 
 if TYPE_CHECKING:
     from lagcli.studies.check.expectations import Expectations

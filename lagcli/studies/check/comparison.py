@@ -15,7 +15,8 @@ from lagcli.expression import Expression, Negative, Number
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.states import Contradiction, RandomStates
 from lagcli.problem_data import Parameter, Problem
-from lagcli.values import substituted, with_values_of
+from lagcli.rewriting import substituted
+from lagcli.values import with_values_of
 
 _STATES = 5
 _EQUAL = mpf(10) ** -(DIGITS - 15)
