@@ -35,9 +35,6 @@ def minimal(derivation: Derivation, *, rolling: bool = False) -> Derivation:
     system, constraints = derivation.system, derivation.dynamics.constraints
     kept_constraints = [e for e in constraints.equations if not e.holonomic]
     if kept_constraints and not rolling:
-        problem = derivation.problem
-        if problem.contacts or any(c.holds_while is not None for c in problem.constraints):
-            return derivation
         return integrated(minimal(derivation, rolling=True)) or derivation
     relations = constraints.relations
     if relations is None or relations.remaining:

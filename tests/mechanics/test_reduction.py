@@ -136,6 +136,26 @@ constraints: {{rolling: "d*phi' = {sign}r*psi'"}}
     assert turned.one_freedom is None
 
 
+@pytest.mark.parametrize("inertia", ["1", "2/5", "1/2"])
+def test_a_rolling_constraint_is_put_in_beside_a_contact(inertia):
+    """A body rolls off a cylinder: Goldstein, Poole, Safko, chapter 2, problem 14."""
+    section, missing = reduced(f"""
+coordinates: [theta, psi, r]
+parameters: {{m: POSITIVE, g: POSITIVE, R: POSITIVE, a: POSITIVE}}
+T: m*(r'^2 + r^2*theta'^2)/2 + {inertia}*m*a^2*psi'^2/2
+V: m*g*r*cos(theta)
+constraints:
+  touch: {{equation: r = R + a, multiplier: N, holds_while: N >= 0}}
+  roll: {{equation: "a*psi' = (R + a)*theta'", multiplier: F}}
+""")
+    assert not missing
+    assert section.eliminated == ("psi", "r")
+    assert same(
+        section.routhian, f"m*(1 + {inertia})*(R + a)^2*theta'^2/2 - m*g*(R + a)*cos(theta)"
+    )
+    assert section.one_freedom is not None
+
+
 def test_a_constraint_that_does_not_touch_the_cyclic_coordinate_stays():
     section, _ = reduced("""
 coordinates: [x, y, z]

@@ -251,8 +251,5 @@ def test_letters_with_one_fractional_exponent_have_it_together(V: str, written: 
 
 def test_a_whole_number_goes_under_the_root() -> None:
     """φ' = √(3 g/(2 l cos θ)) of a rod, not √(6 g/(l cos θ))/2."""
-    physics = (
-        "T: m*l^2*(x'^2 + y'^2*sin(x)^2)/6 + J*y'^2/2\n"
-        "V: -m*g*l*cos(x)/2"
-    )
+    physics = "T: m*l^2*(x'^2 + y'^2*sin(x)^2)/6 + J*y'^2/2\nV: -m*g*l*cos(x)/2"
     assert "ẏ   = √(3 g/(2 l cos(x)))" in text("x, y", "m l g J", physics, "steady_motions")
