@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import groupby
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Label, Paragraph, Row
-from lagcli.expression import Expression, Number, Power
+from lagcli.expression import Expression, Negative, Number, PlusMinus, Power, Product, Sum
 from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
 from lagcli.notation.letters import own
 from lagcli.problem_data import Expect
@@ -34,6 +35,8 @@ def derive(statements: Statements) -> ModesSection:
     section = modes(statements.dynamics)
     if section.modes is None:
         statements.lacks("the normal modes", section.reason)
+    if section.unshaped:
+        statements.lacks("the shapes of some normal modes")
     return section
 
 
@@ -54,12 +57,15 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
         several = [(at, modes[0].on) for at, _ in states]
         one = len(several) == 1 and modes[0].on is None and not is_pair(several[0][0])
         place = "equilibrium" if one else "equilibria"
-        what = "frequencies and shapes" if any(mode.shape for mode in modes) else "frequencies"
-        yield from alike_blocks(several, f"Angular {what} about the {place} ")
+        what = "Angular frequencies" + " and shapes" * any(mode.shape for mode in modes)
+        if modes[0].damped:
+            what = "Exponents s of exp(s t)"
+        yield from alike_blocks(several, f"{what} about the {place} ")
         for mode in modes_in_pairs(modes):
             if rows := tuple(_mode(mode)):
                 yield Equations(rows)
-            else:
+            open_ = len(mode.exponents) < 2 * mode.multiplicity and mode.decay is None
+            if not rows or (mode.damped and open_):
                 yield Paragraph((_without_rows(mode),))
             if mode.shaped_where:
                 yield Paragraph(("where ", *conditions(mode.shaped_where), "."))
@@ -84,7 +90,14 @@ _NO_OSCILLATION = {True: "negative: no oscillation", False: _WHERE_REAL}
 
 def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
     note = f"{mode.multiplicity} times" if mode.multiplicity > 1 else ""
-    omega = own("omega")
+    omega, delta = own("omega"), own("delta")
+    for exponent, count in Counter(mode.exponents).items():
+        yield Row(own("s"), exponent, f"{count} times" if count > 1 else "")
+    if mode.decay is not None:
+        imaginary = PlusMinus(Product((own("i"), omega)))
+        yield Row(own("s"), Sum((Negative(delta), imaginary)), note)
+        yield Row(delta, mode.decay)
+        note = ""
     if mode.frequency is not None:
         yield Row(omega, mode.frequency, _WHERE_REAL if mode.open_sign else note)
     elif mode.frequency_squared is not None:
@@ -96,7 +109,8 @@ def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
 def _without_rows(mode: ModesOfFrequency) -> str:
     """What is said of frequencies that are no formulas."""
     if mode.damped:
-        return "Exponents s of exp(s t) take the place of frequencies (lagcli explain)."
+        others = "the others" if mode.exponents else "them"
+        return f"No closed form was found for {others}: lagcli explain has their equation."
     if mode.negative:
         return "No other root ω² is real and positive: the amplitudes of some displacements grow."
     count = "one frequency" if mode.multiplicity == 1 else f"{mode.multiplicity} frequencies"
@@ -115,6 +129,8 @@ def json(section: ModesSection) -> Object:
 
 def _mode_json(mode: ModesOfFrequency) -> Object:
     result = place(mode.at, mode.on) | fields_of(mode, "frequency")
+    if mode.damped:
+        result |= fields_of(mode, "decay exponents")
     if mode.frequency is None:
         result |= fields_of(mode, "frequency_squared")
     names = "shape more_shapes multiplicity" if mode.more_shapes else "shape multiplicity"

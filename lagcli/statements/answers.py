@@ -269,7 +269,8 @@ class ModesOfFrequency:
     some values; both are None where they have no closed form, or are `damped`.  The displacements
     of one frequency are the combinations of `shape` and of `more_shapes`.  One-sided contacts in
     `open` do not act; `kinked`: a kink of V holds the others.  `open_sign`: `frequency` is real for
-    some values of the parameters only; `shaped_where`: the shapes have a value there.
+    some values of the parameters only; `shaped_where`: the shapes have a value there.  Where they
+    are `damped`, the exponents of exp(s t) are -`decay` ± i `frequency`, or the real `exponents`.
     """
 
     at: Mapping[str, Expression]
@@ -285,18 +286,22 @@ class ModesOfFrequency:
     kinked: bool = False
     open_sign: bool = False
     shaped_where: tuple[Above, ...] = ()
+    decay: Expression | None = None
+    exponents: tuple[Expression, ...] = ()
 
 
 @record(kw_only=True)
 class ModesSection:
     """The normal modes; None where none was found, `reason` why there is none in either case.
 
-    `complete`: they are those about all equilibria that are not unstable.
+    `complete`: they are those about all equilibria that are not unstable; `unshaped`: the real
+    shapes of some were not found.
     """
 
     modes: tuple[ModesOfFrequency, ...] | None
     reason: str = ""
     complete: bool = True
+    unshaped: bool = False
 
 
 @record(kw_only=True)

@@ -96,16 +96,25 @@ def modes_in_pairs(modes: Iterable[ModesOfFrequency]) -> list[ModesOfFrequency]:
 
 def _one_mode(one: ModesOfFrequency, other: ModesOfFrequency) -> ModesOfFrequency | None:
     root = "frequency_squared" if one.frequency is None else "frequency"
-    like = {name: getattr(one, name) for name in ("frequency", "frequency_squared", "shape")}
+    rates = [each.decay for each in (one, other)]
+    like = {
+        name: getattr(one, name) for name in ("frequency", "frequency_squared", "shape", "decay")
+    }
     roots, shapes = (getattr(one, root), getattr(other, root)), (one.shape or {}, other.shape or {})
     if replace(other, **like) != one or None in roots or list(shapes[0]) != list(shapes[1]):
         return None
-    formulas = ((value, *shape.values()) for value, shape in zip(roots, shapes, strict=True))
-    both = joined(*formulas)
+    if (None in rates) != (rates == [None, None]):
+        return None
+    first, second = (
+        (value, *([rate] if rate else []), *shape.values())
+        for value, rate, shape in zip(roots, rates, shapes, strict=True)
+    )
+    both = joined(first, second)
     if both is None:
         return None
+    decay = both.pop(1) if one.decay is not None else None
     shape = one.shape and dict(zip(one.shape, both[1:], strict=True))
-    return replace(one, **{root: both[0]}, shape=shape)
+    return replace(one, **{root: both[0]}, shape=shape, decay=decay)
 
 
 def joined(one: Sequence[Expression], other: Sequence[Expression]) -> list[Expression] | None:

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from random import Random
+
+import numpy as np
 import pytest
 import sympy
 from mpmath import mpf
 from sympy import Expr, Matrix, acos
 
 import lagcli
+from lagcli.evaluation import FUNCTIONS, evaluated
+from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
@@ -27,6 +32,10 @@ def frequencies(text: str) -> list[Expr | None]:
     found = modes(dynamics(text)).modes
     assert found is not None
     return [normal(m.frequency) for m in found]
+
+
+def value(tree: Expression) -> float:
+    return float(evaluated(tree, {}, FUNCTIONS))
 
 
 def shapes(text: str) -> list[list[Expr | None]]:
@@ -231,7 +240,8 @@ V: m*g*l*(3*a^2 + 2*b^2 + c^2)/2
     assert all(f is not None and f.has(acos) for f in found)
 
 
-def test_a_damped_oscillator_is_stable_and_has_no_real_frequency():
+def test_a_damped_oscillator_is_stable_and_has_its_exponents():
+    """Landau and Lifshitz, section 25: exp(-c t/2m) and the root of k/m - c^2/4m^2."""
     text = """
 coordinates: [x]
 parameters: {m: POSITIVE, k: POSITIVE, c: POSITIVE}
@@ -240,7 +250,41 @@ V: k*x^2/2
 dissipation: c*x'^2/2
 """
     assert rest_states(text) == {("0",): True}
-    assert frequencies(text) == [None]
+    [mode] = modes(dynamics(text)).modes or ()
+    assert mode.damped
+    assert mode.open_sign
+    assert [to_grammar(mode.decay), to_grammar(mode.frequency)] == [
+        "c/(2*m)",
+        "sqrt(k/m - c^2/(4*m^2))",
+    ]
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_exponents_of_damped_systems_are_eigenvalues(seed):
+    """det(K + s C + s² M) = 0 of two like oscillators that are coupled, in numbers."""
+    random = Random(seed)
+    m, k, c = (random.randint(1, 9) for _ in range(3))
+    n, j, d = (random.randint(1, m), random.randint(0, k), random.randint(0, 20))
+    text = f"""
+coordinates: [x, y]
+T: {2 * m}*(x'^2 + y'^2)/2 + {n}*x'*y'
+V: {k}*(x^2 + y^2)/2 + {j}*(x - y)^2/2
+dissipation: {c}*(x'^2 + y'^2)/2 + {d}*(x' - y')^2/2
+"""
+    found: list[complex] = []
+    for mode in modes(dynamics(text)).modes or ():
+        found += [complex(value(each)) for each in mode.exponents]
+        if mode.decay is not None:
+            decay, frequency = value(mode.decay), value(mode.frequency)
+            found += [-decay + 1j * frequency, -decay - 1j * frequency] * mode.multiplicity
+    M = np.array([[2 * m, n], [n, 2 * m]])
+    K, C = (np.array([[a + b, -b], [-b, a + b]]) for a, b in ((k, j), (c, d)))
+    zero, one = np.zeros((2, 2)), np.eye(2)
+    inverse = np.linalg.inv(M)
+    expected = np.linalg.eigvals(np.block([[zero, one], [-inverse @ K, -inverse @ C]]))
+    assert len(found) == 4
+    for s in found:
+        assert min(abs(s - each) for each in expected) < 1e-6
 
 
 def test_equal_frequencies_are_one_entry():

@@ -73,7 +73,7 @@ def _near(explainer: Explainer, place: Place, modes: Sequence[ModesOfFrequency])
     """The linear equations and their solutions."""
     yield from _linear(explainer, place)
     if place.characteristic.in_square is None:
-        yield from _damped(explainer, place)
+        yield from _damped(explainer, modes, place)
     else:
         yield from _undamped(explainer, modes, place)
 
@@ -164,7 +164,9 @@ def _amplitudes(shape: Mapping[str, Expression]) -> Equations:
 # -- with damping --------------------------------------------------------------------------------
 
 
-def _damped(explainer: Explainer, place: Place) -> Iterator[Block]:
+def _damped(
+    explainer: Explainer, modes: Sequence[ModesOfFrequency], place: Place
+) -> Iterator[Block]:
     """det(K + s C + s^2 M) = 0 with odd powers of s."""
     s = explainer.letters.free("s")
     M, C, K = (Label(letter, matrix=True) for letter in "MCK")
@@ -172,7 +174,8 @@ def _damped(explainer: Explainer, place: Place) -> Iterator[Block]:
     yield says("A motion proportional to exp(", s, " t) needs the determinant of ", form,
                " to vanish.")  # fmt: skip
     if len(place.linear.M) == 1:
-        yield from _one(explainer, *(matrix[0][0] for matrix in place.matrices))
+        M, C, K = (matrix[0][0] for matrix in place.matrices)
+        yield from _one(explainer, modes, M, C, K)
         return
     powers = place.characteristic.in_s
     if powers is None:
@@ -189,9 +192,28 @@ def _damped(explainer: Explainer, place: Place) -> Iterator[Block]:
     if operation_count(written) <= _LONG:
         yield says("This gives")
         yield vanishing((written,))
+    lead = "Its roots are "
+    for mode in modes_in_pairs(modes):
+        if mode.decay is not None and mode.frequency is not None:
+            yield from _decaying(explainer, lead, mode.decay, mode.frequency)
+            lead = "and "
+        if mode.exponents:
+            yield says(lead.strip())
+            yield equations_of((s, exponent) for exponent in dict.fromkeys(mode.exponents))
+            lead = "and "
 
 
-def _one(explainer: Explainer, M: Expr, C: Expr, K: Expr) -> Iterator[Block]:
+def _decaying(
+    explainer: Explainer, lead: str, decay: Expression, frequency: Expression
+) -> Iterator[Block]:
+    s, omega, delta = (explainer.letters.free(name) for name in ("s", "omega", "delta"))
+    yield says(lead, s, " = −", delta, " ± i ", omega, " with")
+    yield Equations((Row(delta, decay), Row(omega, frequency)))
+
+
+def _one(
+    explainer: Explainer, modes: Sequence[ModesOfFrequency], M: Expr, C: Expr, K: Expr
+) -> Iterator[Block]:
     """s = -delta +- i sqrt(K/M - delta^2) with delta = C/(2 M), and its three cases."""
     free, write = explainer.letters.free, explainer.readable.as_written
     s, omega, delta = free("s"), free("omega"), free("delta")
@@ -200,13 +222,9 @@ def _one(explainer: Explainer, M: Expr, C: Expr, K: Expr) -> Iterator[Block]:
         yield says("Its roots are 0 and")
         yield shows(s, write(-2 * rate))
         return
-    yield says("Its roots are ", s, " = −", delta, " ± i ", omega, " with")
-    yield Equations(
-        (
-            Row(delta, write(rate)),
-            Row(omega, Call("sqrt", (difference(write(square), write(rate**2)),))),
-        )
-    )
+    frequency: Expression = Call("sqrt", (difference(write(square), write(rate**2)),))
+    frequency = next((m.frequency for m in modes if m.decay and m.frequency), frequency)
+    yield from _decaying(explainer, "Its roots are ", write(rate), frequency)
     signs = [sign(x) for x in (M, C, K)]
     if signs not in ([1, 1, 1], [1, -1, 1]):
         return

@@ -11,6 +11,7 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import nullspace, simplify
 from lagcli.algebra.decimals import decimal, is_decimal
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.positivity import sign_of, weak_sign, without_moduli
 from lagcli.algebra.signs import sign
@@ -31,7 +32,8 @@ class NormalMode:
     """`square` is omega^2; `frequency` None where it is not real, no `shapes` where complex.
 
     `negative`: the square is, for all values, or is not real; `open_sign`: for some.  Both are
-    None, without shapes, for a frequency that was not found, or is `damped`.
+    None, without shapes, for a frequency that was not found, or is `damped`: then the exponents of
+    exp(s t) are s = -decay ± i sqrt(square - decay²), or real ones.
     """
 
     square: Expr | None
@@ -41,13 +43,15 @@ class NormalMode:
     negative: bool = False
     damped: bool = False
     open_sign: bool = False
+    decay: Expr | None = None
+    exponents: tuple[Expr, ...] = ()
 
 
 def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[NormalMode]:
     """The modes by rising frequency; none where no square is real."""
     factors = characteristic.squares
     if factors is None:
-        return [NormalMode(None, None, (), len(linear.M), damped=True)]
+        return _damped(linear, characteristic)
     chosen = choices(linear)
     values = chosen[0]
     modes: list[NormalMode] = []
@@ -89,6 +93,38 @@ def normal_modes(linear: Linearization, characteristic: Characteristic) -> list[
     modes.sort(key=lambda mode: _number(mode.square, values))
     if unknown and (modes or not complex_):
         modes.append(NormalMode(None, None, (), unknown, complex_))
+    return modes
+
+
+def _damped(linear: Linearization, characteristic: Characteristic) -> list[NormalMode]:
+    """By factors of det(K + s C + s² M): the roots of quadratic and of linear ones."""
+    s, left = Symbol("#s", real=True), len(linear.M)
+    powers = characteristic.in_s or [S.One]
+    whole = simplify(sympy.Add(*(c * s**k for k, c in enumerate(powers))))
+    modes: list[NormalMode] = []
+    exponents: list[Expr] = []
+    bases = (factor.as_base_exp() for factor in sympy.Mul.make_args(whole))
+    factors = ((f, k * int(e)) for base, e in bases if e.is_Integer for f, k in factors_of(base))
+    for factor, power in sorted(factors, key=lambda pair: str(pair[0])):
+        coefficients = [simplify(c) for c in sympy.Poly(factor, s).all_coeffs()]
+        if len(coefficients) == 2:
+            exponents += [simplify(-coefficients[1] / coefficients[0])] * power
+        if len(coefficients) != 3:
+            continue
+        leading, linear_, constant = coefficients
+        decay = simplify(linear_ / (2 * leading))
+        square = constant / leading - decay**2
+        known = sign(simplify(square))
+        if known == 1 or known is None:
+            left -= power
+            turns = {"damped": True, "open_sign": known is None, "decay": decay}
+            modes.append(NormalMode(simplify(constant / leading), None, (), power, **turns))
+        else:
+            root = sympy.sqrt(simplify(-square))
+            exponents += [simplify(side * root - decay) for side in (1, -1)] * power
+    if left:
+        alone = tuple(exponents)
+        modes.append(NormalMode(None, None, (), left, damped=True, exponents=alone))
     return modes
 
 

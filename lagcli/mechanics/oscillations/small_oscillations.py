@@ -17,7 +17,7 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import combinations
 
-from sympy import Expr, I, S, Symbol, im
+from sympy import Expr, I, S, Symbol, acos, im
 
 from lagcli.algebra import dot, is_zero
 from lagcli.algebra.conjugate_roots import with_number_turned, without_root_below
@@ -26,7 +26,7 @@ from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of, vanishing_part
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import fraction
-from lagcli.expression import Expression, Power, Quotient, length, walk
+from lagcli.expression import ZERO, Call, Expression, Power, Quotient, length, sum_of, walk
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.oscillations.discriminant import Discriminant, Rewrite
@@ -120,7 +120,8 @@ def modes(dynamics: Dynamics) -> ModesSection:
     if not found:
         reason = _why_none(chosen)
         return ModesSection(modes=() if reason == _NO_OSCILLATION else None, reason=reason)
-    return ModesSection(modes=tuple(found), complete=oscillations.complete)
+    unshaped = any(place.unshaped for place in chosen)
+    return ModesSection(modes=tuple(found), complete=oscillations.complete, unshaped=unshaped)
 
 
 def _why_none(places: Sequence[Place]) -> str:
@@ -245,6 +246,14 @@ class Place:
         except ZeroDivisionError:
             return []
 
+    @property
+    def unshaped(self) -> bool:
+        """Whether the shape of a mode is real and was not found."""
+        if self.linear.gyroscopic:
+            return False
+        known = (mode for mode in self.modes if mode.square is not None and not mode.damped)
+        return any(not mode.shapes and not mode.square.has(acos) for mode in known if mode.square)
+
 
 class SmallOscillations:
     """Equilibria and modes as statements."""
@@ -318,8 +327,12 @@ class SmallOscillations:
             ModesOfFrequency(
                 at=self._at(place.point),
                 on=relation_sides(place.point, self.system.q, self.system.order),
-                frequency=alike.get(k) or self._tree_or_none(mode.frequency, known),
-                frequency_squared=self._tree_or_none(mode.square, known),
+                frequency=self._below_damping(mode)
+                or alike.get(k)
+                or self._tree_or_none(mode.frequency, known),
+                frequency_squared=None if mode.damped else self._tree_or_none(mode.square, known),
+                decay=None if mode.decay is None else self._tree(mode.decay),
+                exponents=tuple(map(self._tree, mode.exponents)),
                 shape=self._shape(mode.shapes[0], known) if mode.shapes else None,
                 more_shapes=tuple(self._shape(each, known) for each in mode.shapes[1:]),
                 multiplicity=mode.multiplicity,
@@ -327,7 +340,7 @@ class SmallOscillations:
                 damped=mode.damped,
                 open=place.held.open,
                 kinked=place.held.kinked,
-                open_sign=mode.open_sign and place.verdict.stable is not True,
+                open_sign=mode.open_sign and (mode.damped or place.verdict.stable is not True),
                 shaped_where=conditions(
                     [d**2 for shape in mode.shapes for d in infinite_where(shape)],
                     self.system.order,
@@ -336,6 +349,13 @@ class SmallOscillations:
             )
             for k, mode in enumerate(place.modes)
         ]
+
+    def _below_damping(self, mode: NormalMode) -> Expression | None:
+        """sqrt(k/m - c²/(4 m²)), the frequency without damping and the decay in their shapes."""
+        if mode.decay is None or mode.square is None:
+            return None
+        parts = [self._tree(mode.square), self._tree(-(mode.decay**2))]
+        return Call("sqrt", (sum_of(part for part in parts if part != ZERO),))
 
     def _alike(self, modes: Sequence[NormalMode]) -> dict[int, Expression]:
         """The frequencies that differ in the sign of sqrt(2) or of another number's root."""

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import cmath
 from collections.abc import Sequence
 
 from flint import arb, ctx
 
+from lagcli.expression import Call
 from lagcli.record import replace
 from lagcli.statements.answers import ModesOfFrequency, ModesSection
 from lagcli.verification.claims.near import NOTHING, LinearMotion, occur
@@ -23,6 +25,8 @@ from lagcli.verification.linear import Unclear, rank
 
 #: Relative differences of eigenvalues: those of multiplicity 2 are right to 1e-19.
 _AGREE = 1e-9
+#: The same of exponents: where two are equal, each is right to the root of what its square is.
+_EXPONENT = 1e-7
 #: The residual of a place that is an equilibrium for the values drawn; decimals leave 1e-15.
 _STAYS = 1e-8
 
@@ -96,6 +100,8 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
     flat = x.places(what, [shape[n] for shape in shapes for n in x.reference.names])
     if not place.readable or square is None or frequency is None or flat is None:
         return False
+    if mode.damped:
+        return _decays_so(x, what, place, mode)
     size = len(x.reference.names)
     real: list[bool] = []  # at each state
     for near in place.states():
@@ -122,6 +128,35 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
     if frequency and not mode.open_sign and real and not any(real):
         x.refute(what, "a frequency is nowhere real")
         return False
+    return True
+
+
+def _decays_so(x: Examination, what: str, place: RestPlace, mode: ModesOfFrequency) -> bool:
+    """Whether s = -decay ± sqrt(decay² - natural²), and the real s, are exponents."""
+    pair = mode.decay, mode.frequency.arguments[0] if isinstance(mode.frequency, Call) else None
+    complex_ = x.places(what, [f for f in pair if f is not None])
+    real = x.places(what, list(mode.exponents))
+    if complex_ is None or real is None:
+        return False
+    for near in place.states():
+        if not (near.defined and near.regular and near.residual < _STAYS):
+            continue
+        values = [near.at(p) for p in (*complex_, *real)]
+        if not all(value.is_finite() for value in values):
+            continue
+        numbers = [float(value.mid()) for value in values]
+        wanted = [complex(s) for s in numbers[len(complex_) :]]
+        if complex_:
+            root = cmath.sqrt(-numbers[1])
+            wanted += [side * root - numbers[0] for side in (1, -1)] * mode.multiplicity
+        left = list(near.eigenvalues)
+        scale = max([1e-6, *map(abs, left)])
+        for s in wanted:
+            nearest = min(left, key=lambda z: abs(z - s), default=None)
+            if nearest is None or abs(nearest - s) > _EXPONENT * scale:
+                x.refute(what, "an exponent is not one of the linear motion near it")
+                return False
+            left.remove(nearest)
     return True
 
 
