@@ -49,6 +49,11 @@ def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
     return S.NaN if is_zero(below.xreplace(present)) is True else value
 
 
+def lies_in(family: Mapping[Symbol, Expr], values: Mapping[Symbol, Expr]) -> bool:
+    """Whether a place, or a family of places, is among those of a family."""
+    return all(is_zero(values.get(s, s) - at(v, values)) is True for s, v in family.items())
+
+
 def where_positive(expression: Expr, positive: Sequence[Expr]) -> Expr:
     """The same where these are positive: sign and modulus of what is in proportion to them."""
     known: dict[Expr, Expr] = {}

@@ -12,8 +12,7 @@ from functools import cached_property
 
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import is_zero
-from lagcli.algebra.place import at
+from lagcli.algebra.place import at, lies_in
 from lagcli.algebra.positivity import is_positive
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
@@ -81,7 +80,7 @@ class ReducedVerdict:
         if not self.cyclic:
             return None
         for each in CoincidingAxes(self._steady.routh).motions():
-            if all(is_zero(at(v, fixed) - fixed.get(s, s)) is True for s, v in each.values.items()):
+            if lies_in(each.values, fixed):
                 return replace(each, derivatives=tuple(at(d, fixed) for d in each.derivatives))
         return None
 

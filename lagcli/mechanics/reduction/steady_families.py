@@ -21,7 +21,7 @@ from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.factors import factors_of
-from lagcli.algebra.place import at
+from lagcli.algebra.place import at, lies_in
 from lagcli.algebra.positivity import deciding
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign
@@ -88,10 +88,7 @@ class SteadyFamilies:
     def _contains(self, family: Steady, one: Steady) -> bool:
         put_in = {**one.values, **{self.full.qdot[j]: v for j, v in (one.rates or {}).items()}}
         fixed = [{q: e.values.get(q, q) for q in self.system.q} for e in (family, one)]
-        return fixed[0] == fixed[1] and all(
-            is_zero(one.values.get(x, x) - at(value, put_in)) is True
-            for x, value in family.values.items()
-        )
+        return fixed[0] == fixed[1] and lies_in(family.values, put_in)
 
     def _charts(self) -> Iterator[tuple[Symbol, dict[Expr, Expr]]]:
         """What to solve for, and p_c by the rate of c where the rate is what is given."""

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from sympy import Add, Expr, Symbol, default_sort_key
 
 from lagcli.algebra import is_zero
-from lagcli.algebra.place import at
+from lagcli.algebra.place import at, lies_in
 from lagcli.algebra.vanishing_factors import divisors
 from lagcli.mechanics.rest.family import Family
 from lagcli.record import record
@@ -66,9 +66,6 @@ class Steady:
     def member_of(self, family: Steady, q: Sequence[Symbol]) -> bool:
         """Whether it is another at the same coordinates but for momenta that are free."""
         try:
-            return set(q) <= set(family.values) and all(
-                is_zero(self.values.get(s, s) - at(value, self.values)) is True
-                for s, value in family.values.items()
-            )
+            return set(q) <= set(family.values) and lies_in(family.values, self.values)
         except ZeroDivisionError:
             return False

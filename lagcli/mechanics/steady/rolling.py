@@ -27,7 +27,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant, determinant_in
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.linear import rank, solve_linear
-from lagcli.algebra.place import NO_VALUE, at
+from lagcli.algebra.place import NO_VALUE, at, lies_in
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.derivation import Derivation
@@ -379,9 +379,6 @@ def _within(one: RollingMotion, other: RollingMotion) -> bool:
     if len(one.values) < len(other.values) or not {*other.positive} <= {*one.positive}:
         return False
     try:
-        return all(
-            is_zero(one.values.get(x, x) - at(value, one.values)) is True
-            for x, value in other.values.items()
-        )
+        return lies_in(other.values, one.values)
     except ZeroDivisionError:
         return False
