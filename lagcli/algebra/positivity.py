@@ -34,7 +34,9 @@ def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
             known = _beside_zero(factor)
         if known is not None:
             direction *= known if power % 2 else 1
-        elif factor.is_Pow and factor.exp.is_Rational and not factor.exp.is_Integer:
+        elif factor.is_Pow and (
+            factor.base.is_nonnegative or (factor.exp.is_Rational and not factor.exp.is_Integer)
+        ):
             radicands += [] if sign(factor.base, positive) == 1 else [factor.base]
         elif isinstance(factor, sympy.Abs):
             nonzero[factor.args[0]] = None

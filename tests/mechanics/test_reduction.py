@@ -136,6 +136,22 @@ constraints: {{rolling: "d*phi' = {sign}r*psi'"}}
     assert turned.one_freedom is None
 
 
+@pytest.mark.parametrize("power", ["n", "n + 1", "2*n", "3"])
+def test_a_power_law_has_oscillations_about_every_circle(power):
+    """r0^(n + 2) = p^2/(m k) and T = 2 pi m r0^2/(|p| sqrt(n + 2)): Landau, Lifshitz, section 14."""
+    section, _ = reduced(f"""
+coordinates: {{r: POSITIVE, phi: {{}}}}
+parameters: {{m: POSITIVE, k: POSITIVE, n: POSITIVE}}
+T: m*(r'^2 + r^2*phi'^2)/2
+V: k*r^({power})/({power})
+""")
+    assert section.one_freedom is not None
+    [period] = section.one_freedom.periods
+    [where] = period.where
+    assert same(where.left, "p_phi^2")
+    assert same(where.right, "0")
+
+
 @pytest.mark.parametrize("inertia", ["1", "2/5", "1/2"])
 def test_a_rolling_constraint_is_put_in_beside_a_contact(inertia):
     """A body rolls off a cylinder: Goldstein, Poole, Safko, chapter 2, problem 14."""

@@ -151,7 +151,7 @@ class Periods:
             self.reason = "a derivative of U_eff jumps at its minimum, where it has no power series"
             return None
         slopes = [at(motion.potential.diff(q, k), {q: place}) for k in range(2, ORDER + 3)]
-        curvature = slopes[0]
+        curvature = min(slopes[0], 1 / simplify(1 / slopes[0]), key=sympy.count_ops)
         known = sign(curvature, point.positive)
         never = never_together((*point.positive, curvature))
         if known in (0, -1) or never:
