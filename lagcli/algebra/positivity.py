@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import sympy
@@ -161,7 +162,25 @@ def _beside_zero(factor: Expr) -> int | None:
 def sign_of(expression: Expr, positive: Sequence[Expr]) -> int | None:
     """1, -1 or 0 where it has one sign for all values; else None."""
     known = sign(expression, positive)
-    return _on_the_circle(expression, positive) if known is None else known
+    for other in (_on_the_circle, _in_roots):
+        known = other(expression, positive) if known is None else known
+    return known
+
+
+def _in_roots(expression: Expr, positive: Sequence[Expr]) -> int | None:
+    """The sign with u² for each positive letter c whose root occurs: c - d² = (u - d)(u + d)."""
+    indices: dict[Expr, list[int]] = {}
+    for power in {p for e in (expression, *positive) for p in e.atoms(sympy.Pow)}:
+        if power.base.is_Symbol and power.base.is_positive and power.exp.is_Rational:
+            indices.setdefault(power.base, []).append(int(power.exp.q))
+    put_in = {
+        letter: sympy.Dummy(letter.name, positive=True) ** math.lcm(*found)
+        for letter, found in indices.items()
+        if max(found) > 1
+    }
+    if not put_in:
+        return None
+    return sign(simplify(expression.xreplace(put_in)), [p.xreplace(put_in) for p in positive])
 
 
 def _on_the_circle(expression: Expr, positive: Sequence[Expr]) -> int | None:
