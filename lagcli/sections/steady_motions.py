@@ -32,7 +32,7 @@ from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.motions import SteadyMotion, SteadySection
-from lagcli.statements.plus_minus import once, single, unlike
+from lagcli.statements.plus_minus import single, steady_in_pairs, unlike
 from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     conditions,
@@ -85,7 +85,7 @@ def blocks(section: SteadySection, answers: Answers) -> Iterator[Block]:
     if not section.motions:
         complete, where = section.complete, section.sought
         yield none_found("steady motion", section.unless, complete=complete, where=where)
-    for number, motion in enumerate(once(section.motions), 1):
+    for number, motion in enumerate(steady_in_pairs(section.motions), 1):
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(motion)
     yield from in_moving_frames(section)

@@ -24,6 +24,7 @@ from lagcli.notation.ordering import positive_first
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt
 from lagcli.statements.answers import ModesOfFrequency
+from lagcli.statements.motions import SteadyMotion
 
 Rest = TypeVar("Rest")
 State = Mapping[str, Expression]
@@ -79,6 +80,33 @@ def is_pair(at: State) -> bool:
 
 def _has_both(node: Expression) -> bool:
     return any(isinstance(part, PlusMinus) for part in walk(node))
+
+
+def steady_in_pairs(motions: Iterable[SteadyMotion]) -> list[SteadyMotion]:
+    """The steady motions, two that differ in the sign of a root as one with ±."""
+    found: list[SteadyMotion] = []
+    for motion in motions:
+        for place, other in enumerate(found):
+            if (both := _one_motion(other, motion)) is not None:
+                found[place] = both
+                break
+        else:
+            found.append(motion)
+    return found
+
+
+def _one_motion(one: SteadyMotion, other: SteadyMotion) -> SteadyMotion | None:
+    named = [(m.at, m.rates or {}, m.momenta) for m in (one, other)]
+    like = {"at": one.at, "rates": one.rates, "momenta": one.momenta}
+    if replace(other, **like) != one or [*map(list, named[0])] != [*map(list, named[1])]:
+        return None
+    rows = [[value for part in parts for value in part.values()] for parts in named]
+    both = joined(*rows)
+    if both is None:
+        return None
+    values = iter(both)
+    at, rates, momenta = ({name: next(values) for name in part} for part in named[0])
+    return replace(one, at=at, rates=rates if one.rates is not None else None, momenta=momenta)
 
 
 def modes_in_pairs(modes: Iterable[ModesOfFrequency]) -> list[ModesOfFrequency]:

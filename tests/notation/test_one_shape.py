@@ -253,3 +253,12 @@ def test_a_whole_number_goes_under_the_root() -> None:
     """φ' = √(3 g/(2 l cos θ)) of a rod, not √(6 g/(l cos θ))/2."""
     physics = "T: m*l^2*(x'^2 + y'^2*sin(x)^2)/6 + J*y'^2/2\nV: -m*g*l*cos(x)/2"
     assert "ẏ   = √(3 g/(2 l cos(x)))" in text("x, y", "m l g J", physics, "steady_motions")
+
+
+def test_steady_motions_that_differ_in_the_sign_of_a_root_are_one() -> None:
+    """A spherical pendulum with a charge in a magnetic field: both rates at any angle."""
+    physics = "L: m*l^2*(x'^2 + y'^2*sin(x)^2)/2 + q*B*l^2*y'*sin(x)^2/2 + m*g*l*cos(x)"
+    found = text("x, y", "m l g q B", physics, "steady_motions")
+    assert "ẏ   = −q B/(2 m) ± √(" in found
+    assert "p_y = ±" in found
+    assert "Steady motion 4" not in found

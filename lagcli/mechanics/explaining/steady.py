@@ -16,7 +16,7 @@ from lagcli.mechanics.explaining.words import Part, listed, names, says
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import Section
 from lagcli.statements.motions import SteadyMotion, SteadySection
-from lagcli.statements.plus_minus import once, unlike
+from lagcli.statements.plus_minus import steady_in_pairs, unlike
 from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     POTENTIALS,
@@ -119,7 +119,7 @@ def _steady_states(explainer: Explainer, found: SteadySection) -> Iterator[Block
         return
     if not found.motions:
         yield says(_none(found))
-    for number, motion in enumerate(once(found.motions), 1):
+    for number, motion in enumerate(steady_in_pairs(found.motions), 1):
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(explainer, motion)
     yield from in_moving_frames(found)
