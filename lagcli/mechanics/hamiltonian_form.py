@@ -9,12 +9,15 @@ over everything may take fewer operations, but nobody recognises the energies in
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import simplify
+from lagcli.algebra import shape, simplify, terms
 from lagcli.algebra.build import free_of
+from lagcli.algebra.cancellation import cancelled
+from lagcli.algebra.entry import Field
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
     Expression,
@@ -24,6 +27,8 @@ from lagcli.expression import (
     length,
     operation_count,
     sum_of,
+    terms_of,
+    walk,
 )
 from lagcli.mechanics.hamiltonian import GivenHamiltonian, Hamiltonian
 from lagcli.mechanics.legendre import coupled
@@ -33,6 +38,9 @@ from lagcli.rewriting import put_in
 #: How many times the operations of one bracket over all the energies apart may take: 1.6 for
 #: a block on a movable wedge, the most that was worth it in 52 systems of textbooks.
 _APART = 1.75
+#: Operations that one fraction may have more than several with the same momenta: H of two coils,
+#: (L (p1² + p2²) - 2 M p1 p2)/(2 (L² - M²)), has one.
+_SEVERAL = 2
 #: Stands for a potential energy beside which the kinetic one is shaped.
 _OTHER = Symbol("#V", real=True)
 
@@ -55,7 +63,7 @@ def hamiltonian_form(
         return whole
     least = min(
         _apart(hamiltonian, readable),
-        key=lambda form: (has_nested_fraction(form), length(form)),
+        key=lambda form: (has_nested_fraction(form), length(form) + _spread(form, hamiltonian)),
         default=whole,
     )
     return least if operation_count(least) <= _APART * operation_count(whole) else whole
@@ -78,16 +86,16 @@ def _apart(hamiltonian: Hamiltonian, readable: Readable) -> Iterator[Expression]
     }
 
     kinetic = list(_kinetic(system.momenta, flow, readable))
-    for shape in kinetic:
-        yield writer.sum([put_in(shape, differences), rest])
+    for form in kinetic:
+        yield writer.sum([put_in(form, differences), rest])
     assert hamiltonian.function is not None
     without = hamiltonian.function.xreplace(dict.fromkeys(system.momenta, sympy.S.Zero))
     if not differences or not free_of(without, system.momenta):
         return
     quadratic = sympy.Add(*(p * v / 2 for p, v in zip(system.momenta, flow, strict=True)))
     linear = readable.as_written(simplify(hamiltonian.function - quadratic - without))
-    for shape in kinetic:
-        yield writer.sum([shape, linear, readable.by_terms(simplify(without))])
+    for form in kinetic:
+        yield writer.sum([form, linear, readable.by_terms(simplify(without))])
 
 
 def _kinetic(
@@ -97,6 +105,7 @@ def _kinetic(
     halves = [p * v / 2 for p, v in zip(momenta, flow, strict=True)]
     whole = simplify(sympy.Add(*halves))
     yield readable.as_written(whole)
+    yield _over_one(whole, momenta, readable.system.order)
     beside = readable.as_written(sympy.Add(*halves) + _OTHER)
     if isinstance(beside, Sum) and (mark := Name(_OTHER.name)) in beside.terms:
         yield sum_of(term for term in beside.terms if term != mark)
@@ -104,6 +113,25 @@ def _kinetic(
     if len(blocks) > 1:
         sums = (sympy.Add(*(halves[j] for j in block)) for block in blocks)
         yield Writer(readable.system.order).sum([readable.as_written(simplify(s)) for s in sums])
+
+
+def _spread(form: Expression, hamiltonian: Hamiltonian) -> int:
+    """What it costs that a momentum is in several fractions."""
+    found = [{n.name for n in walk(t) if isinstance(n, Name)} for t in terms_of(form)]
+    counts = (sum(p.name in names for names in found) for p in hamiltonian.system.momenta)
+    return _SEVERAL * any(count > 1 for count in counts)
+
+
+def _over_one(kinetic: Expr, momenta: Sequence[Symbol], order: Sequence[str]) -> Expression:
+    """(L (p1² + p2²) - 2 M p1 p2)/(2 (L² - M²)): its monomials over the determinant of M."""
+    field = Field([kinetic])
+    element = cancelled(field, field(kinetic))
+    above, below = (
+        field.polynomial_to_sympy(field.ring.lift(poly))
+        for poly in (element.numerator, element.denominator)
+    )
+    over = terms(above, order, {p.name for p in momenta}), Fraction(1)
+    return Writer(order).product(Fraction(1), [over, (shape(below, order), Fraction(-1))])
 
 
 def _blocks(momenta: Sequence[Symbol], flow: Sequence[Expr]) -> Iterator[list[int]]:

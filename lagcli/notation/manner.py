@@ -281,6 +281,8 @@ class Manner:
             return found < 0
         if below and (positive := _determinant(node)) is not None:
             return not positive
+        if below and (first := self._declared_first(node)) is not None:
+            return not first
         number = next((t for t in node.terms if _is_number(t)), None)
         if number is not None and (value := finite_value(node)) is not None:
             return value < 0  # sqrt(33) - 1
@@ -289,6 +291,16 @@ class Manner:
         if (momentum := self._momenta.turned(node)) is not None:
             return momentum
         return True if _all_negative(node) else None
+
+    def _declared_first(self, node: Sum) -> bool | None:
+        """Whether it is a² − b² with a before b in the file; False of b² − a²."""
+        match node.terms:
+            case (Power(base=Name() as a), Negative(operand=Power(base=Name() as b))):
+                return self._ordering.factor(a) < self._ordering.factor(b)
+            case (Negative(operand=Power(base=Name() as b)), Power(base=Name() as a)):
+                return self._ordering.factor(a) < self._ordering.factor(b)
+            case _:
+                return None
 
     def _function(self, node: Call, inner: Sum) -> Expression:
         """sin(a − b) = −sin(b − a), cos(a − b) = cos(b − a); sin((a − b)/2) for sin(a/2 − b/2)."""

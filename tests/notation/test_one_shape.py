@@ -262,3 +262,13 @@ def test_steady_motions_that_differ_in_the_sign_of_a_root_are_one() -> None:
     assert "ẏ   = −q B/(2 m) ± √(" in found
     assert "p_y = ±" in found
     assert "Steady motion 4" not in found
+
+
+@pytest.mark.parametrize(("a", "b"), [("L", "M"), ("J", "I")])
+def test_a_determinant_of_squares_begins_with_what_the_file_has_first(a: str, b: str) -> None:
+    """Two coils: x'' and H over L² − M², the kinetic energy over one determinant."""
+    physics = f"T: {a}*(x'^2 + y'^2)/2 + {b}*x'*y'\nV: k*(x^2 + y^2)/2"
+    found = text("x, y", f"{a} {b} k", physics, "hamiltonian", "accelerations")
+    assert f"({a} (p_x² + p_y²) − 2 {b} p_x p_y)/(2 ({a}² − {b}²))" in found
+    assert f"/({a}² − {b}²)" in found
+    assert f"({b}² − {a}²)" not in found
