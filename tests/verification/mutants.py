@@ -252,7 +252,8 @@ def _reasons(part: Any) -> Iterator[str]:
         for each in part:
             yield from _reasons(each)
     elif isinstance(part, dict):
-        yield from (v for k, v in part.items() if k in {"reason", "note", "ansatz"} and v)
+        said = (v for k, v in part.items() if k in {"reason", "note", "ansatz"} and v)
+        yield from (v for v in said if isinstance(v, str))
         for each in part.values():
             yield from _reasons(each)
 
