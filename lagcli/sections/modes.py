@@ -9,7 +9,7 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Equations, Label, Paragraph, Row
-from lagcli.expression import Expression, Negative, Number, PlusMinus, Power, Product, Sum
+from lagcli.expression import ZERO, Expression, Negative, Number, PlusMinus, Power, Product, Sum
 from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
 from lagcli.notation.letters import own
 from lagcli.problem_data import Expect
@@ -95,8 +95,9 @@ def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
         yield Row(own("s"), exponent, f"{count} times" if count > 1 else "")
     if mode.decay is not None:
         imaginary = PlusMinus(Product((own("i"), omega)))
-        yield Row(own("s"), Sum((Negative(delta), imaginary)), note)
-        yield Row(delta, mode.decay)
+        damped = mode.decay != ZERO
+        yield Row(own("s"), Sum((Negative(delta), imaginary)) if damped else imaginary, note)
+        yield from [Row(delta, mode.decay)] if damped else []
         note = ""
     if mode.frequency is not None:
         yield Row(omega, mode.frequency, _WHERE_REAL if mode.open_sign else note)

@@ -207,6 +207,10 @@ def _decaying(
     explainer: Explainer, lead: str, decay: Expression, frequency: Expression
 ) -> Iterator[Block]:
     s, omega, delta = (explainer.letters.free(name) for name in ("s", "omega", "delta"))
+    if decay == ZERO:
+        yield says(lead, s, " = ±i ", omega, " with")
+        yield shows(omega, frequency)
+        return
     yield says(lead, s, " = −", delta, " ± i ", omega, " with")
     yield Equations((Row(delta, decay), Row(omega, frequency)))
 

@@ -201,9 +201,13 @@ class _Statement:
         return one and not self.routh.quadratic and self._freedom.pace is not None
 
     def _kinetic(self, motion: Motion) -> Expression:
-        """M q'^2/2, or its shortest form where M has a bracket such as 1/3 + sin(q)^2."""
+        """M q'^2/2, or its shortest form where M has a bracket such as 1/3 + sin(q)^2.
+
+        1 + r^2/a^2 stays: it is that of ds = sqrt(1 + z'^2) dr.
+        """
         mass = shape(motion.mass, self.order)
-        if any(isinstance(part, Sum) and any(map(_is_fraction, part.terms)) for part in walk(mass)):
+        sums = (part for part in walk(mass) if isinstance(part, Sum) and ONE not in part.terms)
+        if any(any(map(_is_fraction, part.terms)) for part in sums):
             return terms(motion.energy - motion.potential, self.order, self.fast)
         return Writer(self.order).product(
             _HALF, [(mass, _ONCE), (Name(motion.q.name, 1), 2 * _ONCE)]
