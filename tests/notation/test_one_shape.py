@@ -272,3 +272,13 @@ def test_a_determinant_of_squares_begins_with_what_the_file_has_first(a: str, b:
     assert f"({a} (p_x² + p_y²) − 2 {b} p_x p_y)/(2 ({a}² − {b}²))" in found
     assert f"/({a}² − {b}²)" in found
     assert f"({b}² − {a}²)" not in found
+
+
+@pytest.mark.parametrize("slope", ["r^2/a^2", "a^2/r^2"])
+def test_the_inertia_of_a_surface_keeps_its_one(slope: str) -> None:
+    """m (1 + r²/a²) r'²/2 on a paraboloid, in the energy and under the root of the time."""
+    physics = f"T: m*(r'^2*(1 + {slope}) + r^2*p'^2)/2\nV: m*g*r^2/(2*a)"
+    found = text("r, p", "m g a", physics, "reduction")
+    shown = slope.replace("^2", "²")
+    assert f"E = m (1 + {shown}) ṙ²/2" in found
+    assert f"√(m (1 + {shown})/(2 (" in found

@@ -205,7 +205,7 @@ class _Statement:
 
         1 + r^2/a^2 stays: it is that of ds = sqrt(1 + z'^2) dr.
         """
-        mass = shape(motion.mass, self.order)
+        mass = _inertia(motion.mass, self.order)
         sums = (part for part in walk(mass) if isinstance(part, Sum) and ONE not in part.terms)
         if any(any(map(_is_fraction, part.terms)) for part in sums):
             return terms(motion.energy - motion.potential, self.order, self.fast)
@@ -340,6 +340,17 @@ def _over_one(term: Expr, order: Sequence[str]) -> Expression:
     return whole if operation_count(whole) <= _WHOLE * operation_count(shown) else shown
 
 
+def _inertia(mass: Expr, order: Sequence[str]) -> Expression:
+    """m (1 + r^2/a^2) for m r^2/a^2 + m."""
+    tree = shape(mass, order)
+    letters = [s for s in mass.free_symbols if free_of(simplify(mass / s), [s])]
+    for letter in sorted(letters, key=str) if isinstance(tree, Sum) else ():
+        rest = shape(simplify(mass / letter), order)
+        if isinstance(rest, Sum) and ONE in rest.terms:
+            return Product((Name(letter.name), rest))
+    return tree
+
+
 def _rate(motion: Motion, potential: Expression, order: Sequence[str]) -> Expression:
     """sqrt(M/(2 (E - U_eff))), U_eff term by term as it stands above, squares before the root."""
     outside = S.One
@@ -353,7 +364,7 @@ def _rate(motion: Motion, potential: Expression, order: Sequence[str]) -> Expres
     writer = Writer(order)
     rest = map(writer.negative, terms_of(potential))
     excess = sum_of((Name(motion.E.name), *(term for term in rest if term != ZERO)))
-    inside = shape(motion.mass / outside**2, order)
+    inside = _inertia(motion.mass / outside**2, order)
     root = Call("sqrt", (writer.product(_HALF, [(inside, _ONCE), (excess, -_ONCE)]),))
     return writer.product(_ONCE, [(shape(outside, order), _ONCE), (root, _ONCE)])
 
