@@ -205,11 +205,12 @@ class RestConditions:
 
     @property
     def _along_one(self) -> list[Expr]:
-        """a_i F_j = a_j F_i: the force along the gradient of a single constraint."""
+        """a_i F_j = a_j F_i: the force along the gradient a of a single constraint; F_j at a_j = 0."""
         [constraint] = self.dynamics.constraints.equations
         a, F = constraint.row, self.forces_at_rest
-        pairs = combinations(range(len(F)), 2)
-        return [simplify(a[i] * F[j] - a[j] * F[i]) for i, j in pairs]
+        alone = [j for j, part in enumerate(a) if is_zero(part) is True]
+        pairs = combinations([j for j in range(len(F)) if j not in alone], 2)
+        return [simplify(a[i] * F[j] - a[j] * F[i]) for i, j in pairs] + [F[j] for j in alone]
 
     @cached_property
     def at_all_times(self) -> list[Expr]:
