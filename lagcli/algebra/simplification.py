@@ -19,9 +19,12 @@ from lagcli.algebra.shaping.plan import OPERATION
 from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
+    Call,
     Expression,
+    Quotient,
     has_nested_fraction,
     operation_count,
+    walk,
 )
 from lagcli.platform.effort import EFFORT
 
@@ -88,11 +91,18 @@ def shaped(
     if given is None:
         return shaper.to_sympy(tree), tree
     before, after = operation_count(given), operation_count(tree)
-    if has_nested_fraction(given):
+    under_root = _has_fraction_under_root(given) and not _has_fraction_under_root(tree)
+    if has_nested_fraction(given) or under_root:
         before = int(_FLAT * before)
     if before < after:
         return expression, given
     return shaper.to_sympy(tree), tree
+
+
+def _has_fraction_under_root(node: Expression) -> bool:
+    """Whether it has sqrt(p²/k⁴ + 2/(k² c²)), which is sqrt(c² p² + 2 k²)/(k² c)."""
+    roots = (part for part in walk(node) if isinstance(part, Call) and part.function == "sqrt")
+    return any(isinstance(part, Quotient) for root in roots for part in walk(root))
 
 
 def fraction(expression: Expr, order: Sequence[str] = ()) -> Expression:

@@ -27,6 +27,9 @@ from lagcli.expression import (
 )
 from lagcli.notation.ordering import Factor, Ordering, positive_first
 
+#: sqrt(2)*E^(1/4) is (4*E)^(1/4), but sqrt(3)*a^(1/6) has no 27.
+_LARGE = 10
+
 
 class Writer:
     """Builds trees in a fixed order of names.
@@ -283,7 +286,10 @@ def _is_half_power(base: Expression, exponent: Fraction) -> bool:
 
 def _is_in_root(index: int, base: Expression, exponent: Fraction) -> bool:
     """Whether base^exponent may stand under a common root of this index."""
-    if isinstance(base, Number):  # sqrt(3)*a^(1/6), not (27*a)^(1/6)
+    if isinstance(base, Number) and exponent.denominator < index:  # (4*a)^(1/4), not (27*a)^(1/6)
+        raised = index * exponent
+        return raised.denominator == 1 and base.value ** abs(int(raised)) < _LARGE
+    if isinstance(base, Number):
         return exponent.denominator == index and abs(exponent) < 1
     plain = isinstance(base, Name) or (isinstance(base, Call) and base.function == "abs")
     return plain and abs(exponent) < 1 and index % exponent.denominator == 0

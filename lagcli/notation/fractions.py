@@ -8,9 +8,11 @@ from fractions import Fraction
 from math import lcm
 
 from lagcli.expression import (
+    ONE,
     Call,
     Expression,
     Name,
+    Negative,
     Number,
     Power,
     Sum,
@@ -108,7 +110,7 @@ class Brackets:
 
         A fraction in a bracket stays where the bracket is not divided by anything and nothing
         before it cancels: (Ω² cos θ − g/R) sin θ; so does a form in the momenta over letters.
-        A sum of letters has none: (A − C) cos θ/C.
+        1 beside a ratio of letters does not: (A − C) cos θ/C, but (1/A − 1/B) cos θ.
         """
         minus, above, below = parts_of(node)
         if any(isinstance(f.base if isinstance(f, Power) else f, Sum) for f in below):
@@ -121,7 +123,9 @@ class Brackets:
             letters = {whole_power(f)[0] for f in outside}
             constant = all(map(self._ordering.is_parameter, above))
             divided = any(not isinstance(f, Number) for f in below) or (bool(below) and constant)
-            masses = self._ordering.is_parameter(bracket) and all(map(is_letter, inside.terms))
+            one = ONE in bracket.terms or Negative(ONE) in bracket.terms
+            plain = constant or (one and self._ordering.is_parameter(bracket))
+            masses = plain and all(map(is_letter, inside.terms))
             if not (divided or masses or letters & inverse.powers.keys()):
                 continue
             if self._is_form(bracket) and not any(

@@ -237,3 +237,19 @@ def test_a_relativistic_lagrangian_is_written_as_in_goldstein(V: str):
     L, R = found["lagrangian"].lagrangian, found["reduction"].routhian
     assert given.lstrip("-") in to_grammar(L)
     assert R is None or to_grammar(R) == to_grammar(L)
+
+
+def test_a_coordinate_that_no_constraint_touches_rests_under_its_own_force():
+    """A torque F on a blade: 0 = F, not 0 = sin θ and 0 = cos θ, which never hold together."""
+    text = """
+coordinates: [x, y, theta]
+parameters: {m: POSITIVE, J: POSITIVE, F: POSITIVE}
+T: m*(x'^2 + y'^2)/2 + J*theta'^2/2
+forces: {theta: F}
+constraints: {blade: "x'*sin(theta) - y'*cos(theta) = 0"}
+""".replace("POSITIVE", "{assume: positive}")
+    problem = read("blade.yaml", text.encode()).problem
+    section = state(derive(problem), Request(sections=("steady_motions",))).sections[
+        "steady_motions"
+    ]
+    assert [to_grammar(each) for each in section.conditions.values()] == ["F"]

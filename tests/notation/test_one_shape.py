@@ -282,3 +282,11 @@ def test_the_inertia_of_a_surface_keeps_its_one(slope: str) -> None:
     shown = slope.replace("^2", "²")
     assert f"E = m (1 + {shown}) ṙ²/2" in found
     assert f"√(m (1 + {shown})/(2 (" in found
+
+
+@pytest.mark.parametrize("n", [1, 2, 3])
+def test_squares_come_out_of_a_root_with_several_fractions(n: int) -> None:
+    """The period of Weber's electrodynamics: √(c² p² + n k²)/(m k² c)."""
+    V = f"p0^2/(2*m*r^2)*(1 + {n}*k^2/(p0^2*c^2)) - k/r"
+    found = text("r", "m k c p0", f"T: m*r'^2/2\nV: {V}", "reduction")
+    assert "/k⁴" not in found

@@ -205,7 +205,7 @@ class RestConditions:
 
     @property
     def _along_one(self) -> list[Expr]:
-        """a_i F_j = a_j F_i: the force along the gradient a of a single constraint; F_j at a_j = 0."""
+        """a_i F_j = a_j F_i: the force along the gradient of one constraint; F_j where a_j = 0."""
         [constraint] = self.dynamics.constraints.equations
         a, F = constraint.row, self.forces_at_rest
         alone = [j for j, part in enumerate(a) if is_zero(part) is True]
