@@ -472,3 +472,28 @@ V: {V}
     ends = [tuple(map(to_grammar, pair)) for pair in section.one_freedom.turning_energies]
     assert ends == energies
     assert len(section.one_freedom.periods) == 1
+
+
+@pytest.mark.parametrize(
+    ("V", "turning"),
+    [
+        ("k*abs(x)", "E/k"),
+        ("k*abs(x)^3", "(E/k)^(1/3)"),
+        ("k*abs(x)^5", "(E/k)^(1/5)"),
+        ("k*x^2 + k*abs(x)", None),
+    ],
+)
+def test_a_potential_of_the_distance_turns_on_both_sides(V, turning):
+    """Landau and Lifshitz, section 11, problem 2: V = A |x|^n."""
+    section, missing = reduced(f"""
+coordinates: [x]
+parameters: {{m: POSITIVE, k: POSITIVE}}
+T: m*x'^2/2
+V: {V}
+""")
+    assert not missing
+    found = [to_grammar(each) for each in section.one_freedom.turning_points or ()]
+    if turning is not None:
+        assert sorted(found) == sorted([turning, f"-{turning}"])
+    else:
+        assert len(found) in (0, 2)

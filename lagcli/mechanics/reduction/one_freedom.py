@@ -140,14 +140,29 @@ class ReducedFreedom:
         excess = self.potential - self.E
         if free_of(self.potential, [self.q]):
             return ()
-        found = solve_for(excess, self.q)
-        if found is None:
+        values = self._on_both_sides(excess) if excess.has(sympy.Abs(self.q)) else None
+        found = solve_for(excess, self.q) if values is None else None
+        if values is None and found is None:
             return None
-        roots = [simplify(root) for root in found.values]
+        roots = [simplify(root) for root in values or (found.values if found else ())]
         period = least_period([self.potential, self.mass], self.q)
         roots = roots if period is None else one_of_each(roots, period)
         roots = [root for root in roots if not self._excluded(root)]
         return tuple(roots) if all(self._is_root(root, excess) for root in roots) else None
+
+    def _on_both_sides(self, excess: Expr) -> list[Expr] | None:
+        """The roots of a potential with |q|, those of q > 0 and of q < 0."""
+        size, roots = sympy.Dummy("q", positive=True), list[Expr]()
+        for side in (-1, 1):
+            found = solve_for(excess.xreplace({self.q: side * size}), size)
+            if found is None:
+                return None
+            for root in found.values:
+                if root.has(sympy.sign(self.E)):  # (E/A)^(1/3) is positive where E is
+                    above = sympy.Dummy(positive=True)
+                    root = simplify(root.xreplace({self.E: above})).xreplace({above: self.E})
+                roots += [side * root] if weak_sign(root) != -1 else []
+        return roots
 
     @cached_property
     def turning_energies(self) -> tuple[tuple[Expr, Expr], ...]:
