@@ -8,8 +8,19 @@ from fractions import Fraction
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from lagcli.document import Block, Equations, Label, Paragraph, Row
-from lagcli.expression import ZERO, Expression, Negative, Number, PlusMinus, Power, Product, Sum
+from lagcli.document import Block, Equations, Formula, Label, Paragraph, Row
+from lagcli.expression import (
+    ZERO,
+    Call,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    PlusMinus,
+    Power,
+    Product,
+    Sum,
+)
 from lagcli.formatters.json_values import Object, fields_of, list_or_null, place
 from lagcli.notation.letters import own
 from lagcli.problem_data import Expect
@@ -58,9 +69,11 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
         one = len(several) == 1 and modes[0].on is None and not is_pair(several[0][0])
         place = "equilibrium" if one else "equilibria"
         what = "Angular frequencies" + " and shapes" * any(mode.shape for mode in modes)
+        lead: tuple[str | Formula, ...] = (what,)
         if modes[0].damped:
-            what = "Exponents s of exp(s t)"
-        yield from alike_blocks(several, f"{what} about the {place} ")
+            s = own("s")
+            lead = ("Exponents ", s, " of ", Call("exp", (Product((s, Name("t"))),)))
+        yield from alike_blocks(several, (*lead, f" about the {place} "))
         for mode in modes_in_pairs(modes):
             if rows := tuple(_mode(mode)):
                 yield Equations(rows)

@@ -234,26 +234,29 @@ def place_rows(
 
 def state_blocks(
     at: Mapping[str, Expression],
-    before: str = "",
+    before: str | tuple[str | Formula, ...] = "",
     on: tuple[Expression, Expression] | None = None,
     end: str = ":",
 ) -> Iterator[Block]:
     """A state, or a family: on one line where its values are short, else as equations."""
     rows = place_rows(at, on)
+    lead = (before,) if isinstance(before, str) else before
     short = on is None or sum(map(operation_count, on)) <= _SHORT_RELATION
     if short and all(operation_count(value) <= _SHORT for value in at.values()):
-        parts: list[str | Formula] = [before]
+        parts: list[str | Formula] = [*lead]
         for position, row in enumerate(rows):
             parts += [", " if position else "", row.left, " = ", row.right]
         if rows:
             yield Paragraph((*parts, end))
         return
     if before:
-        yield Paragraph((before,))
+        yield Paragraph(lead)
     yield Equations(rows)
 
 
-def alike_blocks(states: Sequence[State], before: str = "") -> Iterator[Block]:
+def alike_blocks(
+    states: Sequence[State], before: str | tuple[str | Formula, ...] = ""
+) -> Iterator[Block]:
     """States of which the same is said, one below the other."""
     for k, (at, on) in enumerate(states, 1):
         yield from state_blocks(at, before, on, ":" if k == len(states) else "")
