@@ -21,11 +21,16 @@ from lagcli.algebra.writing import Writer
 from lagcli.expression import (
     Call,
     Expression,
+    Name,
+    Negative,
     Quotient,
+    factors_of,
     has_nested_fraction,
     operation_count,
+    terms_of,
     walk,
 )
+from lagcli.notation.factors import whole_power
 from lagcli.platform.effort import EFFORT
 
 _LONG = 60  # terms of an element of which ...
@@ -91,18 +96,25 @@ def shaped(
     if given is None:
         return shaper.to_sympy(tree), tree
     before, after = operation_count(given), operation_count(tree)
-    under_root = _has_fraction_under_root(given) and not _has_fraction_under_root(tree)
-    if has_nested_fraction(given) or under_root:
+    if has_nested_fraction(given) or any(map(_is_over_squares, walk(given))):
         before = int(_FLAT * before)
     if before < after:
         return expression, given
     return shaper.to_sympy(tree), tree
 
 
-def _has_fraction_under_root(node: Expression) -> bool:
-    """Whether it has sqrt(p²/k⁴ + 2/(k² c²)), which is sqrt(c² p² + 2 k²)/(k² c)."""
-    roots = (part for part in walk(node) if isinstance(part, Call) and part.function == "sqrt")
-    return any(isinstance(part, Quotient) for root in roots for part in walk(root))
+def _is_over_squares(node: Expression) -> bool:
+    """Whether it is sqrt(p²/k⁴ + 2/(k² c²)), for sqrt(c² p² + 2 k²)/(k² c)."""
+    if not (isinstance(node, Call) and node.function == "sqrt"):
+        return False
+    (inside,) = node.arguments
+    outer = [inside.denominator] if isinstance(inside, Quotient) else []
+    parts = terms_of(inside.numerator if isinstance(inside, Quotient) else inside)
+    terms = [t.operand if isinstance(t, Negative) else t for t in parts]
+    below = [factors_of(t.denominator) for t in terms if isinstance(t, Quotient)]
+    below += map(factors_of, outer if below else [])
+    powers = (whole_power(f) for factors in below for f in factors)
+    return len(below) > 1 and all(isinstance(b, Name) and e % 2 == 0 for b, e in powers)
 
 
 def fraction(expression: Expr, order: Sequence[str] = ()) -> Expression:

@@ -147,7 +147,10 @@ class ReducedFreedom:
         roots = [simplify(root) for root in values or (found.values if found else ())]
         period = least_period([self.potential, self.mass], self.q)
         roots = roots if period is None else one_of_each(roots, period)
-        roots = [root for root in roots if not self._excluded(root)]
+        roots = [
+            root for k, root in enumerate(roots)
+            if not (self._excluded(root) or any(simplify(root - x) == 0 for x in roots[:k]))
+        ]  # fmt: skip
         return tuple(roots) if all(self._is_root(root, excess) for root in roots) else None
 
     def _on_both_sides(self, excess: Expr) -> list[Expr] | None:
