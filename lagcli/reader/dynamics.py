@@ -185,7 +185,8 @@ def read_by_coordinate(
     for key, value in file.entries(node, section, file.by_name(node)):
         if file.scope.kinds.get(key.label) != "coordinate":
             coordinates = list(file.scope.of_kind("coordinate"))
-            along = re.sub(r"^[FQf]_?", "", key.label)
+            along = re.sub(r"^[FQf]_?", "", key.label.rstrip("'"))
+            along = coordinates[0] if not along and len(coordinates) == 1 else along
             hint = f"write {along}" if along in coordinates else ""
             hint = hint or did_you_mean(key.label, coordinates)
             pointed = ", or as 'force' of a point" if section == "forces" else ""

@@ -80,7 +80,8 @@ class ExpectReader:
             return None
         value = text.value.strip()
         if not (value.isascii() and value.isdigit() and len(value) < 10):
-            self.file.error(f"'{name}' is a whole number, 0 or more", text.span)
+            hint = "write it in digits, as in 1"
+            self.file.error(f"'{name}' is a whole number, 0 or more", text.span, hint)
             return None
         return int(value)
 

@@ -56,6 +56,7 @@ _NUMERIC = (VALUES,)
 YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
 _NAME = re.compile(r"[^\W\d]\w*")
 _RELATION = re.compile("[=<>≤≥]")
+_OF_RELATIONS = frozenset({"holds_while", "where", "always", "reaches"})
 #: `x' = 0` and `x(0): 1`, several of them.
 _GIVEN = re.compile(
     r"([^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]>|[=:→])\s*([^,;=:→]+?)"
@@ -142,7 +143,7 @@ class FileReader:
         beside = [
             key for key, value in entries
             if key.label in attributes[1:] and isinstance(value, Scalar) and value.value
-            and (key.label in {"holds_while", "always"} or not _RELATION.search(value.value))
+            and (key.label in _OF_RELATIONS or not _RELATION.search(value.value))
         ]  # fmt: skip
         if not beside:
             yield from entries
@@ -150,11 +151,13 @@ class FileReader:
         own = [key for key, _ in entries if key.label not in attributes]
         inner = [(attributes[0] if key in own else key.label, value) for key, value in entries]
         given = ", ".join(f"{key}: {source_of(value)}" for key, value in inner)
+        if {key.label for key, _ in entries} == {"where"}:
+            given += f", for: {next(iter(self.scope.of_kind('coordinate')), 'x')}"
         message = f"'{beside[0].label}' stands inside the braces of one entry of {what}"
         whole = f"write {own[0].label if own else 'name'}: {{{given}}}"
         several = len(own) > 1 or any(isinstance(value, Mapping) for _, value in entries)
         self.error(message, beside[0].span, "" if several else whole)
-        yield from ((key, value) for key, value in entries if key in own)
+        yield from ((k, v) for k, v in entries if k in own and isinstance(v, Scalar))
 
     def by_name(self, node: DocumentNode) -> str:
         """How a list or a text of values is written as a map by coordinate."""
@@ -205,7 +208,11 @@ class FileReader:
                 return []
             listed = not hint or hint.startswith("write [")
             hint = f"write {as_list(node.value)}" if listed and node.value.strip() else hint
-        elif isinstance(node, Mapping) and not hint:
+        elif isinstance(node, Mapping) and hint in {
+            "",
+            "write [one, another]",
+            "write [sqrt(g/l)]",
+        }:
             hint = f"write [{', '.join(source_of(value) for _, value in node.entries)}]"
         self.error(f"{what} must be a list, not {kind(node)}", node.span, hint)
         return []
@@ -298,7 +305,8 @@ class FileReader:
         """A mistake at a key; the one that was meant, where that is clear."""
         written = value.value if isinstance(value, Scalar) else ""
         meant = key_meant(key.label, names)
-        alike = [name for name in names if name.casefold() == key.label.casefold()]
+        other = "" if key.label == "t" else key.label.casefold()  # the time is not T
+        alike = [name for name in names if name.casefold() == other]
         meant = alike[0] if len(alike) == len(key.label) == 1 else meant
         forceless = meant == "dissipation" and "'" not in written
         advice = key_advice("friction" if forceless else key.label, written, names)

@@ -92,6 +92,8 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
     for neighbour, words, advice in habits()["advice"]:
         if word in words and neighbour in known:
             return str(advice.format(word=word))
+    if word == "t" and "simulation" in known:
+        return f"write simulation: {{until: {value.strip()}}}"
     start = re.fullmatch(r"(d|v)?_?(q|r|x|y|z|theta|phi)?(?:dot)?_?0", word)
     if start and (start[1] or start[2]) and "initial" in known:
         value = re.sub(r"([\d.]+)\s*°", r"\1*pi/180", value.strip())

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from typing import get_args
 
 from lagcli.problem_data import Assumption
-from lagcli.reader.habits import CASE, is_constant, unit_behind
+from lagcli.reader.habits import CASE, MAPS, is_constant, key_meant, unit_behind
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.number_units import unit_mistake
 
@@ -39,6 +39,8 @@ def one_sum(node: DocumentNode, what: str) -> str:
         return with_unit[1] if with_unit else "write {0}: {1}, {0}': {2}".format(name, *written)
     if any(re.search(r"\bif\b|[<>]", term) for term in written):
         return CASE
+    if what.startswith("the value of"):
+        return "one value each; several are run by lagcli sweep --vary"
     if what == "'until'" and written:
         return f"a motion begins at t = 0: write {written[-1].split()[-1]}"
     return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""
@@ -131,7 +133,8 @@ def key_by_shape(value: DocumentNode, problem: Mapping) -> str | None:
     A list of names is that of the coordinates, or else of the parameters; numbers by name are
     the initial state where the names are those of coordinates, and values of parameters else.
     """
-    given = {key.label: node for key, node in problem.entries}
+    others = ((key.label, node) for key, node in problem.entries if node is not value)
+    given = {key_meant(label, tuple(MAPS)) or label: node for label, node in others}
     if isinstance(value, Sequence) and value.items:
         names = [each.value for each in value.items if isinstance(each, Scalar)]
         if len(names) == len(value.items) and all(map(str.isidentifier, names)):

@@ -16,7 +16,7 @@ from lagcli.problem_data import (
     Where,
 )
 from lagcli.reader.habits import name_meant
-from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end
+from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end, source_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar
 from lagcli.reader.number_units import run_mistake
@@ -125,7 +125,8 @@ def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
         hint = ALREADY_FOUND
     elif words and not any("=" in word for word in words):
         hint = f"leave it out: equations of motion and charges are found; or {hint}"
-    for key, value in file.named(node, "find", _QUESTION_ATTRIBUTES, hint):
+    unknown = next(iter(file.scope.of_kind("coordinate")), "x")
+    for key, value in file.named(node, "find", ("", *_QUESTION_ATTRIBUTES), hint):
         what = f"the question '{key.label}'"
         found = file.attributes(value, what, _QUESTION_ATTRIBUTES)
         parts = {name: part for name, (_, part) in found.items()}
@@ -140,7 +141,10 @@ def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
         elif "where" in parts and "value" in parts:
             file.error(f"{what} has both 'where' and 'value'", key.span, hint)
         elif missing := _PARTNERS.get(next(iter(parts), "")):
-            file.error(f"{what} has no '{missing}'", key.span, hint)
+            [(given, part), *_] = parts.items()
+            value_ = f"[{unknown}]" if missing == "in_terms_of" else unknown
+            whole = f"write {key.label}: {{{given}: {source_of(part)}, {missing}: {value_}}}"
+            file.error(f"{what} has no '{missing}'", key.span, whole)
         elif isinstance(value, Mapping) and not value.entries:
             file.error(f"{what} is empty", key.span, hint)
     return tuple(questions)

@@ -134,7 +134,9 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
     listed = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
     named = [name for name in listed if name in {*coordinates, "t"}]
     hint = f"write {{shift: {change_of(next(iter([*named, *coordinates]), 'x'))}}}"
-    for key, value in file.entries(node, "symmetries", hint):
+    entries = [*file.entries(node, "symmetries", hint)]
+    moves = [key.label for key, value in entries if key.in_flow and _MOVED.search(key.label)]
+    for key, value in ((k, v) for k, v in entries if k.label not in moves):
         what = f"the symmetry '{key.label}'"
         changes = {}
         if isinstance(value, Mapping) and not value.entries:
@@ -147,7 +149,8 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
         if "time" in key.label or key.label in {"t", "energy"}:
             usual = "{t: 1}"
         here = f"write {key.label}: {usual}"
-        if isinstance(value, Scalar) and (moved := _MOVED.findall(value.value)):
+        said = ", ".join([value.value, *moves]) if isinstance(value, Scalar) else ""
+        if moved := _MOVED.findall(said):
             pairs = [f"{name}: {'-' * (sign == '-')}{change or 1}" for name, sign, change in moved]
             here = f"write {key.label}: {{{', '.join(pairs)}}}"
         for name, change in file.entries(value, what, here):
