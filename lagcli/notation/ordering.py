@@ -151,17 +151,21 @@ class Ordering:
             node.primes > 0 or self._first_fast <= self._index.get(node.name, -1)
         )
 
-    def term(self, node: Expression) -> tuple[int, int, int, tuple[int, ...], bool, Flat]:
+    def term(self, node: Expression) -> tuple[int, int, int, tuple[int, ...], int, Flat]:
         """Accelerations, a number, falling degree in the velocities, then by coordinate.
 
         So 1 + x², and x² + R² θ² + l²: coordinates in the order of the file, parameters alone
-        at the end, and before functions: M + m cos θ; x'' before x' (y' x'' − x' y'').
+        at the end, before fractions and functions: l + m g/k, M + m cos θ; x'' before x'
+        (y' x'' − x' y'').
         """
         accelerations, velocities = _degrees(node)
         variables = tuple(sorted(self._variables(node))) or (len(self._index),)
         number, letters = _is_number(node), _flat(self._letters(node))
         timed = any(part == Name("t") for part in _factor_names(node))
-        later = variables == (len(self._index),) and (timed or _has_function(node))
+        later = 0
+        if variables == (len(self._index),):
+            over = _is_over_letters(node) and self._is_constant(node)
+            later = 2 if timed or _has_function(node) else int(over)
         fast = velocities if accelerations else -velocities
         return (-accelerations, not number, fast, variables, later, letters)
 
@@ -228,6 +232,12 @@ class Ordering:
                 return (9,)  # a constant term comes last
             case _:
                 return self.factor(node)
+
+
+def _is_over_letters(node: Expression) -> bool:
+    """Whether it is a fraction with letters below."""
+    inner = node.operand if isinstance(node, Negative) else node
+    return isinstance(inner, Quotient) and _has_letters(inner.denominator)
 
 
 def _has_letters(node: Expression) -> bool:

@@ -290,3 +290,12 @@ def test_squares_come_out_of_a_root_with_several_fractions(n: int) -> None:
     V = f"p0^2/(2*m*r^2)*(1 + {n}*k^2/(p0^2*c^2)) - k/r"
     found = text("r", "m k c p0", f"T: m*r'^2/2\nV: {V}", "reduction")
     assert "/k⁴" not in found
+
+
+@pytest.mark.parametrize("sign", ["-", "+"])
+def test_a_letter_stands_before_a_fraction(sign: str) -> None:
+    """r = l + m g/k of a spring pendulum at rest, beside l − m g/k."""
+    physics = f"T: m*(r'^2 + r^2*p'^2)/2\nV: k*(r - l)^2/2 {sign} m*g*r*cos(p)"
+    found = text("r, p", "m g k l", physics, "equilibria")
+    assert "r = l + m g/k" in found
+    assert "r = l − m g/k" in found
