@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from lagcli.formatters.grammar import to_grammar
 from lagcli.pipeline import _statements as statements
 from lagcli.pipeline import derive
 from lagcli.reader import parse_text, read_problem
@@ -90,3 +91,20 @@ def test_a_place_that_is_not_real_is_no_answer(value: str) -> None:
     false = replace(section, answers={name: replace(answer, solutions=(parse_text(value),))})
     found, _ = after(problem, answers, false)
     assert found.answers[name].solutions is None
+
+
+@pytest.mark.parametrize("wrong", ["k > m*w", "k > m*w^3", "k*m > m*w^2", "k > 2*m*w^2"])
+def test_the_condition_of_a_period_has_the_right_powers(wrong: str) -> None:
+    """k > m w for k > m w² differs for some sizes of w only."""
+    problem, answers, section = derived(
+        "x", "T: m*(x'^2 + w^2*sin(x)^2)/2\nV: -k*cos(x)", "reduction"
+    )
+    periods = list(section.one_freedom.periods)
+    [place] = [k for k, each in enumerate(periods) if to_grammar(each.at["x"]) == "0"]
+    left, right = map(parse_text, wrong.split(">"))
+    assert periods[place].where
+    periods[place] = replace(periods[place], where=(Above(left=left, right=right),))
+    one = replace(section.one_freedom, periods=tuple(periods))
+    found, warnings = after(problem, answers, replace(section, one_freedom=one))
+    assert found.one_freedom is None
+    assert any("period" in each for each in warnings)
