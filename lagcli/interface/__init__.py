@@ -91,7 +91,7 @@ def problem(parts: Mapping[str, Any]) -> Problem:
 
 def solve(
     problem: Given,
-    sections: Sequence[str] | None = None,
+    sections: Sequence[str] | str | None = None,
     *,
     values: Values | None = None,
     numeric: bool = False,
@@ -102,8 +102,9 @@ def solve(
     ----------
     problem : Problem, str or path
         As `load` gives it, or takes it.
-    sections : sequence of str, optional
-        Out of those that `lagcli help solve` lists; the usual ones without it.
+    sections : str or sequence of str, optional
+        Out of those that `lagcli help solve` lists, in one text with commas between them;
+        the usual ones without it.
     values : mapping of str to number or str, optional
         Put in for parameters before anything is derived.
     numeric : bool
@@ -118,6 +119,8 @@ def solve(
     from lagcli.reader.suggest import did_you_mean
     from lagcli.statements.registry import every_section, in_order
 
+    if isinstance(sections, str):
+        sections = [name.strip() for name in sections.split(",")]
     names = None if sections is None else tuple(sections)
     known = {each.name for each in in_order(names or ())}
     for name in names or ():

@@ -58,6 +58,7 @@ class RemainingFreedom:
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self._equations = Equations(problem)
+        self._name = ""
         name, energy, momenta = self._reduced()
         self.coordinate: Coordinate = next(c for c in problem.coordinates if c.name == name)
         self._prepare(energy, momenta)
@@ -68,7 +69,7 @@ class RemainingFreedom:
         if len(e.q) == 1 and not e.rows and "energy" in e.evident_charges:
             return e.q[0].name, e.energy, ()
         routh = Routh(Derivation(self.problem))
-        reduced = routh.reduced
+        self._name, reduced = routh.potential_name, routh.reduced
         if reduced is None:
             raise CannotDraw(f"there is no portrait of one degree of freedom: {routh.reason}")
         left = [q.name for q in reduced.system.q]
@@ -99,6 +100,12 @@ class RemainingFreedom:
         try:
             self._energy = straight_line(pair, [energy], constants, arithmetic)
             self._slope = straight_line(pair, [slope], constants, arithmetic)
+            given = (
+                () if self._name or self.problem.potential is None else (self.problem.potential,)
+            )
+            self._given = straight_line(
+                pair, [e.form.read(each) for each in given], constants, arithmetic
+            )
         except UndefinedFunction as error:
             message = f"the function '{error}' is left unspecified: it has no numbers"
             raise CannotDraw(message) from None
@@ -114,6 +121,16 @@ class RemainingFreedom:
     def potential(self) -> Callable[[float], float]:
         """U_eff(q) = E(q, 0)."""
         return quiet(lambda q: float(self._energy(q, 0.0)[0]))
+
+    @cached_property
+    def potential_name(self) -> str:
+        """U_eff at given momenta, else V, or V_eff = V - T_0, as the reduction calls it."""
+        if self._name or self.problem.potential is None:
+            return self._name or "V_eff"
+        places = [self.start[0] + step for step in (-0.23, 0.11, 0.37)]
+        gaps = (abs(float(self._given(q, 0.0)[0]) - self.potential(q)) for q in places)
+        scale = max(abs(self.potential(q)) for q in places)
+        return "V_eff" if any(gap > 1e-9 * scale for gap in gaps) else "V"
 
     @cached_property
     def slope(self) -> Callable[[float], float]:

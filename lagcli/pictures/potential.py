@@ -82,8 +82,10 @@ def _value(energy: float) -> DrawnName:
 
 
 def _symbol(freedom: RemainingFreedom) -> DrawnName:
-    name = DrawnName(plain="U_eff", ascii="U_eff", tex=r"$U_{\mathrm{eff}}$")
-    return name if freedom.momenta else DrawnName(plain="U", ascii="U", tex="$U$")
+    name = freedom.potential_name
+    letter, _, index = name.partition("_")
+    tex = rf"${letter}_{{\mathrm{{{index}}}}}$" if index else f"${letter}$"
+    return DrawnName(plain=name, ascii=name, tex=tex)
 
 
 def _energies(labels: Labels, freedom: RemainingFreedom) -> DrawnName:

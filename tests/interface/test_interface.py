@@ -294,3 +294,10 @@ def test_a_run_that_cannot_be_made_is_a_refusal_of_the_public_interface():
     text = "coordinates: [x]\nparameters: [m]\nT: m*x'^2/2\ninitial: {x: 1}\n"
     with pytest.raises(lagcli.Refusal, match="'m' has no value"):
         lagcli.simulate(lagcli.loads(text), until=1)
+
+
+def test_sections_may_be_one_text():
+    found = lagcli.solve("plane-pendulum", "accelerations, energy")
+    assert str(found) == str(lagcli.solve("plane-pendulum", ["accelerations", "energy"]))
+    with pytest.raises(ValueError, match="unknown section 'acceleration'"):
+        lagcli.solve("plane-pendulum", "acceleration")

@@ -4,6 +4,7 @@ from math import acos, cos, pi, sqrt
 
 import pytest
 
+import lagcli
 from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.pictures.drawing import CannotDraw, Curve, Marks
 from lagcli.pictures.one_freedom import RemainingFreedom
@@ -96,6 +97,23 @@ def test_the_motion_of_a_pendulum_that_turns_stays_within_one_turn():
     [motion] = curves(picture, "motion")
     assert len(motion.pieces) > 5
     assert all(abs(theta) <= 1.5 * pi for piece in motion.pieces for theta, _ in piece)
+
+
+@pytest.mark.parametrize(
+    ("physics", "name"),
+    [
+        ("T: m*x'^2/2, V: k*x^2/2", "V"),
+        ("T: m*(x'^2 + w^2*x^2)/2, V: k*x^2/2", "V_eff"),
+        ("L: m*x'^2/2 - k*x^2/2", "V_eff"),
+    ],
+)
+def test_the_potential_has_the_name_that_the_reduction_gives_it(physics, name):
+    head = "coordinates: [x], parameters: {m: {value: 1}, k: {value: 3}, w: {value: 1}}"
+    problem = lagcli.loads(f"{{{head}, {physics}, initial: {{x: 1}}}}")
+    picture, _ = potential(problem, STATES)
+    assert picture.panels[0].items[0].label.plain == name
+    shown = str(lagcli.solve(problem, "reduction"))
+    assert f"{name} = " in shown or name == "V"
 
 
 def test_the_turning_points_of_keplers_effective_potential():
