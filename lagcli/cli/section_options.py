@@ -69,7 +69,8 @@ def _unknown(name: str, known: Known) -> str:
     if section is not None and name not in names:
         in_all = "what applies of it is in every explanation"
         return f"'{name}' is not added, {in_all}: there are {', '.join(names)}"
-    advice = _headed(name, every) or did_you_mean(name, names) or _topic(name)
+    plural = f"did you mean '{name}s'?" if f"{name}s" in names else ""
+    advice = plural or _headed(name, every) or did_you_mean(name, names) or _topic(name)
     return f"unknown section '{name}': {advice or 'there are ' + ', '.join(names)}"
 
 
