@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from click import ClickException, NoSuchOption, UsageError
+from click import BadOptionUsage, ClickException, NoSuchOption, UsageError
 
 from lagcli.cli.error_output import within_a_terminal
 
@@ -25,6 +25,19 @@ _MEANT = {
 }
 
 
+#: What stands behind options that lack it.
+_FOR_EXAMPLE = {
+    "--latex": "--format latex, and beside it words such as --latex labels=eq",
+    "--until": "--until 10",
+    "--set": "--set m=1",
+    "--show": "--show energy,modes",
+    "--format": "--format latex",
+    "--accuracy": "--accuracy 1e-9",
+    "--output": "--output answer.tex",
+    "--vary": "--vary m=1,2,4",
+}
+
+
 def report_mistake(mistake: ClickException, arguments: Sequence[str]) -> None:
     """Show a mistake of the command line on standard error."""
     said = mistake.format_message()
@@ -33,6 +46,8 @@ def report_mistake(mistake: ClickException, arguments: Sequence[str]) -> None:
         known = {name for each in context.command.get_params(context) for name in each.opts}
         meant = _option_meant(mistake.option_name, known, arguments)
         said = f"{mistake.message} Did you mean {meant}?" if meant else said
+    elif isinstance(mistake, BadOptionUsage) and mistake.option_name in _FOR_EXAMPLE:
+        said = f"{said} Write {_FOR_EXAMPLE[mistake.option_name]}."
     elif context is not None and context.parent is None and "No such command" in said:
         named = next((each for each in arguments if not each.startswith("-")), "")
         if Path(named).suffix in {".yaml", ".yml"} or Path(named).exists():
