@@ -41,6 +41,9 @@ _APART = 1.75
 #: Operations that one fraction may have more than several with the same momenta: H of two coils,
 #: (L (p1² + p2²) - 2 M p1 p2)/(2 (L² - M²)), has one.
 _SEVERAL = 2
+#: Operations up to which it is sought: two links with general masses have 30, and a double
+#: pendulum in space has hundreds, whose sums would take all of the work that is allowed.
+_SHORT = 60
 #: Stands for a potential energy beside which the kinetic one is shaped.
 _OTHER = Symbol("#V", real=True)
 
@@ -104,8 +107,10 @@ def _kinetic(
     """p . M^-1 p/2 as it is shortest, also beside other terms, and block by block of M."""
     halves = [p * v / 2 for p, v in zip(momenta, flow, strict=True)]
     whole = simplify(sympy.Add(*halves))
-    yield readable.as_written(whole)
-    yield _over_one(whole, momenta, readable.system.order)
+    first = readable.as_written(whole)
+    yield first
+    if operation_count(first) <= _SHORT:
+        yield _over_one(whole, momenta, readable.system.order)
     beside = readable.as_written(sympy.Add(*halves) + _OTHER)
     if isinstance(beside, Sum) and (mark := Name(_OTHER.name)) in beside.terms:
         yield sum_of(term for term in beside.terms if term != mark)
