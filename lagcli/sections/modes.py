@@ -48,6 +48,8 @@ def derive(statements: Statements) -> ModesSection:
         statements.lacks("the normal modes", section.reason)
     if section.unshaped:
         statements.lacks("the shapes of some normal modes")
+    if section.modes and not section.complete:
+        statements.warnings.append("there may be equilibria whose normal modes are not listed")
     return section
 
 

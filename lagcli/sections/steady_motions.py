@@ -54,7 +54,10 @@ def derive(statements: Statements) -> SteadySection:
     """The motions of constant cyclic velocities, with their stability."""
     from lagcli.mechanics.steady.statement import steady_motions
 
-    return statements.noted(steady_motions(statements.derivation))
+    section = statements.noted(steady_motions(statements.derivation))
+    if section.motions and not section.complete:
+        statements.warnings.append("there may be steady motions that are not listed")
+    return section
 
 
 def blocks(section: SteadySection, answers: Answers) -> Iterator[Block]:

@@ -13,13 +13,14 @@ from lagcli.statements.motions import Above
 from lagcli.verification import verified
 
 HEAD = (
-    "coordinates: [%s]\nparameters: {m: {assume: positive}, k: {assume: positive},"
+    "coordinates: %s\nparameters: {m: {assume: positive}, k: {assume: positive},"
     " b: {assume: positive}, w: {assume: positive}}\n%s\n"
 )
 
 
 def derived(coordinates: str, physics: str, section: str):
-    problem = read_problem("t.yaml", (HEAD % (coordinates, physics)).encode()).checked()
+    listed = coordinates if coordinates.startswith("{") else f"[{coordinates}]"
+    problem = read_problem("t.yaml", (HEAD % (listed, physics)).encode()).checked()
     answers = statements(derive(problem)).answers([section])
     assert verified(problem, answers) is answers
     return problem, answers, answers.sections[section]
@@ -84,7 +85,7 @@ def test_a_place_that_is_not_real_is_no_answer(value: str) -> None:
         "T: m*x'^2/2\nV: -k*cos(x)\ninitial: {x: 1, x': 0}\n"
         'find: {turn: {where: "x\' = 0", for: x}}'
     )
-    problem = read_problem("t.yaml", (HEAD % ("x", physics)).encode()).checked()
+    problem = read_problem("t.yaml", (HEAD % ("[x]", physics)).encode()).checked()
     answers = statements(derive(problem)).answers(["find"])
     section = answers.sections["find"]
     [(name, answer)] = section.answers.items()

@@ -174,13 +174,14 @@ class Action:
         known = next(filter(None, map(self.environment, self.x.states())), None)
         if known is None or not self.equations:
             return True
-        symbols = [self.x.reference.program.symbol(*key) for key in self.constants]
+        sought = [key for key in self.constants if key not in known]
+        symbols = [self.x.reference.program.symbol(*key) for key in sought]
         at = self.x.reference.values(
-            {**known, **{key: arb(5 + 3 * k) / 8 for k, key in enumerate(self.constants)}}
+            {**known, **{key: arb(5 + 3 * k) / 8 for k, key in enumerate(sought)}}
         )
         rows = [column(at.gradient(place), symbols) for place in self.equations]
         try:
-            return rank(rows, len(symbols)) == len(rows)
+            return rank(rows, len(symbols)) == len(symbols)
         except Unclear:
             return True
 

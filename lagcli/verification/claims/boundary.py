@@ -12,6 +12,7 @@ identically (Euler's operator; Olver, *Applications of Lie Groups to Differentia
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import combinations
 from random import Random
 
 from flint import arb
@@ -20,8 +21,12 @@ from lagcli.expression import ZERO
 from lagcli.statements.answers import Charge
 from lagcli.verification.comparison import is_zero
 from lagcli.verification.examination import Examination
+from lagcli.verification.linear import size, solve
 from lagcli.verification.states import State
-from lagcli.verification.sweeps import StepValues
+from lagcli.verification.sweeps import StepValues, column
+
+#: Of terms of order 1, at 128 bits.
+_NOTHING = 1e-20
 
 
 def boundary_term(x: Examination, charge: Charge) -> bool:
@@ -78,6 +83,36 @@ def euler_operator(x: Examination, change: int) -> list[int]:
         rates = program.rate(parts[1]), program.rate(program.rate(parts[2]))
         residuals.append(program.sum(parts[0], program.negative(rates[0]), rates[1]))
     return residuals
+
+
+def closed_on_surface(x: Examination, charge: Charge) -> bool:
+    """Whether K dt = s dq + k dt may be closed on what the constraints a dq + b dt = 0 allow."""
+    change = _change_of_action(x, charge)
+    reference, n = x.reference, len(x.reference.q) + 1
+    if change is None or not reference.rows:
+        return True
+    (own, *rows) = (_one_form(x, each) for each in (change, *(r.velocity for r in reference.rows)))
+    for state in x.states():
+        by = [column(state.at.gradient(f), [*reference.q, reference.time]) for f in own]
+        bends = [column(state.at.gradient(f), reference.v) for f in own]
+        if any(size(each) > _NOTHING for bend in bends for each in bend):
+            return True  # not linear in q' off the surface: not tried
+        lines = [[state.at(f) for f in row] for row in rows]
+        allowed = solve(lines, [arb(0)] * len(lines), n).kernel
+        for u, w in combinations(allowed, 2):
+            terms = [(by[j][i] - by[i][j]) * u[i] * w[j] for i in range(n) for j in range(n)]
+            if size(sum(terms, arb(0))) > _NOTHING * (1 + sum(map(size, terms))):
+                x.refute(f"that '{charge.name}' is conserved", "L changes by no total derivative")
+                return False
+    return True
+
+
+def _one_form(x: Examination, linear: int) -> list[int]:
+    """The steps of the coefficients of dq and dt of what is linear in q'."""
+    program, reference = x.reference.program, x.reference
+    slopes = [reference.by(linear, v) for v in reference.v]
+    terms = (program.product(s, v) for s, v in zip(slopes, reference.v, strict=True))
+    return [*slopes, program.sum(linear, *map(program.negative, terms))]
 
 
 def _is_total_derivative(x: Examination, change: int) -> bool:

@@ -15,7 +15,7 @@ from flint import arb
 from lagcli.expression import ONE, ZERO
 from lagcli.record import replace
 from lagcli.statements.answers import Charge, ChargesSection
-from lagcli.verification.claims.boundary import boundary_term
+from lagcli.verification.claims.boundary import boundary_term, closed_on_surface
 from lagcli.verification.claims.rest import conditions
 from lagcli.verification.comparison import is_zero
 from lagcli.verification.examination import BRANCHED, Examination
@@ -81,7 +81,8 @@ def _charge(x: Examination, charge: Charge) -> Charge:
     if charge.trivial:
         return charge if _is_trivial(x, charge) else _without(charge)
     if charge.charge is None:
-        return charge
+        lasts = not charge.conserved or closed_on_surface(x, charge)
+        return charge if lasts else _without(charge)
     what = f"the charge '{charge.name}'"
     places = x.places(what, [charge.charge])
     tried = len(x.unchecked)

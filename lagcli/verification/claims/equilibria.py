@@ -148,7 +148,12 @@ def _another_motion(x: Examination, section: SteadySection, found: list[SteadyMo
     ]
     mirrored = [each.mirrored for each in found]
     near = next(unlisted(Balance(x, turning), places, mirrored=mirrored), None)
-    return "" if near is None else shown(near, turning)
+    if near is not None:
+        return shown(near, turning)
+    poles = [place for place, each in zip(places, found, strict=True) if each.rates is None]
+    resting = unlisted(Balance(x), poles)
+    near = next((each for each in resting if each.at_a_pole), None)
+    return "" if near is None else shown(near)
 
 
 def _stays(

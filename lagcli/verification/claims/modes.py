@@ -75,16 +75,24 @@ def _all_modes(x: Examination, about: Sequence[ModesOfFrequency]) -> RestPlace |
 
 def _are_all(x: Examination, places: Sequence[RestPlace]) -> bool:
     """Whether no stable equilibrium is known about which no modes are listed."""
-    if not places or x.reference.large or x.problem.contacts:
+    if x.reference.large or x.problem.contacts:
         return True
     if any(not row.holonomic for row in x.reference.rows):
         return True
     for near in unlisted(Balance(x), places):
-        if near.is_bowl:
+        if near.is_stable and _is_so_later(near):
             why = f"there is a stable equilibrium at {shown(near)}"
             x.refute("that the normal modes about all stable equilibria are listed", why)
             return False
     return True
+
+
+def _is_so_later(near: LinearMotion) -> bool:
+    """Whether it stays, with the same linear motion, at another time."""
+    known = near.environment
+    later = LinearMotion(near.x, {**known, ("t", 0): known.get(("t", 0), arb(0)) + arb(3) / 8})
+    pairs = zip(sorted(near.eigenvalues, key=abs), sorted(later.eigenvalues, key=abs), strict=True)
+    return later.residual < _STAYS and all(abs(abs(a) - abs(b)) < _STAYS for a, b in pairs)
 
 
 def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
@@ -100,13 +108,16 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
     flat = x.places(what, [shape[n] for shape in shapes for n in x.reference.names])
     if not place.readable or square is None or frequency is None or flat is None:
         return False
+    tried = [near for near in place.states() if near.defined and near.regular]
+    resting = [near for near in tried if near.residual < _STAYS]
+    if tried and not resting:
+        x.refute(what, "the equations of motion do not let it stay there")
+        return False
     if mode.damped:
-        return _decays_so(x, what, place, mode)
+        return _decays_so(x, what, resting, mode)
     size = len(x.reference.names)
     real: list[bool] = []  # at each state
-    for near in place.states():
-        if not (near.defined and near.regular and near.residual < _STAYS):
-            continue
+    for near in resting:
         W = [near.at(p) for p in square] + [near.at(p) ** 2 for p in frequency]
         real.append(all(w.is_finite() for w in W))
         if not real[-1]:
@@ -131,16 +142,16 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
     return True
 
 
-def _decays_so(x: Examination, what: str, place: RestPlace, mode: ModesOfFrequency) -> bool:
+def _decays_so(
+    x: Examination, what: str, resting: Sequence[LinearMotion], mode: ModesOfFrequency
+) -> bool:
     """Whether s = -decay ± sqrt(decay² - natural²), and the real s, are exponents."""
     pair = mode.decay, mode.frequency.arguments[0] if isinstance(mode.frequency, Call) else None
     complex_ = x.places(what, [f for f in pair if f is not None])
     real = x.places(what, list(mode.exponents))
     if complex_ is None or real is None:
         return False
-    for near in place.states():
-        if not (near.defined and near.regular and near.residual < _STAYS):
-            continue
+    for near in resting:
         values = [near.at(p) for p in (*complex_, *real)]
         if not all(value.is_finite() for value in values):
             continue

@@ -23,6 +23,10 @@ _BESIDE = arb(2) ** -30
 NOTHING = 1e-12
 #: Relative differences of eigenvalues: those of multiplicity 2 are right to 1e-19.
 _AGREE = 1e-9
+#: An eigenvalue of M that is 0: of a place that is right to 1e-12 a square leaves 1e-24.
+_FLAT = 1e-9
+#: A real part of an eigenvalue of multiplicity 2 is right to 1e-19.
+_DECAYS = 1e-6
 
 
 class LinearMotion:
@@ -46,6 +50,11 @@ class LinearMotion:
     def defined(self) -> bool:
         """Whether all forces have values there."""
         return all(value.is_finite() for value in (*self.laws.drift, *self.laws.applied))
+
+    @cached_property
+    def at_a_pole(self) -> bool:
+        """Whether the mass matrix is singular there."""
+        return not self.regular or any(abs(z) < _FLAT for z in eigenvalues(self.laws.mass_matrix))
 
     @cached_property
     def without_lagrangian(self) -> bool:
@@ -156,6 +165,11 @@ class LinearMotion:
         """Whether V - T_0 surely has a minimum there, and nothing but L and constraints acts."""
         definite = all(z.real > NOTHING for z in eigenvalues(self.laws.mass_matrix))
         return not self.x.reference.pushed and definite and all(k > 1e-8 for k in self.stiffness)
+
+    @property
+    def is_stable(self) -> bool:
+        """Whether it is a minimum, or every disturbance decays."""
+        return self.is_bowl or all(z.real < -_DECAYS for z in self.eigenvalues)
 
     @cached_property
     def curvatures(self) -> list[float]:

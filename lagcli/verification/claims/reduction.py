@@ -7,7 +7,8 @@ R = T_2 + sum g_j q_j' - U_eff where it is quadratic in them (Routh; Goldstein, 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 
 from flint import arb
 
@@ -19,12 +20,18 @@ from lagcli.verification.claims.eliminated import EliminatedFormula
 from lagcli.verification.claims.periods import periods
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot, size
+from lagcli.verification.phase_points import Environment
 from lagcli.verification.states import State
 from lagcli.verification.sweeps import StepValues, column
 
 _WHY = "what was derived does not hold at random states"
 #: Of the terms of the rate of a momentum: rounding leaves some 1e-25, a force 1e-2.
 _CHANGED = 1e-12
+#: One turn, and lengths of other sizes beside it.
+_POSITIVE = [arb(k) / 64 for k in (1, 2, 4, 8, 13, 18, *range(24, 205, 12), 256, 384, 640, 1024)]
+_PLACES = [-q for q in reversed(_POSITIVE)] + _POSITIVE
+#: Halvings of 3/16 to 1e-15; listed and found places are apart by 1e-13 then, or by some 1e-1.
+_HALVINGS, _SAME_PLACE = 48, 1e-9
 
 
 def reduction(x: Examination, section: ReductionSection) -> ReductionSection:
@@ -149,8 +156,8 @@ def _one_freedom(x: Examination, one: OneFreedom, R: Expression) -> bool:
 
     if not x.decide("the rate of the one degree of freedom", paces):
         return False
-    if one.turning_points == () and (q := _turns_at(x, one, h)):
-        x.refute("that there are no turning points", f"there is one beside {one.coordinate} = {q}")
+    if one.turning_points is not None and (q := _another_turning_point(x, one, h, turning)):
+        x.refute("that these are all turning points", f"there is one at {one.coordinate} = {q}")
         return False
     before = len(x.unchecked)
     holds = not turning or x.decide("the turning points", turns)
@@ -158,17 +165,48 @@ def _one_freedom(x: Examination, one: OneFreedom, R: Expression) -> bool:
     return holds and _real_between(x, one, turning) and periods(x, one, h)
 
 
-def _turns_at(x: Examination, one: OneFreedom, energy: int) -> str:
-    """A place at which the potential exceeds the energy of a motion; empty where none was found."""
+def _another_turning_point(
+    x: Examination, one: OneFreedom, energy: int, turning: Sequence[int]
+) -> str:
+    """Where U_eff = E beside these and their turns by a period of U_eff; empty if nowhere seen."""
+    if x.problem.contacts or any(each.holds_while for each in x.problem.constraints):
+        return ""  # on one side only some of them are reached
     for state in x.states():
+        E = state.at(energy).mid()
         known = {**state.environment, **state.following, (one.coordinate, 1): arb(0)}
-        for place in (arb(2) ** (k // 2 - 4) * (-1 if k % 2 else 1) for k in range(20)):
-            if one.positive and place < 0:
-                continue
-            U = x.reference.values({**known, (one.coordinate, 0): place})(energy)
-            if U.is_finite() and state.at(energy) < U:
-                return f"{float(place):.6g}"
+        at = x.reference.values({**known, (one.constant, 0): E})
+        listed = [q for q in map(at, turning) if q.is_finite()]
+
+        def excess(place: arb, known: Environment = known, E: arb = E) -> arb:
+            values = x.reference.values({**known, (one.coordinate, 0): place})
+            return (values(energy) - E).mid()
+
+        def is_listed(root: arb, listed: list[arb] = listed) -> bool:
+            places = [arb(3) / 8, arb(9) / 8]
+            return any(
+                size(gap) < _SAME_PLACE
+                or all(size(excess(y + gap) - excess(y)) < _SAME_PLACE for y in places)
+                for gap in (root - q for q in listed)
+            )
+
+        for root in _crossings(excess, _POSITIVE if one.positive else _PLACES):
+            if not is_listed(root):
+                return f"{float(root):.6g}"
     return ""
+
+
+def _crossings(f: Callable[[arb], arb], places: Sequence[arb]) -> Iterator[arb]:
+    """Where a continuous function changes its sign between two of the places."""
+    values = [f(place) for place in places]
+    for (low, a), (high, b) in pairwise(zip(places, values, strict=True)):
+        if not (a.is_finite() and b.is_finite() and a * b < 0):
+            continue
+        for _ in range(_HALVINGS):
+            middle = (low + high) / 2
+            value = f(middle)
+            low, high = (middle, high) if value * a > 0 else (low, middle)
+        if size(value) < _SAME_PLACE * (1 + size(a) + size(b)):  # no jump, no pole
+            yield middle
 
 
 def _real_between(x: Examination, one: OneFreedom, turning: Sequence[int]) -> bool:

@@ -17,7 +17,7 @@ from random import Random
 from flint import arb, ctx
 
 from lagcli.problem_data import Coordinate, Inequality
-from lagcli.verification.claims.near import LinearMotion, eigenvalues
+from lagcli.verification.claims.near import LinearMotion
 from lagcli.verification.claims.rest import RestPlace
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear, least_step, size
@@ -136,12 +136,9 @@ class Balance:
         x = self.x
         if any(size(near.environment[n, 0]) > pi for n in x.reference.names):
             return False
-        pole = not near.regular or any(abs(z) < _SAME for z in eigenvalues(near.laws.mass_matrix))
-        if (
-            not near.defined
-            or near.without_lagrangian
-            or (pole and (self.turning or not _rests_at_a_pole(near)))
-        ):
+        if not near.defined or near.without_lagrangian:
+            return False
+        if near.at_a_pole and (self.turning or not _rests_at_a_pole(near)):
             return False
         if any(_is_outside(near, c) for c in x.problem.coordinates):
             return False

@@ -106,28 +106,33 @@ def _search(x: Examination, changes: Sequence[Change], listed: Sequence[Change])
 
 
 def _of_points(x: Examination) -> list[Change]:
-    """1, t, t^2 times 1 and the coordinates that are lengths, for each coordinate and for t."""
+    """1, t, t^2 times 1 and the coordinates that are lengths, for each coordinate and for t.
+
+    Besides cos(w t) and sin(w t) for each; cos(2 w t) and sin(2 w t) as t^2.
+    """
     program, reference = x.reference.program, x.reference
     t = reference.time
     powers = [program.one, t, program.product(t, t)]
     found = [[program.product(T, v) for v in reference.v] for T in powers]
-    exponentials = _exponentials(x)
+    exponentials, doubled = _exponentials(x)
+    found += [[program.product(T, v) for v in reference.v] for T in doubled]
     for j in range(len(reference.names)):
-        for T in powers:
+        for T in (*powers, *doubled):
             made = [program.product(T, g) for g in (program.one, *_lengths(x))]
             found += [_only(x, j, f) for f in made]
         found += [_only(x, j, T) for T in exponentials]
     return found
 
 
-def _exponentials(x: Examination) -> list[int]:
-    """cos(w t) and sin(w t), or exp(r t) and exp(-r t), of the motions of q'' = K q."""
-    program, t, found = x.reference.program, x.reference.time, []
+def _exponentials(x: Examination) -> tuple[list[int], list[int]]:
+    """cos(w t) and sin(w t), or exp(r t) and exp(-r t), of the motions of q'' = K q, and of 2 t."""
+    program, t = x.reference.program, x.reference.time
+    found: tuple[list[int], list[int]] = [], []
     with ctx.workprec(PRECISIONS[1]):
         here = dict(x.states()[0].environment)
         near, other = (LinearMotion(x, each) for each in (here, _jet(x, here, Random(4))))
         if not (near.regular and other.regular):  # faster than light, for instance
-            return []
+            return found
         K, L = near.slopes[0], other.slopes[0]
         same = all(
             size(a - b) < _SAME
@@ -135,18 +140,19 @@ def _exponentials(x: Examination) -> list[int]:
             for a, b in zip(p, q, strict=True)
         )
         if not (near.still and other.still and same):
-            return []
+            return found
         roots = [z.real for z in arb_mat(K).mid().eig(algorithm="approx", nonstop=True)]
         for k, square in enumerate(roots):
             if size(square) < _SAME or any(size(square - r) < _SAME for r in roots[:k]):
                 continue
             mantissa, exponent = abs(square).sqrt().mid().man_exp()
             rate = program.number(Fraction(int(mantissa)) * Fraction(2) ** int(exponent))
-            turn = program.product(rate, t)
-            if square > 0:
-                found += [program.call("exp", part) for part in (turn, program.negative(turn))]
-            else:
-                found += [program.call("cos", turn), program.call("sin", turn)]
+            once = program.product(rate, t)
+            for turn, functions in zip((once, program.sum(once, once)), found, strict=True):
+                if square > 0:
+                    functions += [program.call("exp", f) for f in (turn, program.negative(turn))]
+                else:
+                    functions += [program.call("cos", turn), program.call("sin", turn)]
     return found
 
 
