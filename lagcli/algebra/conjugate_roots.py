@@ -13,6 +13,7 @@ from lagcli.expression import Expression, Name, Negative, Sum, opposite, walk
 from lagcli.rewriting import put_in, rebuilt
 
 _ROOT = "sqrt"  # the place of the root; no name of a file, since it is a function's
+_INSIDE = Name("acos")  # the place of what the function of an angle has inside
 
 
 def written_alike(roots: Sequence[Expr], order: Sequence[str]) -> list[Expression]:
@@ -28,6 +29,11 @@ def written_alike(roots: Sequence[Expr], order: Sequence[str]) -> list[Expressio
 
 
 def _pair(first: Expr, second: Expr, order: Sequence[str]) -> tuple[Expression, Expression] | None:
+    (outer, inside), (other, inside_other) = map(_opened, (first, second))
+    if outer == other and inside is not None and inside_other is not None:
+        within = _pair(inside, inside_other, order)
+        tree = shape(outer, order)
+        return within and (put_in(tree, {_INSIDE: within[0]}), put_in(tree, {_INSIDE: within[1]}))
     middle, half = simplify((first + second) / 2), simplify((first - second) / 2)
     roots = [f for f in sympy.Mul.make_args(half) if f.is_Pow and abs(f.exp) == sympy.S.Half]
     root = sympy.Mul(*roots)
@@ -44,6 +50,16 @@ def _pair(first: Expr, second: Expr, order: Sequence[str]) -> tuple[Expression, 
     whole: dict[Expression, Expression] = {place: shape(root, order)}
     one, other = put_in(tree, whole), put_in(_turned(tree, place), whole)
     return (one, other) if sign == 1 else (other, one)
+
+
+def _opened(root: Expr) -> tuple[Expr, Expr | None]:
+    """c acos(place) and u of c acos(u), or of asin and atan; no place where there is none."""
+    found = root.atoms(sympy.acos, sympy.asin, sympy.atan)
+    if len(found) != 1:
+        return root, None
+    [angle] = found
+    place = angle.func(Symbol(_INSIDE.name, real=True))
+    return root.xreplace({angle: place}), angle.args[0]
 
 
 def _minus_signs(tree: Expression) -> int:

@@ -29,7 +29,7 @@ _ATTEMPTS = 40  # measured: all 40 where a branch has no real state
 _NEWTON_STEPS = 60  # at a double root each gains a bit
 _HALVINGS = 8  # to a 256th of a step; a shorter one leads nowhere
 _AS_DRAWN = 20  # attempts with the parameters as they were drawn
-_SURFACES = 8  # at most
+_SURFACES = 32  # at most: of two or three forms with three factors each, all
 _NEAR = 3  # states drawn near 0, before those that come from afar
 
 State = dict[Symbol, mpf]

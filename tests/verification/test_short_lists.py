@@ -101,3 +101,11 @@ def test_a_symmetry_of_a_surface_without_a_charge_is_compared(surface: str) -> N
     found, warnings = after(problem, answers, replace(section, charges=charges))
     assert any("'turn' is conserved" in each for each in warnings)
     assert not any(c.conserved for c in found.charges if c.name == "turn")
+
+
+def test_rates_of_observables_that_are_left_out_are_missed() -> None:
+    physics = "T: m*x'^2/2\nV: k*x^2/2\nobservables: {A: x*p_x, B: x^2}\nbrackets: {AB: [A, B]}"
+    problem, answers, section = derived("x", physics, "brackets")
+    for name in section.rates:
+        found, _ = after(problem, answers, replace(section, rates={name: section.rates[name]}))
+        assert found.rates is None

@@ -192,9 +192,12 @@ class ReducedFreedom:
         return tuple(ranges) if len(ranges) == 1 else ()
 
     def _excluded(self, root: Expr) -> bool:
-        """Whether the assumptions on the coordinate rule the value out."""
+        """Whether the assumptions rule the value out: it has the wrong sign, or is nowhere real."""
         if self.q.is_nonnegative and weak_sign(root) == -1:
             return True
+        real = [*not_negative_where_real(root)]
+        if any(sign_of(each, [x for x in real if x != each]) == -1 for each in real):
+            return True  # sqrt(-k - sqrt(k² + 4 b E))
         return bool(self.q.is_nonzero and root.is_zero)
 
     def _is_root(self, root: Expr, excess: Expr) -> bool:

@@ -92,7 +92,7 @@ class Periods:
     def excluded(self) -> bool:
         """Whether U_eff has maxima only, or no place of rest: nothing goes to and fro."""
         rest, motion = self._rest, self.motion
-        if rest.points is None or not rest.complete or motion.negative:
+        if rest.points is None or not rest.complete or motion.negative or rest.is_of_one_turn:
             return False
         curvature = motion.potential.diff(motion.q, 2)
         slopes = (at(curvature, point.values) for point in rest.points)
@@ -132,7 +132,8 @@ class Periods:
         if found and not rest.complete:
             self.reason = "there may be other minima of U_eff, which were not found"
         elif not found and not self.reason:
-            self.reason = "U_eff has no minimum at which its second derivative is positive"
+            turn = "within one turn " if rest.is_of_one_turn else ""
+            self.reason = f"U_eff has no minimum {turn}at which its second derivative is positive"
         return tuple(found)
 
     def _anywhere(self) -> tuple[AmplitudeSeries, ...]:

@@ -209,6 +209,16 @@ class RestPoints(RestConditions):
                     found[q] = int(n)
         return found
 
+    @cached_property
+    def is_of_one_turn(self) -> bool:
+        """Whether places are sought within one turn of an angle, which changes the forces."""
+        angles = [q for q in self.system.q if self.is_angle(q) and q not in self._periods]
+        return any(
+            is_zero(f.xreplace({q: q + 2 * sympy.pi}) - f) is not True
+            for q in angles
+            for f in self.forces_at_rest
+        )
+
     def _up_to_translations(self, equations: list[Expr]) -> SolvedSystem | None:
         """All solutions at which the q are 0 along which nothing changes, then moved along them."""
         q, moved, shift = self.system.q, self.translations, self._shift

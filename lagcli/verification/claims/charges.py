@@ -38,7 +38,7 @@ def _evident_are_listed(x: Examination, charges: Sequence[Charge]) -> None:
     if not states or reference.large or reference.of_phase_space or not x.regular:
         return
     for what, place, conserved in evident(x):
-        if not conserved(states):
+        if not conserved(states) or (reference.rows and not conserved(x.states(BRANCHED))):
             continue
         kept = [c.charge for c in charges if c.conserved and c.charge is not None]
         known = [each for charge in kept for each in x.places("", [charge]) or ()]

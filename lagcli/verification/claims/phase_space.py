@@ -50,11 +50,12 @@ def brackets(x: Examination, section: BracketsSection) -> BracketsSection:
     if not x.hold("the observables", printed, lambda s: [s.at(place) for place in places]):
         section = replace(section, observables={})
     found = tuple(_bracket(x, each) for each in section.brackets)
-    rates = section.rates
+    rates, what = section.rates, "the rates of the observables"
+    if rates is not None and rates.keys() != given.keys():
+        x.refute(what, "some are left out")
+        rates = None
     if rates and not x.hold(
-        "the rates of the observables",
-        list(rates.values()),
-        lambda s: [s.phase.rate(given[name]) for name in rates or ()],
+        what, list(rates.values()), lambda s: [s.phase.rate(given[name]) for name in rates or ()]
     ):
         rates = None
     reason = section.reason if rates is section.rates else _WHY
