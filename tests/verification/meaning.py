@@ -164,7 +164,17 @@ class Meaning:
         if path in {"discovered", "charges"}:  # another one with its rate is as true
             left = [each for each in left if not self._has_its_rate(each)]
         if path == "modes":  # of a place that the first sheet calls unstable
-            left = [each for each in left if not self.values.oscillates(each)]
+            places = [each["at"] for each in a]
+            left = [e for e in left if e["at"] in places and not self.values.oscillates(e)]
+        if path == "equilibria":  # a second time, without a verdict
+            places = [each.get("at") for each in a]
+            left = [
+                e
+                for e in left
+                if e.get("at") not in places
+                or e.get("stable") is not None
+                or {"minimum", "hurwitz", "spectrum"} & e.keys()
+            ]
         if alone or left:
             yield Difference(
                 f"{path}: {len(alone)} of {len(a)} missing, {len(left)} others", "wrong"
