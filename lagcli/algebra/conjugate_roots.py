@@ -8,6 +8,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra.decimals import written
+from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import shape, simplify
 from lagcli.expression import Expression, Name, Negative, Sum, opposite, walk
 from lagcli.rewriting import put_in, rebuilt
@@ -74,7 +75,8 @@ def with_number_turned(
     if len(numbers) != 1:
         return None
     [root] = numbers
-    if simplify(first.xreplace({root: -root}) ** 2 - second**2) != 0:
+    other = first.xreplace({root: -root})
+    if simplify(other**2 - second**2) != 0 or sign(other) == -1:
         return None
     tree, place = shape(first, order), shape(root, order)
     terms = [t for node in walk(tree) if isinstance(node, Sum) for t in node.terms]

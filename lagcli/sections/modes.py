@@ -82,6 +82,8 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
             open_ = len(mode.exponents) < 2 * mode.multiplicity and mode.decay is None
             if not rows or (mode.damped and open_):
                 yield Paragraph((_without_rows(mode),))
+            if mode.pole is not None and mode.multiplicity > 1:
+                yield Paragraph(("in the direction of any ", Name(mode.pole[1]), "."))
             if mode.shaped_where:
                 yield Paragraph(("where ", *conditions(mode.shaped_where), "."))
             for other in mode.more_shapes:

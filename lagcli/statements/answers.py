@@ -271,6 +271,7 @@ class ModesOfFrequency:
     `open` do not act; `kinked`: a kink of V holds the others.  `open_sign`: `frequency` is real for
     some values of the parameters only; `shaped_where`: the shapes have a value there.  Where they
     are `damped`, the exponents of exp(s t) are -`decay` ± i `frequency`, or the real `exponents`.
+    `pole`: r and phi where r = 0 is a pole, and the motion one in x = r cos(phi), y = r sin(phi).
     """
 
     at: Mapping[str, Expression]
@@ -288,6 +289,7 @@ class ModesOfFrequency:
     shaped_where: tuple[Above, ...] = ()
     decay: Expression | None = None
     exponents: tuple[Expression, ...] = ()
+    pole: tuple[str, str] | None = None
 
 
 @record(kw_only=True)

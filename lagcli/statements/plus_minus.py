@@ -125,9 +125,9 @@ def modes_in_pairs(modes: Iterable[ModesOfFrequency]) -> list[ModesOfFrequency]:
 def _one_mode(one: ModesOfFrequency, other: ModesOfFrequency) -> ModesOfFrequency | None:
     root = "frequency_squared" if one.frequency is None else "frequency"
     rates = [each.decay for each in (one, other)]
-    like = {
-        name: getattr(one, name) for name in ("frequency", "frequency_squared", "shape", "decay")
-    }
+    open_sign = one.open_sign or other.open_sign
+    names = ("frequency", "frequency_squared", "shape", "decay", "open_sign")
+    like = {name: getattr(one, name) for name in names}
     roots, shapes = (getattr(one, root), getattr(other, root)), (one.shape or {}, other.shape or {})
     if replace(other, **like) != one or None in roots or list(shapes[0]) != list(shapes[1]):
         return None
@@ -142,7 +142,7 @@ def _one_mode(one: ModesOfFrequency, other: ModesOfFrequency) -> ModesOfFrequenc
         return None
     decay = both.pop(1) if one.decay is not None else None
     shape = one.shape and dict(zip(one.shape, both[1:], strict=True))
-    return replace(one, **{root: both[0]}, shape=shape, decay=decay)
+    return replace(one, **{root: both[0]}, shape=shape, decay=decay, open_sign=open_sign)
 
 
 def joined(one: Sequence[Expression], other: Sequence[Expression]) -> list[Expression] | None:

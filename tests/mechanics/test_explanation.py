@@ -342,9 +342,9 @@ def test_a_question_is_told_with_what_is_put_in():
 
 
 def test_what_is_not_found_makes_the_account_incomplete():
-    explanation = also("steady/conical-pendulum", "modes")
+    explanation = also("driven/kapitza-pendulum", "steady_motions")
     assert not explanation.complete
-    assert any("normal modes" in warning for warning in explanation.warnings)
+    assert any("steady motions" in warning for warning in explanation.warnings)
 
 
 def chain(n):

@@ -6,6 +6,9 @@ import random
 
 import pytest
 
+import lagcli
+from lagcli.evaluation import finite_value
+from lagcli.expression import ZERO
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
 
@@ -36,6 +39,28 @@ def test_the_poles_of_a_sphere(seed):
     assert states[("pi",)].verdict.stable is (a - 2 * b > 0)
     assert states[("0",)].indeterminate == ("phi",)
     assert states[("0",)].free == ()
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_modes_at_a_pole_are_those_of_cartesian_coordinates(seed):
+    """A plane oscillator in a magnetic field, x = f(r) cos(phi), y = f(r) sin(phi), beside z."""
+    source = random.Random(seed)
+    A, b, k, m, c = source.randint(1, 4), 2 * (seed % 2), *(source.randint(1, 9) for _ in "kmc")
+    f, slope = source.choice([("sin(r)", "cos(r)"), ("r", "1"), ("(r + r^3)", "(1 + 3*r^2)")])
+    problem = lagcli.loads(f"""
+coordinates: [z, r, phi]
+L: "{A}*({slope}^2*r'^2 + {f}^2*phi'^2)/2 + {b}*{f}^2*phi'/2 - {k}*{f}^2/2 + {m}*z'^2/2 - {c}*z^2/2"
+""")
+    modes = lagcli.solve(problem, "modes")._answers.sections["modes"].modes
+    found = [
+        finite_value(mode.frequency)
+        for mode in modes
+        if mode.at["r"] == ZERO
+        for _ in range(mode.multiplicity)
+    ]
+    larmor = b / (2 * A)
+    root = (k / A + larmor**2) ** 0.5
+    assert sorted(found) == pytest.approx(sorted([root - larmor, root + larmor, (c / m) ** 0.5]))
 
 
 @pytest.mark.parametrize("potential", ["sin(theta)*cos(phi)", "2*sin(theta)*sin(phi)"])

@@ -28,6 +28,7 @@ from lagcli.expression import (
 from lagcli.mechanics.conditions import above
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, difference, says, shows
+from lagcli.mechanics.rest.singular import AtPole
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
 from lagcli.statements.plus_minus import modes_in_pairs
 from lagcli.statements.wording import conditions, linear_equations, place_rows
@@ -87,6 +88,8 @@ def _linear(explainer: Explainer, place: Place) -> Iterator[Block]:
     write = explainer.readable.as_written
     matrices = ([[write(e) for e in row] for row in matrix] for matrix in place.matrices)
     yield from linear_equations("the equations of motion are ", *matrices)
+    if isinstance(place.near, AtPole):
+        yield says("in Cartesian displacements at the pole, the second of them in the last row.")
     if explainer.dynamics.constraints.equations:
         yield says("restricted to the displacements that the constraints allow.")
 
@@ -146,7 +149,7 @@ def _without_oscillation(mode: ModesOfFrequency, shapes: int, place: Place) -> s
             "The root is multiple and has fewer independent shapes: to first order other "
             "displacements grow in proportion to a higher power of the time."
         )
-    staying = len(nullspace(place.linear.K))
+    staying = len(nullspace(place.near.K))
     if staying == mode.multiplicity:
         return "To first order this is not an oscillation but a uniform drift."
     if staying == 2 * mode.multiplicity:

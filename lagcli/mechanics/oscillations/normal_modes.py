@@ -182,6 +182,8 @@ def beats(squares: Sequence[Expr], chosen: Sequence[Mapping[Symbol, mpf]]) -> li
         return None
     both, times = simplify(squares[0] + squares[1]), simplify(squares[0] * squares[1])
     cross = 2 * simplify(sympy.sqrt(times))
+    if any(x.exp == S.Half and x.free_symbols for x in cross.atoms(sympy.Pow)):
+        return None
     p, q = (sympy.sqrt(simplify((both + sign_ * cross) / 4)) for sign_ in (1, -1))
     p, q = shorter(simplify(p), p), shorter(simplify(q), q)
     # p + |q| and p - |q| are together p + q and p - q; within a root |q| stays

@@ -44,7 +44,7 @@ from lagcli.mechanics.rest.exceptions import unless_written
 from lagcli.mechanics.rest.held import HeldCombination, held
 from lagcli.mechanics.rest.linearization import Linearization, Matrix
 from lagcli.mechanics.rest.rest_conditions import RestPoint
-from lagcli.mechanics.rest.singular import OnMeridians, is_singular, singular
+from lagcli.mechanics.rest.singular import AtPole, OnMeridians, at_pole, is_singular, singular
 from lagcli.mechanics.stability.judge import (
     DRIFTS,
     EXCLUDED,
@@ -147,12 +147,22 @@ class Place:
     def __init__(self, held: HeldCombination, point: RestPoint, apart: HeldCombination) -> None:
         self.held, self.point, self._apart = held, point, apart  # `apart`: no contact is closed
         self.linear = Linearization(held.rest, point)
-        self.characteristic = Characteristic(self.linear)
+
+    @cached_property
+    def near(self) -> Linearization:
+        """The linear motion in regular coordinates, where they are known."""
+        pole = at_pole(self.linear) if self.at_singular_coordinates else None
+        return pole or self.linear
+
+    @cached_property
+    def characteristic(self) -> Characteristic:
+        """Of the linear motion."""
+        return Characteristic(self.near)
 
     @property
     def matrices(self) -> tuple[Matrix, Matrix, Matrix]:
         """M, C and K, of a family in all coordinates where they can be."""
-        linear, known = self.linear, self.point.family
+        linear, known = self.near, self.point.family
         if known is None:
             return linear.M, linear.C, linear.K
         M, C, K = (
@@ -236,20 +246,20 @@ class Place:
         try:
             if (
                 self.held.rest.depends_on_time
-                or not self.linear.regular
+                or not self.near.regular
                 or not self.linear.smooth
                 or self.linear.drifts
                 or self.held.grazes(self.point)
             ):
                 return []
-            return normal_modes(self.linear, self.characteristic)
+            return normal_modes(self.near, self.characteristic)
         except ZeroDivisionError:
             return []
 
     @property
     def unshaped(self) -> bool:
         """Whether the shape of a mode is real and was not found."""
-        if self.linear.gyroscopic:
+        if self.near.gyroscopic:
             return False
         known = (mode for mode in self.modes if mode.square is not None and not mode.damped)
         return any(not mode.shapes and not mode.square.has(acos) for mode in known if mode.square)
@@ -316,13 +326,15 @@ class SmallOscillations:
         """The modes about one equilibrium as statements."""
         if not place.modes:
             return []
-        linear = place.linear
+        linear = place.near
         of_two = Discriminant(linear.M, linear.K, self.system.order)
 
         def known(tree: Expression) -> Expression:
             return of_two.within(tree, self.system.build)
 
         alike = self._alike(place.modes)
+        names = self.system.names
+        pole = (names[linear.radius], names[linear.azimuth]) if isinstance(linear, AtPole) else None
         return [
             ModesOfFrequency(
                 at=self._at(place.point),
@@ -333,8 +345,13 @@ class SmallOscillations:
                 frequency_squared=None if mode.damped else self._tree_or_none(mode.square, known),
                 decay=None if mode.decay is None else self._tree(mode.decay),
                 exponents=tuple(map(self._tree, mode.exponents)),
-                shape=self._shape(mode.shapes[0], known) if mode.shapes else None,
-                more_shapes=tuple(self._shape(each, known) for each in mode.shapes[1:]),
+                shape=self._shape(mode.shapes[0], known, pole) if mode.shapes else None,
+                more_shapes=tuple(
+                    self._shape(each, known, pole)
+                    for each in dict.fromkeys(mode.shapes[1:])
+                    if each != mode.shapes[0]
+                ),
+                pole=pole,
                 multiplicity=mode.multiplicity,
                 negative=mode.negative,
                 damped=mode.damped,
@@ -371,9 +388,13 @@ class SmallOscillations:
     def _at(self, point: RestPoint) -> dict[str, Expression]:
         return {q.name: self._tree(value) for q, value in shown(point).items()}
 
-    def _shape(self, displacements: Sequence[Expr], known: Rewrite) -> dict[str, Expression]:
-        pairs = zip(self.system.names, displacements, strict=True)
-        return {name: known(self._amplitude(value)) for name, value in pairs}
+    def _shape(
+        self, displacements: Sequence[Expr], known: Rewrite, pole: tuple[str, str] | None
+    ) -> dict[str, Expression]:
+        pairs = dict(zip(self.system.names, displacements, strict=True))
+        if pole is not None:
+            del pairs[pole[1]]  # along any meridian
+        return {name: known(self._amplitude(value)) for name, value in pairs.items()}
 
     def _amplitude(self, value: Expr) -> Expression:
         """One fraction where that is shorter to read, and has no (a + b)^(3/2)."""

@@ -20,6 +20,7 @@ from mpmath import mpf
 from sympy import Dummy, Expr, S, Symbol
 
 from lagcli.algebra import dot, is_zero, nullspace, simplify
+from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant
 from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.place import at
@@ -63,6 +64,75 @@ class OnMeridians(Linearization):
         still = dict.fromkeys(self.system.qdot, S.Zero)
         momenta = (p.xreplace(still) for p in self.dynamics.lagrange.momenta)
         return any(is_zero(p) is not True for p in momenta)
+
+
+class AtPole(Linearization):
+    """The linear motion at a pole of polar coordinates, in x = r cos(phi) and y = r sin(phi).
+
+    With q_i = q_i0 + r and T = A (r'^2 + r^2 phi'^2)/2 + ..., p_phi = ... + b r^2/2 at rest, the
+    rows of x and y are A x'' - b y' + k x = 0 and A y'' + b x' + k y = 0; that of y comes last.
+
+    Attributes
+    ----------
+    azimuth, radius : int
+        The places of phi and of q_i among the coordinates.
+    """
+
+    def __init__(self, whole: OnMeridians, azimuth: int, radius: int) -> None:
+        super().__init__(whole.rest, whole.point)
+        self.azimuth, self.radius = azimuth, radius
+        self._row = next(k for k, column in enumerate(whole.basis) if column[radius] == 1)
+        self.basis = [*whole.basis, whole.basis[self._row]]
+
+    @cached_property
+    def C(self) -> Matrix:
+        """Damping and gyroscopic terms."""
+        still = dict.fromkeys(self.system.qdot, S.Zero)
+        momentum = self.dynamics.lagrange.momenta[self.azimuth].xreplace(still)
+        b = simplify(self._here(momentum.diff(self.system.q[self.radius], 2)))
+        found = super().C
+        found[self._row][-1], found[-1][self._row] = -b, b
+        return found
+
+    def _along(self, matrix: Sequence[Sequence[Expr]]) -> Matrix:
+        found = super()._along(matrix)
+        for row in found[:-1]:
+            row[-1] = S.Zero
+        found[-1][:-1] = [S.Zero] * (len(found) - 1)
+        return found
+
+
+def at_pole(linear: Linearization) -> AtPole | None:
+    """The motion in regular coordinates; None where it is no pole of one angle that is cyclic."""
+    whole = OnMeridians(linear)
+    if len(whole.indeterminate) != 1 or linear.rows or len(whole.basis) != len(linear.basis) - 1:
+        return None
+    [azimuth] = whole.indeterminate
+    system, lagrange = linear.system, linear.dynamics.lagrange
+    phi, mass = system.q[azimuth], lagrange.mass_matrix_at_rest
+    if not free_of(system.L, [phi]) or any(force != 0 for force in system.applied_forces):
+        return None
+
+    def here(expression: Expr) -> Expr:
+        return at(expression, linear.point.values)
+
+    others = [j for j in range(len(system.q)) if j != azimuth]
+    bends = {
+        (i, j): here(mass[azimuth][azimuth].diff(system.q[i], system.q[j])) / 2
+        for i in others
+        for j in others
+    }
+    curved = [pair for pair, bend in bends.items() if is_zero(bend) is not True]
+    if len(curved) != 1 or curved[0][0] != curved[0][1]:
+        return None
+    radius = curved[0][0]
+    r = system.q[radius]
+    flat = [here(mass[azimuth][j].diff(r)) for j in others]
+    flat += [here(lagrange.momenta[azimuth].xreplace(dict.fromkeys(system.qdot, S.Zero)).diff(r))]
+    round_ = bends[radius, radius] - here(mass[radius][radius])
+    if any(is_zero(x) is not True for x in (*flat, round_)):
+        return None
+    return AtPole(whole, azimuth, radius)
 
 
 def complement(basis: Matrix, null: Matrix) -> Matrix:

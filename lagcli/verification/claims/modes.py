@@ -10,7 +10,7 @@ from flint import arb, ctx
 from lagcli.expression import Call
 from lagcli.record import replace
 from lagcli.statements.answers import ModesOfFrequency, ModesSection
-from lagcli.verification.claims.near import NOTHING, LinearMotion, occur
+from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues, occur
 from lagcli.verification.claims.rest import (
     BITS,
     RestPlace,
@@ -27,6 +27,8 @@ from lagcli.verification.linear import Unclear, rank
 _AGREE = 1e-9
 #: The same of exponents: where two are equal, each is right to the root of what its square is.
 _EXPONENT = 1e-7
+#: The distance from a pole at which the motion about it is looked at.
+_BESIDE = arb(2) ** -30
 #: The residual of a place that is an equilibrium for the values drawn; decimals leave 1e-15.
 _STAYS = 1e-8
 
@@ -61,6 +63,9 @@ def _all_modes(x: Examination, about: Sequence[ModesOfFrequency]) -> RestPlace |
     if first.kinked or with_closed_contacts(x, place) is not x:
         return place
     count = sum(mode.multiplicity for mode in about)
+    if first.pole is not None and count != len(x.reference.names):
+        x.refute(what, f"it is {count} as derived, with {len(x.reference.names)} coordinates")
+        return None
     for near in place.states():
         if not (near.defined and near.regular and near.residual < _STAYS):
             continue
@@ -104,6 +109,8 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
         return True
     square = x.places(what, [f for f in (mode.frequency_squared,) if f is not None])
     frequency = x.places(what, [f for f in (mode.frequency,) if f is not None])
+    if mode.pole is not None:
+        return _turns_so(x, what, place, mode.pole, square or (), frequency or ())
     shapes = [s for s in (mode.shape, *mode.more_shapes) if s is not None]
     flat = x.places(what, [shape[n] for shape in shapes for n in x.reference.names])
     if not place.readable or square is None or frequency is None or flat is None:
@@ -139,6 +146,43 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
     if frequency and not mode.open_sign and real and not any(real):
         x.refute(what, "a frequency is nowhere real")
         return False
+    return True
+
+
+def _turns_so(
+    x: Examination,
+    what: str,
+    place: RestPlace,
+    pole: tuple[str, str],
+    square: Sequence[int],
+    frequency: Sequence[int],
+) -> bool:
+    """Whether circles about a pole are run through at these rates, or a meridian swings so.
+
+    On a small circle with phi' = ±omega the distance r is not accelerated.
+    """
+    names = x.reference.names
+    r, phi = map(names.index, pole)
+    others = [j for j in range(len(names)) if j != phi]
+    for near in place.states():
+        beside = {**near.environment, (pole[0], 0): near.environment[pole[0], 0] + _BESIDE}
+        by_q, _ = LinearMotion(x, beside).slopes
+        if any(near.at(p) < 0 for p in frequency):
+            x.refute(what, "a frequency is negative")
+            return False
+        swings = eigenvalues([[-by_q[i][j] for j in others] for i in others])
+        for W in (*(near.at(p) for p in square), *(near.at(p) ** 2 for p in frequency)):
+            if not W.is_finite():
+                continue
+            turning = (
+                near.laws_at({**beside, (pole[1], 1): side * W.sqrt()}).accelerations[r]
+                for side in (1, -1)
+            )
+            gaps = [abs(float((a / _BESIDE).mid())) for a in turning if a.is_finite()]
+            gaps += [abs(z - float(W.mid())) for z in swings]
+            if min(gaps) > _AGREE * max(1e-6, abs(float(W.mid()))):
+                x.refute(what, "a frequency is not one of the linear motion near it")
+                return False
     return True
 
 
