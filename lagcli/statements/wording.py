@@ -353,7 +353,8 @@ def the_equilibria(section: SteadySection, stated: Mapping[str, Section]) -> Ite
     if not motions or any(others) or not (isinstance(modes, ModesSection) and modes.modes):
         return
     known = rest.equilibria if isinstance(rest, EquilibriaSection) else None
-    states, places = ([(x.at, x.on, x.free) for x in each] for each in (motions, known or ()))
+    regular = [each for each in known or () if not each.indeterminate]
+    states, places = ([(x.at, x.on, x.free) for x in each] for each in (motions, regular))
     if all(x in places for x in states) and all(x in states for x in places):
         lead = "No coordinate can be eliminated by a constant momentum"
         yield Paragraph((f"{lead}: the steady motions are the equilibria.",))

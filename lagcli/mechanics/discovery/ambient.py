@@ -179,8 +179,9 @@ def _parts(metric: Metric) -> list[Expr]:
 def _joint(metric: Metric) -> list[Expr]:
     """Sums of several coordinates that stand in denominators, as 1 - x^2 - y^2 of a disk."""
     one = sympy.S.One
+    origin = dict.fromkeys(metric.q, sympy.S.Zero)
     bases = {
-        p.base
+        -p.base if p.base.xreplace(origin).is_negative else p.base  # as sqrt(l^2 - x^2 - y^2)
         for row in metric.g for e in row for p in e.atoms(sympy.Pow)
         if p.exp.is_negative and p.base.is_Add and len(p.base.free_symbols & set(metric.q)) > 1
     }  # fmt: skip

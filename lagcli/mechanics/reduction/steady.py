@@ -168,7 +168,7 @@ class SteadyMotions:
         real = [p for p in points or () if not any(x.has(sympy.I) for x in p.values.values())]
         regular = [point for point in real if self.routh.regular_at(point.values)]
         self._singular = bool(points) and not regular
-        self.complete = self._solved and not self.only_rest_is_sought
+        self.complete = self._solved and not self.only_rest_is_sought and len(regular) == len(real)
         return [
             Steady(
                 point.values, self.routh.rates_at(point.values), point.positive, family=point.family

@@ -132,9 +132,10 @@ class Balance:
         return None
 
     def _counts(self, near: LinearMotion) -> bool:
-        """Whether it is a regular place that the file allows, within one turn."""
+        """Whether it is a regular place that the file allows, within one turn, (-pi, pi]."""
         x = self.x
-        if any(size(near.environment[n, 0]) > pi for n in x.reference.names):
+        places = (float(near.environment[n, 0].mid()) for n in x.reference.names)
+        if not all(_SAME - pi < place < pi + _SAME for place in places):
             return False
         if not near.defined or near.without_lagrangian:
             return False
