@@ -57,8 +57,12 @@ class Relations:
     ) -> None:
         self.solved: dict[Symbol, Expr] = {}
         self.remaining: list[Expr] = []
-        symbols = sorted({s for e in expressions for s in e.free_symbols}, key=lambda s: s.name)
-        #: Without a preference the name that comes last is solved for.
+        places = {symbol: place for place, symbol in enumerate(moving)}
+        symbols = sorted(
+            {s for e in expressions for s in e.free_symbols},
+            key=lambda s: (places.get(s, -1), s.name),
+        )
+        #: Without a preference the one that comes last is solved for.
         self._direction = 1 if eliminate else -1
         self._welcome = list(eliminate) or _dynamic(symbols) or symbols
         self._moving = frozenset(moving)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
+from math import gcd
 
 from lagcli.algebra.circular_factors import single_angles, tangents, upright
 from lagcli.evaluation import finite_value
@@ -158,12 +159,12 @@ class Writer:
         inside: list[Factor] = []
         for base, exponent in roots:
             if isinstance(base, Number):
-                # 1/2 * sqrt(2) = 1/sqrt(2), sqrt(6 g/l)/2 = sqrt(3 g/(2 l))
+                # 1/2 * sqrt(2) = 1/sqrt(2), sqrt(6 g/l)/4 = sqrt(3 g/(8 l))
                 value, sign = base.value, (1 if exponent > 0 else -1)
                 divisor = coefficient.denominator
                 if sign > 0 and divisor % value == 0:
                     coefficient, sign = coefficient * value, -1
-                elif sign > 0 and divisor > 1 and value % divisor == 0 and len(roots) > 1:
+                elif sign > 0 and gcd(value.numerator, divisor) > 1 and len(roots) > 1:
                     coefficient, value = coefficient * divisor, value / divisor**2
                 elif sign < 0 and coefficient.numerator % value == 0:
                     coefficient, sign = coefficient / value, 1

@@ -143,4 +143,7 @@ def with_lagrangian(
         constraints=constraints,
         initial={name: value for name, value in old.initial.items() if name.name in names},
     )
-    return Derivation(problem)
+    made = Derivation(problem)
+    before = [name for name in derivation.system.order if name in {p.name for p in parameters}]
+    made.system.order = (*before, *(name for name in made.system.order if name not in before))
+    return made

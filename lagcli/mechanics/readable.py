@@ -7,7 +7,9 @@ from functools import cached_property
 from sympy import Expr, Mul, S
 
 from lagcli.algebra import shape, simplify, terms
+from lagcli.algebra.build import free_of
 from lagcli.algebra.place import NO_VALUE
+from lagcli.algebra.relations import Relations
 from lagcli.algebra.terms import is_flat
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression, Name, Power, Product, Sum, operation_count, walk
@@ -86,6 +88,38 @@ class Readable:
     def _by_momenta(self, expression: Expr) -> Expression:
         return terms(expression, self.system.order, {p.name for p in self.system.momenta})
 
-    def on_surface(self, expression: Expr) -> Expression:
-        """The shortest shape, with the constraints used."""
-        return self.dynamics.shapes.shape(expression)
+    def on_surface(self, expression: Expr, own: str = "") -> Expression:
+        """The shortest shape, with the constraints used, by the coordinate `own` where it may be.
+
+        With x = a phi either may stand: -a² k x/(M a² + I) for x'', -a² k phi/(...) for phi''.
+        """
+        tree, relations = self.dynamics.shapes.shape(expression), self._relations
+        for put_in in self._multiples:
+            other = expression.xreplace(put_in)
+            if other == expression or not free_of(other, put_in):
+                continue
+            found = self.as_written(other)
+            before = self.as_written(
+                expression if relations is None else relations.substitute(expression)
+            )
+            has_own = [any(p == Name(own) for p in walk(each)) for each in (tree, found)]
+            if has_own == [False, True] or (
+                has_own[0] == has_own[1] and operation_count(found) < operation_count(before)
+            ):
+                tree = found
+        return tree
+
+    @property
+    def _relations(self) -> Relations | None:
+        return self.dynamics.constraints.relations
+
+    @cached_property
+    def _multiples(self) -> list[dict[Expr, Expr]]:
+        """{phi: x/a, phi': x'/a} of each relation x = a phi of two coordinates."""
+        relations, found = self._relations, []
+        rates = dict(zip(self.system.q, self.system.qdot, strict=True))
+        for q, value in ({} if relations is None else relations.solved).items():
+            factor, other = value.as_independent(*rates, as_Add=False)
+            if q in rates and other in rates and factor.is_nonzero:
+                found.append({other: q / factor, rates[other]: rates[q] / factor})
+        return found

@@ -96,7 +96,7 @@ class Statements(Stating):
     def by_coordinate(self, values: Sequence[Expr]) -> dict[str, Expression]:
         """One value for each coordinate, with the constraints used."""
         return {
-            name: self.on_surface(value)
+            name: self.readable.on_surface(value, name)
             for name, value in zip(self.system.names, values, strict=True)
         }
 

@@ -15,8 +15,10 @@ from lagcli.expression import (
     Product,
     Sum,
     quotient_of,
+    walk,
 )
 from lagcli.notation.factors import parts_of
+from lagcli.rewriting import put_in
 
 _TWO = Number(Fraction(2))
 
@@ -58,6 +60,47 @@ def with_added_square(node: Sum) -> Sum:
                     term = Product((*(Number(n) for n in numbers), square)) if numbers else square
                     return Sum((Number(whole - size), term))
     return node
+
+
+def with_single_angles(node: Expression) -> Expression:
+    """1 + 2 cos² x for 2 + cos 2 x, where the other functions of x have x alone."""
+    found: dict[Expression, Expression] = {}
+    angles = {part.arguments for part in walk(node) if isinstance(part, Call)}
+    for part in walk(node):
+        match part:
+            case Sum(terms=(Number(value=whole), term)):
+                minus, above, below = parts_of(term)
+                numbers = [f.value for f in above if isinstance(f, Number)]
+                size = numbers[0] if numbers else Fraction(1)
+                double = above[-1]
+                if below or len(above) > len(numbers) + 1 or size >= whole:
+                    continue
+                if isinstance(double, Call) and double.function == "cos":
+                    half = _half(double.arguments[0])
+                    if half is None or (half,) not in angles:
+                        continue
+                    square = Power(Call("sin" if minus else "cos", (half,)), _TWO)
+                    terms = (Number(whole - size), Product((Number(2 * size), square)))
+                    found[part] = Sum(terms)
+    if not found:
+        return node
+    changed = put_in(node, found)
+    doubles = {p.arguments for p in walk(changed) if isinstance(p, Call) and p.function in _OTHER}
+    return node if any(_half(x) is not None for (x,) in doubles) else changed
+
+
+def _half(angle: Expression) -> Expression | None:
+    """x of 2 x, x − y of 2 x − 2 y."""
+    match angle:
+        case Product(factors=(Number(value=value), *rest)) if value == 2:
+            return quotient_of(rest, [])
+        case Sum(terms=terms):
+            halves = [_half(t.operand if isinstance(t, Negative) else t) for t in terms]
+            pairs = zip(terms, halves, strict=True)
+            whole = [Negative(h) if isinstance(t, Negative) else h for t, h in pairs if h]
+            return Sum((*whole,)) if None not in halves else None
+        case _:
+            return None
 
 
 def difference_of_angles(one: Expression, other: Expression) -> Expression | None:

@@ -28,10 +28,10 @@ _TERMS = 3  # of such a bracket
 
 @dataclass(slots=True)
 class _Monomial:
-    """number · Π base^exponent."""
+    """number · Π base^exponent, sqrt(m) of a letter as m^(1/2)."""
 
     number: Fraction
-    powers: dict[Expression, int]
+    powers: dict[Expression, Fraction]
 
     @classmethod
     def of(cls, node: Expression) -> _Monomial:
@@ -48,18 +48,22 @@ class _Monomial:
         return found
 
     def multiply(self, factor: Expression, sign: int) -> None:
-        base, exponent = whole_power(factor)
+        base, power = whole_power(factor)
+        exponent = Fraction(power)
         if isinstance(base, Number):
-            self.number *= base.value ** (sign * exponent)
-        else:
-            self.powers[base] = self.powers.get(base, 0) + sign * exponent
-            if not self.powers[base]:
-                del self.powers[base]
+            self.number *= base.value ** (sign * power)
+            return
+        if isinstance(base, Call) and base.function == "sqrt":
+            (inner,) = base.arguments
+            base, exponent = (inner, exponent / 2) if isinstance(inner, Name) else (base, exponent)
+        self.powers[base] = self.powers.get(base, Fraction(0)) + sign * exponent
+        if not self.powers[base]:
+            del self.powers[base]
 
     def times(self, other: _Monomial) -> _Monomial:
         powers = dict(self.powers)
         for base, exponent in other.powers.items():
-            powers[base] = powers.get(base, 0) + exponent
+            powers[base] = powers.get(base, Fraction(0)) + exponent
         return _Monomial(self.number * other.number, {b: e for b, e in powers.items() if e})
 
     def times_sum(self, node: Expression, ordering: Ordering) -> Expression:
@@ -69,9 +73,15 @@ class _Monomial:
         return whole.written(ordering)
 
     def written(self, ordering: Ordering) -> Expression:
-        return product_of_powers(self.number, self.powers, ordering)
+        powers = dict(self.powers)
+        for base, exponent in self.powers.items():
+            if exponent.denominator == 2:
+                half = Fraction(1, 2) if exponent > 0 else Fraction(-1, 2)
+                powers[base] = exponent - half
+                powers[Call("sqrt", (base,))] = 2 * half
+        return product_of_powers(self.number, {b: e for b, e in powers.items() if e}, ordering)
 
-    def below(self) -> dict[Expression, int]:
+    def below(self) -> dict[Expression, Fraction]:
         return {base: -e for base, e in self.powers.items() if e < 0}
 
 
@@ -93,10 +103,10 @@ class Brackets:
     def over_one(self, terms: Sequence[Expression]) -> tuple[Sum, _Monomial] | None:
         """S and 1/d with S/d the sum of the terms, d a product of powers of letters."""
         parts = [_Monomial.of(term) for term in terms]
-        below: dict[Expression, int] = {}
+        below: dict[Expression, Fraction] = {}
         for part in parts:
             for base, exponent in part.below().items():
-                below[base] = max(below.get(base, 0), exponent)
+                below[base] = max(below.get(base, exponent), exponent)
         if not below or any(isinstance(base, (Sum, Power)) for base in below):
             return None
         number = lcm(*(part.number.denominator for part in parts))
@@ -171,7 +181,7 @@ class Brackets:
         if len(brackets) != 1 or len(above) == 1 or len(brackets[0].terms) > _TERMS:
             return [term]
         (bracket,) = brackets
-        if all(map(is_letter, bracket.terms)) or accelerates(bracket):
+        if accelerates(bracket):
             return [term]
         if any(isinstance(whole_power(f)[0], Sum) for f in (*above, *below) if f is not bracket):
             return [term]
@@ -180,22 +190,26 @@ class Brackets:
         if any(isinstance(base, Sum) for part in parts for base in part.powers):
             return [term]
         fractional = any(part.below() for part in parts)
-        if self._momentum(bracket) and not (
-            fractional and any(map(self._momentum, outside.powers))
-        ):
-            return [term]  # (p − q A) stays together
-        if all(any(map(is_rate, part.powers)) for part in parts) and not any(
-            map(is_rate, outside.powers)
-        ):
-            return [term]  # R (x' + R θ')
         inside = {base for part in parts for base, e in part.powers.items() if e > 0}
         before = {base for base, e in outside.powers.items() if e > 0 and isinstance(base, Name)}
+        form = any(is_rate(base) or self._momentum(base) for base in inside & before)
+        if all(map(is_letter, bracket.terms)) and not form:
+            return [term]
+        if self._momentum(bracket) and not (
+            any(map(self._momentum, outside.powers))
+            and (fractional or not any(map(self._ordering.is_coordinate, inside)))
+        ):
+            return [term]  # (p − q A) stays together, and so does p_x (x p_y − y p_x)
+        if all(any(map(is_rate, part.powers)) for part in parts) and not (
+            form and all(map(is_letter, bracket.terms))
+        ):
+            return [term]  # R (x' + R θ'), but x' y' − y'²
         if not inside & before:
             return [term]
         found = [part.times(outside).written(self._ordering) for part in parts]
         found.sort(key=self._ordering.term)
         more = sum(map(operation_count, found)) + len(found) - 1 - operation_count(term)
-        return found if more <= _GROWTH + fractional else [term]
+        return found if more <= _GROWTH + (fractional or form) else [term]
 
     def spread(self, node: Expression) -> list[Expression]:
         """2 g/(m (x − y)³) and ω² x of (2 g/(x − y)³ + m ω² x)/m."""

@@ -49,9 +49,14 @@ def order_of_names(problem: Problem) -> tuple[str, ...]:
 def order_of_parameters(problem: Problem) -> list[str]:
     """The parameters, each before those that it precedes in the first product of both.
 
-    Where products do not decide, or contradict each other, as they are declared.
+    Where products do not decide, or contradict each other, as they are declared, but g before all
+    that is no mass.
     """
     names = [parameter.name for parameter in problem.parameters]
+    weight = names.index("g") if "g" in names else 0
+    masses = [k for k, name in enumerate(names[:weight]) if name[0] in "mM"]
+    if masses:
+        names.insert(masses[-1] + 1, names.pop(weight))
     before: set[tuple[str, str]] = set()
     products = (p for node in given(problem) for p in walk(node) if isinstance(p, Product))
     for row in (row for product in products for row in _multiplied(product)):

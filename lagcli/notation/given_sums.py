@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
-from math import gcd
+from math import gcd, lcm, prod
 from typing import cast
 
 from lagcli.expression import (
@@ -50,7 +50,7 @@ from lagcli.notation.likeness import (
     parity,
     signed_key,
 )
-from lagcli.notation.ordering import Ordering, is_rate
+from lagcli.notation.ordering import Ordering, is_letter, is_rate
 from lagcli.rewriting import rebuilt
 
 #: How many times as long as the answer's the file's own sum may be.
@@ -117,6 +117,9 @@ class GivenSums:
                 if not all(letter in letters for letter, _ in scale):
                     continue
                 powers = {letters[x]: e for x, e in scale}
+                letters_only = all(map(is_letter, terms_of(given)))
+                if letters_only and any(is_rate(x) and x in _leaves(given) for x in powers):
+                    continue  # x' y' − y'², not (x' − y') y'
                 powers[_base(given)] = 2 if isinstance(given, Power) else 1
                 whole = product_of_powers(ratio, powers, self._ordering)
                 before = sum(_cost(terms[k]) for k in used) + len(used) - 1
@@ -171,6 +174,12 @@ class GivenSums:
                 if not isinstance(base, Sum):
                     continue
                 ratio, shown = self.like(base) or with_content(base)
+                before = number * ratio ** (sign * exponent) * _numbers(above) / _numbers(below)
+                plain = sign == exponent == 1 and self._ordering.is_parameter(shown)
+                below_terms = _denominator(shown) if plain else 1
+                if below_terms > 1 and before.numerator % below_terms == 0:
+                    ratio /= below_terms  # 3 (M + 2 m), not 6 (M/2 + m)
+                    shown = self._multiplied(shown, below_terms)
                 if ratio != 1:
                     number *= ratio ** (sign * exponent)
                     factors[place] = with_base(factor, shown)
@@ -188,6 +197,17 @@ class GivenSums:
         if abs(number.numerator) != 1 or not above:
             above.insert(0, Number(Fraction(abs(number.numerator))))
         return minus ^ (number < 0), above, below
+
+    def _multiplied(self, node: Sum, number: int) -> Sum:
+        """The sum multiplied by a number, term by term."""
+        inverse = Number(Fraction(-1))
+        terms = []
+        for term in node.terms:
+            minus, above, below = parts_of(term)
+            under = (Power(f, inverse) for f in below)
+            whole = power_product((Number(Fraction(number)), *above, *under), self._ordering)
+            terms.append(Negative(whole) if minus else whole)
+        return Sum((*terms,))
 
     def _joined(self, factors: list[Expression]) -> Fraction:
         """A number, with R² − l² of the file for (R + l) (R − l) among the factors."""
@@ -255,9 +275,6 @@ class GivenPotential:
         ratios = {
             c / self._value[term] if term in self._value else None for term, c in value.items()
         }
-        keys = [{signed_key(t)[1] for t in terms_of(each)} for each in (shown, given)]
-        if keys[0] == keys[1]:  # it has the terms of the file already
-            return node
         if ratios not in ({Fraction(1)}, {Fraction(-1)}) or _LIMIT * operation_count(
             shown
         ) < operation_count(given):
@@ -265,7 +282,8 @@ class GivenPotential:
         own = terms_of(given) if ratios == {Fraction(1)} else map(opposite, terms_of(given))
         first = terms.index(still[0])
         before, after = terms[:first], [t for t in terms[first:] if t not in still]
-        return Sum((*before, *own, *after))
+        found = (*before, *own, *after)
+        return node if isinstance(found[0], Negative) else Sum(found)
 
 
 def _cost(term: Expression) -> int:
@@ -347,9 +365,22 @@ def is_tidy(node: Expression) -> bool:
         case Quotient(numerator=above, denominator=below):
             bad = isinstance(above, (Negative, Quotient)) or isinstance(below, Quotient)
             bad = bad or gcd(_number(above), _number(below)) > 1
+        case Power(base=base):
+            bad = isinstance(base, (Product, Quotient))  # (2 l θ')²
         case _:
             bad = False
     return not bad and all(map(is_tidy, children(node)))
+
+
+def _numbers(factors: Iterable[Expression]) -> Fraction:
+    """The product of the numbers among factors."""
+    return prod((f.value for f in factors if isinstance(f, Number)), start=Fraction(1))
+
+
+def _denominator(node: Sum) -> int:
+    """The least number by which the fractions of numbers in a sum become whole."""
+    below = (f for term in node.terms for f in parts_of(term)[2] if isinstance(f, Number))
+    return lcm(*(f.value.numerator for f in below))
 
 
 def _number(node: Expression) -> int:

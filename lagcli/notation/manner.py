@@ -32,7 +32,12 @@ from lagcli.expression import (
     terms_of,
     walk,
 )
-from lagcli.notation.angles import difference_of_angles, with_added_square, with_versines
+from lagcli.notation.angles import (
+    difference_of_angles,
+    with_added_square,
+    with_single_angles,
+    with_versines,
+)
 from lagcli.notation.brackets import NamedMomenta, squares_as_brackets
 from lagcli.notation.factors import (
     cancelled,
@@ -52,7 +57,7 @@ from lagcli.notation.given_formulas import given, order_of_names
 from lagcli.notation.given_sums import GivenPotential, GivenSums, arranged
 from lagcli.notation.likeness import EVEN, ODD, Key, Monomial, multiplied_out, parity, signed_key
 from lagcli.notation.logarithms import ratios_in, with_ratios
-from lagcli.notation.ordering import Ordering, accelerates, positive_first
+from lagcli.notation.ordering import Ordering, accelerates, is_rate, positive_first
 from lagcli.problem_data import Problem
 from lagcli.rewriting import put_in, rebuilt
 
@@ -97,7 +102,7 @@ class Manner:
 
     def __call__(self, node: Expression) -> Expression:
         """The formula as the file would write it; its value stays."""
-        node = self._in_manner(node, inside=False)
+        node = self._in_manner(with_single_angles(node), inside=False)
         terms = self._brackets.spread(node)
         if any(
             isinstance(f, Sum) and any(parts_of(t)[2] for t in f.terms) for f in factors_of(node)
@@ -248,7 +253,8 @@ class Manner:
     def _opened(self, term: Expression) -> list[Expression]:
         """2 Ω y' and Ω² x of Ω (2 y' + Ω x), where the file does not have the bracket."""
         own = (f for f in parts_of(term)[1] if isinstance(f, Sum))
-        if any(signed_key(f)[1] in self._signs for f in own):
+        still = (f for f in own if not all(any(map(is_rate, walk(t))) for t in f.terms))
+        if any(signed_key(f)[1] in self._signs for f in still):
             return [term]
         return self._brackets.opened(term)
 
@@ -375,6 +381,9 @@ class Manner:
                 )
         if any(odd_base(factor)[0] is not None for factor in above):
             above = [*arranged(above, self._ordering)]
+        else:
+            above = self._ordering.with_letters(above)
+        below = self._ordering.with_letters(below)
         whole = quotient_of(above, below)
         return Negative(whole) if minus else whole
 

@@ -24,6 +24,7 @@ from lagcli.expression import (
 _AFTER_NUMBERS = 10**6  # no file has so many names; measured: 21
 #: sin(x)*cos(x), but other functions by name.
 _RANK = {"sin": "co", "sinh": "co"}
+_CIRCULAR = frozenset(("sin", "cos", "tan", "cot"))
 
 Key: TypeAlias = tuple[object, ...]
 Factor: TypeAlias = tuple[Expression, Fraction]  # base and exponent
@@ -71,9 +72,10 @@ class Ordering:
             case Sum():
                 return (3, *self._parts(node))
             case Call(function=function, primes=primes):
-                return (4, _RANK.get(function, function), primes, *self._parts(node))
+                varies = function in _CIRCULAR and not self._is_constant(node)  # sin α sin θ
+                return (4, varies, _RANK.get(function, function), primes, *self._parts(node))
             case PartialCall(function=function, indices=indices):
-                return (4, function, len(indices), *indices, *self._parts(node))
+                return (4, False, function, len(indices), *indices, *self._parts(node))
             case _:
                 return (3, *self._parts(node))
 
@@ -123,6 +125,14 @@ class Ordering:
         yield from leading
         yield from (p for p in ranked if p not in leading and not isinstance(p[0], Number))
 
+    def with_letters(self, factors: Sequence[Expression]) -> list[Expression]:
+        """The factors with the letters among them in their order: m g for g m."""
+        bases = [factor.base if isinstance(factor, Power) else factor for factor in factors]
+        places = [k for k, base in enumerate(bases) if isinstance(base, Name)]
+        ranked = sorted(places, key=lambda k: self.rank(bases[k]))
+        moved = {place: factors[k] for place, k in zip(places, ranked, strict=True)}
+        return [moved.get(k, factor) for k, factor in enumerate(factors)]
+
     def _rank_of_power(self, factor: Factor) -> Flat:
         """A root behind the last of its letters: m1 m2 sqrt(m1 m2), but sqrt(k/m) x."""
         base, exponent = factor
@@ -159,6 +169,8 @@ class Ordering:
         (y' x'' − x' y'').
         """
         accelerations, velocities = _degrees(node)
+        roots = (p for p in walk(node) if isinstance(p, Call) and p.function == "sqrt")
+        velocities = velocities or any(is_rate(p) for root in roots for p in walk(root))
         variables = tuple(sorted(self._variables(node))) or (len(self._index),)
         number, letters = _is_number(node), _flat(self._letters(node))
         timed = any(part == Name("t") for part in _factor_names(node))
@@ -186,6 +198,11 @@ class Ordering:
             for part in walk(node)
             if isinstance(part, Name)
         )
+
+    def is_coordinate(self, node: Expression) -> bool:
+        """Whether it is a coordinate."""
+        place = self._index.get(node.name, -1) if isinstance(node, Name) else -1
+        return self._first_variable < place < self._first_fast
 
     def _is_constant(self, node: Expression) -> bool:
         """Whether only parameters occur."""

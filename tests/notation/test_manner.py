@@ -59,7 +59,7 @@ def manner():
         ("g*(-2*r - m)", "-g*(2*r + m)"),
         # no fractional power of a letter, the cotangent, the inverse of a root
         ("g*r^(3/2)", "g*r*sqrt(r)"),
-        ("-2*r*g/tan(theta)", "-2*r*g*cot(theta)"),
+        ("-2*r*g/tan(theta)", "-2*g*r*cot(theta)"),
         ("g/tan(theta)^2", "g*cot(theta)^2"),
         ("m*sqrt(1/(g + r))", "m/sqrt(g + r)"),
         # positive letters below a root of a sum over something go under it, others do not
