@@ -2,7 +2,7 @@ r"""Displayed equations: aligned at `=`, broken to the text width of the article
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import groupby
 
 from lagcli.document import Bracket, Equations, Formula, Integral, Label, Matrix, Row
@@ -22,6 +22,10 @@ _NARROW = 90.0
 _MARGIN = 4.0
 #: No more quads of indentation than this, however many brackets are open.
 _DEEPEST = 2
+#: Signs between two formulas of a sentence.
+_BETWEEN = {
+    **{sign: sign for sign in "=<>+"}, "−": "-", "≤": r"\le", "≥": r"\ge", "≠": r"\ne"
+}  # fmt: skip
 #: amsmath's matrices have ten columns.
 _COLUMNS = 10
 
@@ -83,6 +87,23 @@ class LatexDisplay:
         inner = self.printer.at(integral.integrand, Level.PRODUCT).pieces
         sign = TextPiece(rf"{before}\int ", 14.0 + 5.0 * len(before))
         return (sign, *inner, TextPiece(rf"\,\mathrm{{d}}{name}", 8.0 + width))
+
+    def sentence(
+        self,
+        parts: Sequence[str | Formula],
+        words: Callable[[str], str],
+        finished: Callable[[str], str] = str,
+    ) -> str:
+        """Words and formulas in running text, one formula where only a sign is between two."""
+        shown: list[str] = []
+        for before, part, after in zip(("", *parts), parts, (*parts[1:], ""), strict=False):
+            if not isinstance(part, str):
+                shown.append(f"${finished(joined(self.formula(part)))}$")
+            elif isinstance(before, str) or isinstance(after, str) or part.strip() not in _BETWEEN:
+                shown.append(words(part))
+            else:
+                shown.append(f"\0{_BETWEEN[part.strip()]}\0")
+        return "".join(shown).replace("$\0", " ").replace("\0$", " ")
 
     def equations(self, block: Equations) -> Iterator[Display]:
         """Set the displays of a block: rows share one with narrow left sides, or of one line."""

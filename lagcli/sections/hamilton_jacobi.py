@@ -41,7 +41,8 @@ def blocks(section: HamiltonJacobiSection, _: Answers) -> Iterator[Block]:
     if section.time_rate is not None:
         yield from _driven(section, section.time_rate)
         return
-    yield Paragraph(("With each momentum the derivative of S with respect to its coordinate:",))
+    words = " with respect to its coordinate:"
+    yield Paragraph(("With each momentum the derivative of ", Label("S"), words))
     yield Equations((Row(Name(section.energy), section.hamiltonian),))
     parts: list[str | Formula] = [_NAMED[section.separable]]
     if section.obstacle:
@@ -61,14 +62,17 @@ def _driven(section: HamiltonJacobiSection, rate: Expression) -> Iterator[Block]
     """S = sum p_i(t) q_i + f(t), where the forces depend on the time alone."""
     assert section.hamiltonian is not None
     assert section.derivatives is not None
-    words = "Each momentum is the derivative of S with respect to its coordinate, H is minus that "
-    yield Paragraph((f"{words}with respect to t:",))
+    S, H, t = Label("S"), Label("H"), Name("t")
+    words = " with respect to its coordinate, "
+    lead = ("Each momentum is the derivative of ", S, words, H)
+    yield Paragraph((*lead, " is minus that with respect to ", t, ":"))
     yield Equations((Row(Label("H"), section.hamiltonian),))
-    yield Paragraph(("The forces depend on the time alone, so S is linear in the coordinates:",))
-    action: list[str | Formula] = []
+    words = " is linear in the coordinates:"
+    yield Paragraph(("The forces depend on the time alone, so ", S, words))
+    action: list[str | Formula] = [Label("S"), " = "]
     rows = []
     for name, momentum in section.derivatives.items():
-        action += [" + " if action else "S = ", Product((Name(f"p_{name}"), Name(name)))]
+        action += [*([" + "] if len(action) > 2 else []), Product((Name(f"p_{name}"), Name(name)))]
         rows.append(Row(Name(f"p_{name}"), momentum))
     f = Label("f")
     yield Paragraph((*action, " + ", f, "; verified exactly by substitution into the equation."))
@@ -90,7 +94,11 @@ def _solution(section: HamiltonJacobiSection) -> Iterator[Block]:
     if section.equations:
         yield Paragraph(("The separated equations:",))
         yield equations_of((ZERO, each) for each in section.equations.values())
-    action: list[str | Formula] = ["S = ", Negative(Product((Name(section.energy), Name("t"))))]
+    action: list[str | Formula] = [
+        Label("S"),
+        " = ",
+        Negative(Product((Name(section.energy), Name("t")))),
+    ]
     rows = []
     cases: list[tuple[str, ActionPart]] = []
     for name, derivative in section.derivatives.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from importlib import import_module
 from xml.etree import ElementTree as ET
 
 import pytest
@@ -186,3 +187,16 @@ def test_a_wide_fraction_goes_over_several_rows():
     assert whole.count("(</mo>") == whole.count(")</mo>")
     assert whole.count("<mfrac>") == 1
     ET.fromstring(f"<mtable>{whole}</mtable>")
+
+
+@pytest.mark.parametrize("sign", ["=", ">", "<", "≤", "≥", "≠", "+", "−"])
+@pytest.mark.parametrize("module", ["latex", "markdown"])
+def test_a_relation_in_a_sentence_is_one_formula(sign: str, module: str) -> None:
+    """$g > R w^2$, which an author can paste, not $g$ > $R w^2$; words stay words."""
+    a, b = Name("a"), Name("b")
+    paragraph = Paragraph(("For ", a, f" {sign} ", b, ", and where ", a, " is = ", b, "."))
+    document = Document("t", (paragraph,), ("a", "b"))
+    page = import_module(f"lagcli.formatters.built_in.{module}").pages([document], Options())
+    [line] = [line for line in page.splitlines() if "For" in line]
+    assert line.count("$") == 6
+    assert "a$" not in line.partition(",")[0]

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from lagcli.document import Block, Document, Equations, Formula, Heading, Items, Matrix, Paragraph
+from lagcli.document import Block, Document, Equations, Heading, Items, Matrix, Paragraph
 from lagcli.formatters.latex_display import LatexDisplay
 from lagcli.formatters.latex_environments import Environments
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.latex_text import latex_text
-from lagcli.formatters.layout import joined
 from lagcli.formatters.options import Options
 from lagcli.formatters.page import to_document
 from lagcli.formatters.plain import with_spaces_of
@@ -62,13 +61,13 @@ def _block(block: Block, display: LatexDisplay, displays: Environments) -> Itera
         case Heading(text=text, level=level, formula=formula):
             displays.enter(text, level)
             parts = (text,) if formula is None else (f"{text} ", formula)
-            yield f"{_HEADINGS[level]}{{{_sentence(parts, display)}}}"
+            yield f"{_HEADINGS[level]}{{{display.sentence(parts, _words)}}}"
         case Paragraph(parts=parts):
-            yield r"\noindent " + _sentence(parts, display)
+            yield r"\noindent " + display.sentence(parts, _words)
         case Items(items=items):
             yield r"\begin{itemize}"
             for item in items:
-                yield r"\item " + _sentence(item, display)
+                yield r"\item " + display.sentence(item, _words)
             yield r"\end{itemize}"
         case Equations():
             for each in display.equations(block):
@@ -76,14 +75,6 @@ def _block(block: Block, display: LatexDisplay, displays: Environments) -> Itera
         case Matrix():
             for each in display.matrix(block):
                 yield from displays.set(each)
-
-
-def _sentence(parts: Sequence[str | Formula], display: LatexDisplay) -> str:
-    """Words and formulas in running text."""
-    return "".join(
-        _words(part) if isinstance(part, str) else f"${joined(display.formula(part))}$"
-        for part in parts
-    )
 
 
 def _words(part: str) -> str:

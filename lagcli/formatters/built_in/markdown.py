@@ -5,11 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from lagcli.document import Block, Document, Equations, Formula, Heading, Items, Matrix, Paragraph
+from lagcli.document import Block, Document, Equations, Heading, Items, Matrix, Paragraph
 from lagcli.formatters.latex_display import Display, LatexDisplay, lines_of
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_names import LatexNames
-from lagcli.formatters.layout import joined
 from lagcli.formatters.options import Options
 from lagcli.formatters.page import to_document
 from lagcli.formatters.plain import harmless, with_spaces_of
@@ -56,11 +55,11 @@ def _block(block: Block, display: LatexDisplay) -> Iterator[str]:
     match block:
         case Heading(text=text, level=level, formula=formula):
             parts = (text,) if formula is None else (f"{text} ", formula)
-            yield f"{'#' * (level + 1)} {_sentence(parts, display)}"
+            yield f"{'#' * (level + 1)} {display.sentence(parts, _words, _inline)}"
         case Paragraph(parts=parts):
-            yield _LINE_START.sub(r"\\\1", _sentence(parts, display))
+            yield _LINE_START.sub(r"\\\1", display.sentence(parts, _words, _inline))
         case Items(items=items):
-            yield "\n".join(f"- {_sentence(item, display)}" for item in items)
+            yield "\n".join(f"- {display.sentence(item, _words, _inline)}" for item in items)
         case Equations():
             yield from map(_display, display.equations(block))
         case Matrix():
@@ -71,13 +70,6 @@ def _display(display: Display) -> str:
     """A display; no line in it starts with a sign that would start a list."""
     body = _for_mathjax(" \\\\\n".join(lines_of(display)))
     return f"$$\n\\begin{{aligned}}\n{body}\n\\end{{aligned}}\n$$"
-
-
-def _sentence(parts: Sequence[str | Formula], display: LatexDisplay) -> str:
-    return "".join(
-        _words(part) if isinstance(part, str) else f"${_inline(joined(display.formula(part)))}$"
-        for part in parts
-    )
 
 
 def _for_mathjax(latex: str) -> str:
