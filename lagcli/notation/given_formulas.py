@@ -54,14 +54,16 @@ def order_of_parameters(problem: Problem) -> list[str]:
     """
     names = [parameter.name for parameter in problem.parameters]
     weight = names.index("g") if "g" in names else 0
-    masses = [k for k, name in enumerate(names[:weight]) if name[0] in "mM"]
-    if masses:
-        names.insert(masses[-1] + 1, names.pop(weight))
+    lead = [k for k, name in enumerate(names[:weight]) if name[0] in "mM"]
+    if lead:
+        names.insert(lead[-1] + 1, names.pop(weight))
+    masses = {name for name in names if name[0] in "mM"}  # g (m1 x1 + m2 x2), but m1 g
     before: set[tuple[str, str]] = set()
     products = (p for node in given(problem) for p in walk(node) if isinstance(p, Product))
-    for row in (row for product in products for row in _multiplied(product)):
+    for inner, row in (pair for product in products for pair in enumerate(_multiplied(product))):
         letters = dict.fromkeys(name for name in row if name in names)
-        before.update(pair for pair in combinations(letters, 2) if pair[::-1] not in before)
+        pairs = (pair for pair in combinations(letters, 2) if pair[::-1] not in before)
+        before.update((a, b) for a, b in pairs if not inner or a != "g" or b not in masses)
     ordered: dict[str, None] = {}
     begun: set[str] = set()
 

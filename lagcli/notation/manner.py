@@ -184,6 +184,10 @@ class Manner:
                 return self._arc(node, inner)
             case Call(function="sqrt", arguments=(Quotient(numerator=Number(value=1)) as inner,)):
                 return Quotient(ONE, Call("sqrt", (inner.denominator,)))  # sqrt(1/x) = 1/sqrt(x)
+            case Call(function="sqrt", arguments=(Negative(operand=Sum() as inner),)) if any(
+                isinstance(term, Negative) for term in inner.terms
+            ):
+                return Call("sqrt", (negative_of(inner),))
             case Call(function="sqrt", arguments=(Sum() | Product() as inner,)):
                 return Call("sqrt", (self._as_before(inner),))
             case _:

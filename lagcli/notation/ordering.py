@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import TypeAlias
 
@@ -134,12 +134,13 @@ class Ordering:
         return [moved.get(k, factor) for k, factor in enumerate(factors)]
 
     def _rank_of_power(self, factor: Factor) -> Flat:
-        """A root behind the last of its letters: m1 m2 sqrt(m1 m2), but sqrt(k/m) x."""
+        """A root behind all parameters: m1 m2 sqrt(m1 m2), alpha sqrt(D/m), but sqrt(k/m) x."""
         base, exponent = factor
         letters = [part for part in walk(base) if isinstance(part, Name)]
         if exponent.denominator == 1 or isinstance(base, (Name, Sum)) or not letters:
             return self.rank(base)
-        return _flat((1, max(map(self._is_fast, letters)), max(map(self._place, letters)), "~"))
+        place = max(self._first_variable - 1, *map(self._place, letters))
+        return _flat((1, max(map(self._is_fast, letters)), place, "~"))
 
     def _leads(self, node: Expression, first: int) -> bool:
         """Whether it is a sum of numbers, or of parameters that begins before the first letter.
@@ -161,14 +162,15 @@ class Ordering:
             node.primes > 0 or self._first_fast <= self._index.get(node.name, -1)
         )
 
-    def term(self, node: Expression) -> tuple[int, int, int, tuple[int, ...], int, Flat]:
+    def term(self, node: Expression) -> tuple[int, int, int, int, tuple[int, ...], int, Flat]:
         """Accelerations, a number, falling degree in the velocities, then by coordinate.
 
         So 1 + x², and x² + R² θ² + l²: coordinates in the order of the file, parameters alone
         at the end, before fractions and functions: l + m g/k, M + m cos θ; x'' before x'
         (y' x'' − x' y'').
         """
-        accelerations, velocities = _degrees(node)
+        accelerations, rates, momenta = _degrees(node)
+        velocities = rates + momenta
         roots = (p for p in walk(node) if isinstance(p, Call) and p.function == "sqrt")
         velocities = velocities or any(is_rate(p) for root in roots for p in walk(root))
         variables = tuple(sorted(self._variables(node))) or (len(self._index),)
@@ -179,7 +181,8 @@ class Ordering:
             over = _is_over_letters(node) and self._is_constant(node)
             later = 2 if timed or _has_function(node) else int(over)
         fast = velocities if accelerations else -velocities
-        return (-accelerations, not number, fast, variables, later, letters)
+        moving = -rates if velocities > 1 and momenta else -velocities  # s'² before s' p, before p²
+        return (-accelerations, not number, fast, moving, variables, later, letters)
 
     def _variables(self, node: Expression) -> Iterator[int]:
         """Positions of the coordinates among the factors, of those with the most primes."""
@@ -352,23 +355,25 @@ def _flat(key: Key) -> Flat:
     )
 
 
-def _degrees(node: Expression) -> tuple[int, int]:
-    """The degrees of a term in accelerations and in velocities."""
+def _degrees(node: Expression) -> tuple[int, int, int]:
+    """The degrees of a term in accelerations, in velocities and in momenta."""
     match node:
         case Name(name=name, primes=primes):
-            return int(primes > 1), int(primes == 1 or name.startswith("p_"))
-        case Negative(operand=operand):
-            return _degrees(operand)
+            return int(primes > 1), int(primes == 1), int(name.startswith("p_"))
+        case Negative(operand=inner) | Quotient(numerator=inner):
+            return _degrees(inner)
         case Product(factors=factors):
-            pairs = [_degrees(factor) for factor in factors]
-            return sum(a for a, _ in pairs), sum(v for _, v in pairs)
-        case Quotient(numerator=numerator):
-            return _degrees(numerator)
+            return _over(sum, map(_degrees, factors))
         case Power(base=base, exponent=Number(value=value)):
-            a, v = _degrees(base)
-            return int(a * value), int(v * value)
+            return _over(sum, [tuple(int(d * value) for d in _degrees(base))])
         case Sum(terms=terms):
-            pairs = [_degrees(term) for term in terms]
-            return max(a for a, _ in pairs), max(v for _, v in pairs)
+            return _over(max, map(_degrees, terms))
         case _:
-            return 0, 0
+            return 0, 0, 0
+
+
+def _over(
+    of: Callable[[Iterable[int]], int], degrees: Iterable[tuple[int, ...]]
+) -> tuple[int, int, int]:
+    a, v, p = map(of, zip(*degrees, strict=True))
+    return a, v, p

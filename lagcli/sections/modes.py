@@ -83,7 +83,9 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
             if not rows or (mode.damped and open_):
                 yield Paragraph((_without_rows(mode),))
             if mode.pole is not None and mode.multiplicity > 1:
-                yield Paragraph(("in the direction of any ", Name(mode.pole[1]), "."))
+                yield Paragraph(
+                    ("in the direction of any ", Name(next(iter(mode.pole.turning))), ".")
+                )
             if mode.shaped_where:
                 yield Paragraph(("where ", *conditions(mode.shaped_where), "."))
             for other in mode.more_shapes:

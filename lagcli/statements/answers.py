@@ -261,6 +261,14 @@ class EquilibriaSection:
     where: str = ""
 
 
+@record
+class Pole:
+    """r = 0 of x = r cos(phi), y = r sin(phi): the coordinate of r, all rates where phi' = 1."""
+
+    radius: str
+    turning: Mapping[str, Expression]
+
+
 @record(kw_only=True)
 class ModesOfFrequency:
     """The normal modes of one frequency about an equilibrium, or all `on` a line.
@@ -271,7 +279,7 @@ class ModesOfFrequency:
     `open` do not act; `kinked`: a kink of V holds the others.  `open_sign`: `frequency` is real for
     some values of the parameters only; `shaped_where`: the shapes have a value there.  Where they
     are `damped`, the exponents of exp(s t) are -`decay` ± i `frequency`, or the real `exponents`.
-    `pole`: r and phi where r = 0 is a pole, and the motion one in x = r cos(phi), y = r sin(phi).
+    `pole`: the motion is one in Cartesian displacements at a pole.
     """
 
     at: Mapping[str, Expression]
@@ -289,7 +297,7 @@ class ModesOfFrequency:
     shaped_where: tuple[Above, ...] = ()
     decay: Expression | None = None
     exponents: tuple[Expression, ...] = ()
-    pole: tuple[str, str] | None = None
+    pole: Pole | None = None
 
 
 @record(kw_only=True)

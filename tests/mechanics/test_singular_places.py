@@ -11,6 +11,9 @@ from lagcli.evaluation import finite_value
 from lagcli.expression import ZERO
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
+from lagcli.reader import parse_text
+from lagcli.record import replace
+from lagcli.verification import verified
 
 from .derived import derive
 
@@ -61,6 +64,34 @@ L: "{A}*({slope}^2*r'^2 + {f}^2*phi'^2)/2 + {b}*{f}^2*phi'/2 - {k}*{f}^2/2 + {m}
     larmor = b / (2 * A)
     root = (k / A + larmor**2) ** 0.5
     assert sorted(found) == pytest.approx(sorted([root - larmor, root + larmor, (c / m) ** 0.5]))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_an_upright_top_swings_as_a_pendulum_in_two_directions(seed):
+    """Precession and spin have one axis there; without a spin the top is a spherical pendulum."""
+    source = random.Random(seed)
+    A, C, w = (source.randint(1, 9) for _ in "ACw")
+    up = source.choice([1, -1])
+    problem = lagcli.loads(f"""
+coordinates: [phi, psi, theta]
+T: {A}*(theta'^2 + sin(theta)^2*phi'^2)/2 + {C}*(psi' + phi'*cos(theta))^2/2
+V: {up * w}*cos(theta)
+""")
+    found = lagcli.solve(problem, "modes")._answers.sections["modes"].modes
+    values = {round(finite_value(mode.frequency), 9): mode.multiplicity for mode in found}
+    assert values == {0: 1, round((w / A) ** 0.5, 9): 2}
+
+
+def test_frequencies_at_a_pole_are_refuted_where_they_are_wrong():
+    problem = lagcli.loads(SPHERE.replace("POTENTIAL", "3*cos(theta)"))
+    answers = lagcli.solve(problem, "modes")._answers
+    section = answers.sections["modes"]
+    for frequency in ("sqrt(3)/2", "-sqrt(3)", "3"):
+        [mode] = section.modes
+        wrong = replace(section, modes=(replace(mode, frequency=parse_text(frequency)),))
+        again = verified(problem, replace(answers, sections={"modes": wrong}))
+        assert again.sections["modes"].modes is None
+    assert verified(problem, answers).sections["modes"].modes == section.modes
 
 
 @pytest.mark.parametrize("potential", ["sin(theta)*cos(phi)", "2*sin(theta)*sin(phi)"])

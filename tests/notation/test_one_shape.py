@@ -274,6 +274,24 @@ def test_a_determinant_of_squares_begins_with_what_the_file_has_first(a: str, b:
     assert f"({b}² − {a}²)" not in found
 
 
+@pytest.mark.parametrize(
+    ("coordinates", "physics", "root"),
+    [
+        # two of three are coupled to each other
+        ("x, y, z", "T: a*x'^2/2 + m*y'^2/2 + z'^2/2\nV: k*x^2/2 + b*y^2/2 + c*x*y + z^2",
+         "√((a b − k m)² + 4 m a c²)"),
+        # Landau and Lifshitz, section 24, problem 3: the molecule A B C
+        ("x, y, z", "T: a*x'^2/2 + b*y'^2/2 + c*z'^2/2\nV: k*(x - y)^2/2 + m*(y - z)^2/2",
+         "√(4 k m a² c² + (m a (b + c) − k c (a + b))²)"),
+    ],
+)  # fmt: skip
+def test_the_root_of_two_coupled_ones_has_the_square_of_a_difference(
+    coordinates: str, physics: str, root: str
+) -> None:
+    found = text(coordinates, "k m a b c", physics, "modes")
+    assert root in " ".join(found.split())
+
+
 @pytest.mark.parametrize("slope", ["r^2/a^2", "a^2/r^2"])
 def test_the_inertia_of_a_surface_keeps_its_one(slope: str) -> None:
     """m (1 + r²/a²) r'²/2 on a paraboloid, in the energy and under the root of the time."""

@@ -11,10 +11,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from itertools import combinations
 
 from sympy import Expr, Mul, S, sqrt
 
-from lagcli.algebra import is_zero, shape, simplify
+from lagcli.algebra import dot, is_zero, nullspace, shape, simplify
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Call, Expression, Number, Power, Sum, operation_count
 from lagcli.rewriting import rebuilt
@@ -25,6 +26,34 @@ _LONGER = 1.1
 
 Matrix = Sequence[Sequence[Expr]]
 Rewrite = Callable[[Expression], Expression]
+
+
+def pairs_of(M: Matrix, K: Matrix) -> list[tuple[Matrix, Matrix]]:
+    """The M and K of two coordinates that are coupled to each other and to no other ones.
+
+    Of three that may be displaced together by v without force, those of two of them with the
+    centre at rest: M v^T M v - M v (M v)^T.
+    """
+    n, found = len(M), list[tuple[Matrix, Matrix]]()
+    null = nullspace(K) if n == 3 else []
+    if len(null) == 1 and all(x != 0 for x in null[0]):
+        momenta = [dot(row, null[0]) for row in M]
+        whole = dot(momenta, null[0])
+        inner = [
+            [simplify(whole * M[i][j] - momenta[i] * momenta[j]) for j in range(n)]
+            for i in range(n)
+        ]
+        i, j = min(combinations(range(n), 2), key=lambda pair: K[pair[0]][pair[1]] != 0)
+        return [(_block(inner, i, j), _block(K, i, j))]
+    near = [[j for j in range(n) if j != i and (M[i][j] != 0 or K[i][j] != 0)] for i in range(n)]
+    for i, j in combinations(range(n), 2):
+        if near[i] == [j] and near[j] == [i]:
+            found.append((_block(M, i, j), _block(K, i, j)))
+    return found
+
+
+def _block(A: Matrix, i: int, j: int) -> Matrix:
+    return [[A[a][b] for b in (i, j)] for a in (i, j)]
 
 
 class Discriminant:

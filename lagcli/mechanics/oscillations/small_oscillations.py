@@ -29,7 +29,7 @@ from lagcli.algebra.simplification import fraction
 from lagcli.expression import ZERO, Call, Expression, Power, Quotient, length, sum_of, walk
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.discriminant import Discriminant, Rewrite
+from lagcli.mechanics.oscillations.discriminant import Discriminant, Rewrite, pairs_of
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.normal_modes import (
     NormalMode,
@@ -58,7 +58,13 @@ from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, poten
 from lagcli.mechanics.stability.verdict import Stability, undecided
 from lagcli.mechanics.theorems import KELVIN_TAIT_CHETAEV, LAGRANGE_DIRICHLET
 from lagcli.record import replace
-from lagcli.statements.answers import EquilibriaSection, Equilibrium, ModesOfFrequency, ModesSection
+from lagcli.statements.answers import (
+    EquilibriaSection,
+    Equilibrium,
+    ModesOfFrequency,
+    ModesSection,
+    Pole,
+)
 
 #: How many times as long an amplitude may be with its root above the line.
 _ABOVE = 1.25
@@ -327,14 +333,15 @@ class SmallOscillations:
         if not place.modes:
             return []
         linear = place.near
-        of_two = Discriminant(linear.M, linear.K, self.system.order)
+        of_two = [Discriminant(*pair, self.system.order) for pair in pairs_of(linear.M, linear.K)]
 
         def known(tree: Expression) -> Expression:
-            return of_two.within(tree, self.system.build)
+            for each in of_two:
+                tree = each.within(tree, self.system.build)
+            return tree
 
         alike = self._alike(place.modes)
-        names = self.system.names
-        pole = (names[linear.radius], names[linear.azimuth]) if isinstance(linear, AtPole) else None
+        pole = self._pole(linear) if isinstance(linear, AtPole) else None
         return [
             ModesOfFrequency(
                 at=self._at(place.point),
@@ -388,12 +395,18 @@ class SmallOscillations:
     def _at(self, point: RestPoint) -> dict[str, Expression]:
         return {q.name: self._tree(value) for q, value in shown(point).items()}
 
+    def _pole(self, linear: AtPole) -> Pole:
+        names, order = self.system.names, self.system.order
+        rates = zip(names, linear.turning, strict=True)
+        turning = {name: written(rate, order) for name, rate in rates if rate != 0}
+        return Pole(names[linear.radius], turning)
+
     def _shape(
-        self, displacements: Sequence[Expr], known: Rewrite, pole: tuple[str, str] | None
+        self, displacements: Sequence[Expr], known: Rewrite, pole: Pole | None
     ) -> dict[str, Expression]:
         pairs = dict(zip(self.system.names, displacements, strict=True))
-        if pole is not None:
-            del pairs[pole[1]]  # along any meridian
+        if pole is not None and len(pole.turning) == 1:
+            del pairs[next(iter(pole.turning))]  # along any meridian
         return {name: known(self._amplitude(value)) for name, value in pairs.items()}
 
     def _amplitude(self, value: Expr) -> Expression:

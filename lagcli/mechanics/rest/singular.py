@@ -71,16 +71,19 @@ class AtPole(Linearization):
 
     With q_i = q_i0 + r and T = A (r'^2 + r^2 phi'^2)/2 + ..., p_phi = ... + b r^2/2 at rest, the
     rows of x and y are A x'' - b y' + k x = 0 and A y'' + b x' + k y = 0; that of y comes last.
+    For an upright top phi is what turns the precession forward and the spin back.
 
     Attributes
     ----------
-    azimuth, radius : int
-        The places of phi and of q_i among the coordinates.
+    turning : list of Expr
+        The rates of the coordinates at phi' = 1, which M annihilates at the pole.
+    radius : int
+        The place of q_i among the coordinates.
     """
 
-    def __init__(self, whole: OnMeridians, azimuth: int, radius: int) -> None:
+    def __init__(self, whole: OnMeridians, turning: list[Expr], radius: int) -> None:
         super().__init__(whole.rest, whole.point)
-        self.azimuth, self.radius = azimuth, radius
+        self.turning, self.radius = turning, radius
         self._row = next(k for k, column in enumerate(whole.basis) if column[radius] == 1)
         self.basis = [*whole.basis, whole.basis[self._row]]
 
@@ -88,7 +91,7 @@ class AtPole(Linearization):
     def C(self) -> Matrix:
         """Damping and gyroscopic terms."""
         still = dict.fromkeys(self.system.qdot, S.Zero)
-        momentum = self.dynamics.lagrange.momenta[self.azimuth].xreplace(still)
+        momentum = dot(self.turning, self.dynamics.lagrange.momenta).xreplace(still)
         b = simplify(self._here(momentum.diff(self.system.q[self.radius], 2)))
         found = super().C
         found[self._row][-1], found[-1][self._row] = -b, b
@@ -104,35 +107,32 @@ class AtPole(Linearization):
 
 def at_pole(linear: Linearization) -> AtPole | None:
     """The motion in regular coordinates; None where it is no pole of one angle that is cyclic."""
-    whole = OnMeridians(linear)
-    if len(whole.indeterminate) != 1 or linear.rows or len(whole.basis) != len(linear.basis) - 1:
-        return None
-    [azimuth] = whole.indeterminate
+    whole, null = OnMeridians(linear), nullspace(linear.M)
     system, lagrange = linear.system, linear.dynamics.lagrange
-    phi, mass = system.q[azimuth], lagrange.mass_matrix_at_rest
-    if not free_of(system.L, [phi]) or any(force != 0 for force in system.applied_forces):
+    if len(null) != 1 or linear.rows or any(force != 0 for force in system.applied_forces):
+        return None
+    [turning] = null
+    turned = [q for q, x in zip(system.q, turning, strict=True) if x != 0]
+    if not free_of(system.L, turned):
         return None
 
     def here(expression: Expr) -> Expr:
         return at(expression, linear.point.values)
 
-    others = [j for j in range(len(system.q)) if j != azimuth]
-    bends = {
-        (i, j): here(mass[azimuth][azimuth].diff(system.q[i], system.q[j])) / 2
-        for i in others
-        for j in others
-    }
+    across = [dot(turning, row) for row in lagrange.mass_matrix_at_rest]
+    around, still = dot(turning, across), dict.fromkeys(system.qdot, S.Zero)
+    others = [q for q in system.q if q not in turned]
+    bends = {(a, b): here(around.diff(a, b)) / 2 for a in others for b in others}
     curved = [pair for pair, bend in bends.items() if is_zero(bend) is not True]
     if len(curved) != 1 or curved[0][0] != curved[0][1]:
         return None
-    radius = curved[0][0]
-    r = system.q[radius]
-    flat = [here(mass[azimuth][j].diff(r)) for j in others]
-    flat += [here(lagrange.momenta[azimuth].xreplace(dict.fromkeys(system.qdot, S.Zero)).diff(r))]
-    round_ = bends[radius, radius] - here(mass[radius][radius])
+    r = curved[0][0]
+    radius = system.q.index(r)
+    flat = [here(x.diff(r)) for x in (*across, dot(turning, lagrange.momenta).xreplace(still))]
+    round_ = bends[r, r] - here(lagrange.mass_matrix_at_rest[radius][radius])
     if any(is_zero(x) is not True for x in (*flat, round_)):
         return None
-    return AtPole(whole, azimuth, radius)
+    return AtPole(whole, turning, radius)
 
 
 def complement(basis: Matrix, null: Matrix) -> Matrix:
