@@ -15,6 +15,8 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.field import common_denominator
+from lagcli.algebra.relations import Relations
+from lagcli.algebra.shapes import Shapes
 from lagcli.algebra.signs import sign
 from lagcli.record import record
 
@@ -76,8 +78,10 @@ class Family:
         if any(map(is_root, sympy.preorder_traversal(back))):
             return None
         other = {self.unknown: self.root}
-        same = is_zero(back.xreplace(other) - expression) is True
-        return back if same else None
+        if is_zero(back.xreplace(other) - expression) is not True:
+            return None
+        shorter = Shapes((), Relations([self.relation], moving=self.coordinates)).simplify(back)
+        return min(back, shorter, key=sympy.count_ops)
 
 
 def family(relation: Expr, given: Mapping[Symbol, Expr], q: Sequence[Symbol]) -> Family | None:

@@ -58,10 +58,11 @@ class Near:
     @cached_property
     def positive(self) -> tuple[Expr, ...]:
         """What is positive there: by the conditions of existence, and the minors of M."""
+        family = self.linear.point.family
+        known = (*self.linear.point.positive, *(() if family is None else family.radicands))
         if not self._definite_where_regular:
-            return tuple(self.linear.point.positive)
-        open_ = [m for m in self._minors if sign_of(m, ()) is None]
-        return (*self.linear.point.positive, *open_)
+            return known
+        return (*known, *(m for m in self._minors if sign_of(m, ()) is None))
 
     @cached_property
     def _minors(self) -> list[Expr]:
