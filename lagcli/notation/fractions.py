@@ -200,10 +200,10 @@ class Brackets:
             and (fractional or not any(map(self._ordering.is_coordinate, inside)))
         ):
             return [term]  # (p − q A) stays together, and so does p_x (x p_y − y p_x)
-        if all(any(map(is_rate, part.powers)) for part in parts) and not (
-            form and all(map(is_letter, bracket.terms))
+        if all(any(map(is_rate, part.powers)) for part in parts) and not any(
+            map(is_rate, outside.powers)
         ):
-            return [term]  # R (x' + R θ'), but x' y' − y'²
+            return [term]  # R (x' + R θ')
         if not inside & before:
             return [term]
         found = [part.times(outside).written(self._ordering) for part in parts]

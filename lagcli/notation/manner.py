@@ -57,7 +57,13 @@ from lagcli.notation.given_formulas import given, order_of_names
 from lagcli.notation.given_sums import GivenPotential, GivenSums, arranged
 from lagcli.notation.likeness import EVEN, ODD, Key, Monomial, multiplied_out, parity, signed_key
 from lagcli.notation.logarithms import ratios_in, with_ratios
-from lagcli.notation.ordering import Ordering, accelerates, is_rate, positive_first
+from lagcli.notation.ordering import (
+    Ordering,
+    accelerates,
+    has_rate,
+    is_letter,
+    positive_first,
+)
 from lagcli.problem_data import Problem
 from lagcli.rewriting import put_in, rebuilt
 
@@ -257,7 +263,7 @@ class Manner:
     def _opened(self, term: Expression) -> list[Expression]:
         """2 Ω y' and Ω² x of Ω (2 y' + Ω x), where the file does not have the bracket."""
         own = (f for f in parts_of(term)[1] if isinstance(f, Sum))
-        still = (f for f in own if not all(any(map(is_rate, walk(t))) for t in f.terms))
+        still = (f for f in own if not all(is_letter(t) and has_rate(t) for t in f.terms))
         if any(signed_key(f)[1] in self._signs for f in still):
             return [term]
         return self._brackets.opened(term)

@@ -296,6 +296,11 @@ def is_rate(node: Expression, order: int = 1) -> bool:
     return isinstance(node, Name) and node.primes >= order
 
 
+def has_rate(node: Expression) -> bool:
+    """Whether there is a velocity or an acceleration in it."""
+    return any(map(is_rate, walk(node)))
+
+
 def accelerates(node: Expression) -> bool:
     """Whether there is an acceleration in it."""
     return any(is_rate(part, 2) for part in walk(node))
