@@ -17,7 +17,7 @@ from lagcli.expression import (
     quotient_of,
     walk,
 )
-from lagcli.notation.factors import parts_of
+from lagcli.notation.factors import parts_of, whole_power
 from lagcli.rewriting import put_in
 
 _TWO = Number(Fraction(2))
@@ -60,6 +60,32 @@ def with_added_square(node: Sum) -> Sum:
                     term = Product((*(Number(n) for n in numbers), square)) if numbers else square
                     return Sum((Number(whole - size), term))
     return node
+
+
+def without_tangents(factors: list[Expression]) -> list[Expression]:
+    """(x sin u + z cos u) cos u for (x tan u + z) cos² u."""
+    for place, factor in enumerate(factors):
+        cosine, power = whole_power(factor)
+        if not isinstance(cosine, Call) or cosine.function != "cos":
+            continue
+        tangent, sine = (Call(name, cosine.arguments) for name in ("tan", "sin"))
+        for k, bracket in enumerate(factors):
+            if not isinstance(bracket, Sum) or power < 1:
+                continue
+            parts = [parts_of(term) for term in bracket.terms]
+            if not any(tangent in above for _, above, _ in parts):
+                continue
+            terms = []
+            for minus, above, below in parts:
+                over = [sine if f == tangent else f for f in above]
+                over = over if tangent in above else [*(f for f in above if f != ONE), cosine]
+                whole = quotient_of(over, below)
+                terms.append(Negative(whole) if minus else whole)
+            left = {1: [], 2: [cosine]}.get(power, [Power(cosine, Number(Fraction(power - 1)))])
+            rest = [[*left] if j == place else [f] for j, f in enumerate(factors)]
+            rest[k] = [Sum((*terms,))]
+            return [f for each in rest for f in each]
+    return factors
 
 
 def with_single_angles(node: Expression) -> Expression:

@@ -37,6 +37,7 @@ from lagcli.notation.angles import (
     with_added_square,
     with_single_angles,
     with_versines,
+    without_tangents,
 )
 from lagcli.notation.brackets import NamedMomenta, squares_as_brackets
 from lagcli.notation.factors import (
@@ -357,6 +358,7 @@ class Manner:
         """A product or quotient with every sum in its right sign, the sign of all before it."""
         minus, above, below = self._sums.in_product(*parts_of(node))
         above, below = map(with_conjugates, cancelled(above, below))
+        above = without_tangents(above)
         free: list[tuple[list[Expression], int]] = []  # sums that may stand either way
         for factors in (above, below):
             for place, factor in enumerate(factors):

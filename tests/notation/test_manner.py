@@ -70,6 +70,10 @@ def manner():
         ("sqrt((m*g + a)/m)/g", "sqrt((m*g + a)/m)/g"),
         ("sqrt((m*g + a)/m)/r'", "sqrt((m*g + a)/m)/r'"),
         ("sqrt(g*R/m)/r", "sqrt(g*R/m)/r"),
+        # no tangent comes from taking out the square of a cosine
+        ("(r*tan(theta) + a)*cos(theta)^2", "(r*sin(theta) + a*cos(theta))*cos(theta)"),
+        ("(r*tan(theta) + a)*cos(theta)^3", "(r*sin(theta) + a*cos(theta))*cos(theta)^2"),
+        ("(r*tan(theta) + a)*cos(phi)", "(r*tan(theta) + a)*cos(phi)"),
         # a period keeps its series apart
         ("2*pi*sqrt(r/g)*(1 + a^2/16)", "2*pi*sqrt(r/g)*(1 + a^2/16)"),
         # a positive term first
