@@ -11,6 +11,7 @@ import sympy
 from lagcli.algebra.signs import sign
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.conditions import conditions
+from lagcli.mechanics.explaining.recurring import recurrences
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.mechanics.reduction.statement import reduction
 from lagcli.mechanics.rest.equilibria import _finite_where
@@ -598,3 +599,50 @@ def test_the_azimuth_decides_nothing_at_a_pole(pull):
     assert poles
     assert all(e.verdict.minimum is None and e.verdict.stable is None for e in poles)
     assert all("b" not in e.at for e in poles)
+
+
+# -- the order of the sentences -------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("power", random.Random(12).sample(range(1, 6), 2))
+def test_no_solution_is_stated_of_the_conditions_not_of_polar_coordinates(power):
+    """The conditions, what solves them, and then that steady rotations need other coordinates."""
+    text = "{{coordinates: [x, y], T: (x'^2 + y'^2)/2, V: -1/(x^2 + y^2)^({}/2)}}"
+    told = said(text.format(power), "Steady motions", "steady_motions")
+    assert told.index("These have no solution") < told.index("rotations of")
+
+
+@pytest.mark.parametrize("strength", ["B", "B*(1 + x^2 + y^2)"])
+def test_no_sentence_announces_conditions_that_vanish_everywhere(strength):
+    text = (
+        f"{{coordinates: [x, y], parameters: [B], L: (x'^2 + y'^2)/2 + {strength}*(x*y' - y*x')/2}}"
+    )
+    told = said(text, "Steady motions", "steady_motions")
+    assert "the steady motions are the equilibria." in told
+    assert "everywhere" not in told
+
+
+@pytest.mark.parametrize("a", random.Random(12).sample(range(1, 9), 2))
+def test_conditions_of_a_constraint_that_opens_are_said_to_be_of_its_contact(a):
+    """A ladder upright away from the wall does not satisfy the wall's equation, and rests."""
+    text = (
+        "{coordinates: {x: , y: {assume: nonnegative}, th: }, V: m*g*y, "
+        "parameters: {m: {assume: positive}, g: {assume: positive}}, "
+        f"T: m*(x'^2 + y'^2)/2 + m*{a}*th'^2/6, constraints: {{wall: {{equation: 'x = {a}*sin(th)', "
+        "multiplier: N, holds_while: N >= 0, on_loss: release}, "
+        f"floor: {{equation: 'y = {a}*cos(th)', multiplier: K, holds_while: K >= 0}}}}}}"
+    )
+    told = said(text, "Equilibria", "equilibria")
+    assert "'wall' is open here" in told
+    assert "Each contact is either closed, and pushes, or open, and there is no force." in told
+
+
+@pytest.mark.parametrize(("V", "length"), [
+    ("tan(a*x)^2", "pi/a"), ("1/sin(a*x)^2 - cos(2*a*x)", "pi/a"), ("cos(a*x)", "2*pi/a"),
+    ("cos(a*x) + cos(3*a*x)^2", "2*pi/a"), ("sin(a*x)^2*cos(a*x)^2", "pi/2/a"),
+])  # fmt: skip
+def test_states_recur_after_the_least_length(V, length):
+    """Of V = U tan(a x)^2 the minimum at pi/a is one, too, and 2 pi/a would pass it by."""
+    text = f"{{coordinates: [x], parameters: {{a: {{assume: positive}}}}, T: x'^2/2, V: '{V}'}}"
+    [period] = recurrences(derive(text).dynamics).values()
+    assert str(period) == str(sympy.sympify(length))

@@ -86,7 +86,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield vanishing(conditions)
     if any(each.kinked for each in found or ()):
         yield says("Where a force jumps, it takes every value between those on the two sides.")
-    if explainer.system.problem.contacts:
+    if explainer.system.problem.contacts or any(each.open for each in found or ()):
         yield says("Each contact is either closed, and pushes, or open, and there is no force.")
     if states.at_all_times and found:
         yield says("An equilibrium is where they hold at all times.")

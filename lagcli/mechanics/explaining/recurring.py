@@ -59,4 +59,11 @@ def _period(q: Symbol, formulas: list[Expr], state: tuple[Symbol, ...]) -> Expr 
     if not all(ratio.is_Rational for ratio in ratios):
         return None
     common = sympy.Rational(igcd(*(r.p for r in ratios), 0), ilcm(*(r.q for r in ratios), 1))
+    for _ in range(3):  # sin²(q) and tan(q) are the same again after half of a period of sin(q)
+        half = {
+            n: n.func(n.args[0] + sympy.pi * r / common) for n, r in zip(nodes, ratios, strict=True)
+        }
+        if not all(is_zero(f.xreplace(half) - f) is True for f in formulas):
+            break
+        common *= 2
     return simplify(2 * sympy.pi / (rates[0] * common))

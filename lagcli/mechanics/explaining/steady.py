@@ -69,7 +69,7 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
             yield from known
             return
         lead = _steady_without_momenta(explainer, found)
-        yield says(_NO_MOMENTUM, lead if found.conditions else f"{lead[:-1]}.")
+        yield says(_NO_MOMENTUM, lead if _wanted(found) else f"{lead[:-1]}.")
         yield from _steady_states(explainer, found)
         return
     yield says(
@@ -79,7 +79,7 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
         "then 0, so the derivatives of ",
         POTENTIALS["U_eff"],
         f" {_BALANCED[found.acting]}, with the momenta of the cyclic coordinates as constants"
-        f"{':' if found.conditions else ', which they do everywhere.'}",
+        f"{':' if _wanted(found) else ', which they do everywhere.'}",
     )
     yield from _steady_states(explainer, found)
 
@@ -107,22 +107,23 @@ def _steady_without_momenta(explainer: Explainer, found: SteadySection) -> str:
     return ". At rest these vanish:"
 
 
+def _wanted(found: SteadySection) -> list[Expression]:
+    """What vanishes in a steady motion and not everywhere, each once."""
+    return unlike(found.conditions.values())
+
+
 def _steady_states(explainer: Explainer, found: SteadySection) -> Iterator[Block]:
-    wanted = unlike(found.conditions.values())
-    if wanted:
+    if wanted := _wanted(found):
         yield vanishing(wanted)
-    elif found.conditions and not found.eliminated:
-        yield says("These are 0 everywhere.")
-    yield from in_polar_coordinates(found)
     if found.motions is None:
         yield says(f"No steady motion was found: {found.reason}.")
-        return
-    if not found.motions:
+    elif not found.motions:
         yield says(_none(found))
-    for number, motion in enumerate(steady_in_pairs(found.motions), 1):
+    for number, motion in enumerate(steady_in_pairs(found.motions or ()), 1):
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(explainer, motion)
     yield from in_moving_frames(found)
+    yield from in_polar_coordinates(found)
     if found.motions and not found.complete:
         yield there_may_be_others(found)
     if found.motions:
