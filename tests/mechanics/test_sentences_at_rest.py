@@ -646,3 +646,19 @@ def test_states_recur_after_the_least_length(V, length):
     text = f"{{coordinates: [x], parameters: {{a: {{assume: positive}}}}, T: x'^2/2, V: '{V}'}}"
     [period] = recurrences(derive(text).dynamics).values()
     assert str(period) == str(sympy.sympify(length))
+
+
+@pytest.mark.parametrize("power", random.Random(13).sample(range(1, 5), 2))
+def test_a_steady_motion_is_not_stated_where_its_rates_divide_by_zero(power):
+    """The drift E/B of crossed fields needs B: without it the charge is accelerated."""
+    text = f"{{coordinates: [x, y], parameters: [B, E, q], L: (x'^2 + y'^2)/2 - q*B^{power}*y*x' + q*E*y}}"
+    told = said(text, "Steady motions", "steady_motions")
+    assert "It is possible for B ≠ 0." in told
+
+
+@pytest.mark.parametrize("n", random.Random(13).sample(range(1, 9), 2))
+def test_an_instability_by_two_frequencies_that_agree_has_its_reason(n):
+    """A free particle in a turning frame moves off uniformly, and no root shows it."""
+    text = f"{{coordinates: [x, y], parameters: [w], T: ((x' - {n}*w*y)^2 + (y' + {n}*w*x)^2)/2}}"
+    told = said(text, "Equilibria", "equilibria")
+    assert "Unstable where w ≠ 0. Two frequencies agree, and the motion with them grows" in told

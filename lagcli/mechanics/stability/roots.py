@@ -31,6 +31,7 @@ _LIMIT = "to first order it is at the limit of stability"
 NEUTRAL = "neutral to first order in some direction"
 _NO_CRITERION = "the roots have no simple criterion"
 _MAY_FEED = "a force that is not linear, or has no potential, may feed energy"
+_RESONANT = "two frequencies agree, and the motion with them grows in proportion to t"
 _MOST_ROLLING = 4  # measured: at most 1
 
 
@@ -91,8 +92,8 @@ def _multiple(near: Near) -> Stability:
     if not near.linear.exact:
         return undecided(_LIMIT)
     if sign_of(resonant[0], positive) is None:
-        return Stability(growing=resonant[0])
-    return unstable("two frequencies agree, and the motion with them grows in proportion to t")
+        return Stability(growing=resonant[0], reason=_RESONANT)
+    return unstable(_RESONANT)
 
 
 def by_polynomial(

@@ -228,7 +228,7 @@ class _SteadyStatement:
         return SmallOscillations(self.routh.full.dynamics)
 
     def _where(self, motion: Steady) -> tuple[Above, ...]:
-        shortest = sorted(motion.positive, key=lambda e: int(e.count_ops()))
+        shortest = sorted(motion.known_positive, key=lambda e: int(e.count_ops()))
         return conditions(shortest, self.order)
 
     def _verdict(
