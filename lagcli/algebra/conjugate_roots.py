@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra.decimals import written
+from lagcli.algebra.positivity import sign_of
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import shape, simplify
-from lagcli.expression import Expression, Name, Negative, Sum, opposite, walk
+from lagcli.expression import (
+    Call,
+    Expression,
+    Name,
+    Negative,
+    Quotient,
+    Sum,
+    factors_of,
+    opposite,
+    walk,
+)
 from lagcli.rewriting import put_in, rebuilt
 
 _ROOT = "sqrt"  # the place of the root; no name of a file, since it is a function's
@@ -115,3 +126,24 @@ def without_root_below(value: Expr) -> Expr:
         return value
     slope, rest = hidden.coeff(place, 1), hidden.coeff(place, 0)
     return simplify(above * (rest - slope * root) / simplify(rest**2 - slope**2 * root.base))
+
+
+def with_positive_factors(
+    tree: Expression, build: Callable[[Expression], Expr], positive: Sequence[Expr]
+) -> Expression:
+    """sqrt((a - b)/(c - d)) for sqrt((b - a)/(d - c)), where these are negative."""
+    for node in walk(tree):
+        if isinstance(node, Call) and isinstance(quotient := node.arguments[0], Quotient):
+            parts = (quotient.numerator, quotient.denominator)
+            sums = [x for part in parts for x in factors_of(part) if isinstance(x, Sum)]
+            negative = [x for x in sums if sign_of(build(x), positive) == -1]
+            if len(negative) == 2:
+                turned: dict[Expression, Expression] = {
+                    x: Sum(tuple(_negatives_last(map(opposite, x.terms)))) for x in negative
+                }
+                tree = put_in(tree, {node: put_in(node, turned)})
+    return tree
+
+
+def _negatives_last(terms: Iterable[Expression]) -> list[Expression]:
+    return sorted(terms, key=lambda term: isinstance(term, Negative))

@@ -68,8 +68,14 @@ def vanishing_part(expression: Expr) -> Expr:
     """What is 0 just where the expression is: sin θ of m g l sin θ, without factors of one sign."""
     whole = simplify(expression)
     factors = sympy.Mul.make_args(whole)
-    open_ = [factor for factor in factors if not (sign(factor) or factor.is_nonzero)]
+    open_ = [factor for factor in factors if not (sign(_base(factor)) or factor.is_nonzero)]
     return sympy.Mul(*map(_without_letters, open_)) if open_ else whole
+
+
+def _base(factor: Expr) -> Expr:
+    """x² + y² of (x² + y²)^(-3/2), which is positive, but has no value at 0; else the factor."""
+    below = isinstance(factor, sympy.Pow) and factor.exp.is_number and factor.exp.is_negative
+    return factor.base if below else factor
 
 
 def _without_letters(factor: Expr) -> Expr:

@@ -20,7 +20,11 @@ from itertools import combinations
 from sympy import Expr, I, S, Symbol, acos, count_ops, im, sqrt
 
 from lagcli.algebra import dot, is_zero
-from lagcli.algebra.conjugate_roots import with_number_turned, without_root_below
+from lagcli.algebra.conjugate_roots import (
+    with_number_turned,
+    with_positive_factors,
+    without_root_below,
+)
 from lagcli.algebra.decimals import written
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of, vanishing_part
@@ -350,6 +354,9 @@ class SmallOscillations:
                 tree = each.within(tree, self.system.build)
             return tree
 
+        def positive(tree: Expression) -> Expression:
+            return with_positive_factors(known(tree), self.system.build, place.point.positive)
+
         alike = self._alike(place.modes)
         pole = self._pole(linear) if isinstance(linear, AtPole) else None
         return [
@@ -358,7 +365,7 @@ class SmallOscillations:
                 on=relation_sides(place.point, self.system.q, self.system.order),
                 frequency=self._below_damping(mode)
                 or alike.get(k)
-                or self._tree_or_none(mode.frequency, known),
+                or self._tree_or_none(mode.frequency, positive),
                 frequency_squared=None if mode.damped else self._tree_or_none(mode.square, known),
                 decay=None if mode.decay is None else self._tree(mode.decay),
                 exponents=tuple(map(self._tree, mode.exponents)),
