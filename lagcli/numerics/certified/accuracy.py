@@ -60,7 +60,9 @@ _DEFECT = 3.0
 #: (once in 200) differences: a third run, of a tolerance _THIRD of the coarse one's, is compared.
 #: On 51 motions that were new to these numbers, at four accuracies, no error was above 0.45 of its
 #: bound, and on 290 grazes, barriers, kinks and near collisions none above 0.56, but for one of 1.5
-#: before both comparisons counted (`worse`).
+#: before both comparisons counted (`worse`).  Of 360 runs that pass a saddle, where
+#: rounding is enlarged, 20 errors were up to 20 times this bound: with the multiple for
+#: chance at any size (`_grows`) two were 10 and 1.1 times it, the others 0.9 of it at most.
 USUAL, CHANCE, NARROW, _THIRD = 2.0, 20.0, 60.0, 3.0
 _CHARGES = 10.0
 LONGEST = (200.0, 2000.0, 20000.0)  # parts of the span
@@ -71,6 +73,8 @@ _NEXT = 10.0
 #: Runs at rounding that differ by more than this part of what those before them differed by, whose
 #: tolerances were a hundred times coarser, gain nothing more; so far above A it is out of reach.
 _NO_GAIN, _FAR = 0.5, 5.0
+#: A difference that grows as t^3 is 64 times as large at the end as after a quarter.
+_GROWS = 200.0
 #: Runs that begin at less have all digits that help where constraints become dependent.
 _SHARP = 1e-16
 #: Intervals that are compared between two rows where the accuracy is lost.
@@ -152,7 +156,7 @@ class Controller:
         self.charges, self.rounded, self.chance = charges, rounded, chance
         self._scales, self._longest = scales, longest
         self.runs = self.evaluations = self._finer = self._level = 0
-        self._is_refused = False
+        self._is_refused = self._is_unstable = False
         self._furthest: Outcome | None = None
 
     def outcome(self) -> Outcome:
@@ -277,11 +281,13 @@ class Controller:
 
         scales = scaled(len(fine_rows))
         good, held, held_scales = self._held(differences, len(places), scaled)
+        self._is_unstable |= self._grows(differences, scaled(len(fine_rows)), fine)
         most = USUAL * tolerances[0] if factor == USUAL else self.accuracy
+        shown = self.accuracy if self._is_unstable else most
         found = [*map(relative, bounds, scales)]
         gain = (NARROW if is_enlarged(fine, found, factor * self.rounded) else self.chance) / factor
-        largest = factor * (max(1.0, gain) if any(0 < x < most for x in held) else 1.0)
-        errors, held = at_rounding(found, gain, most), at_rounding(held, gain, most)
+        largest = factor * (max(1.0, gain) if any(0 < x < shown for x in held) else 1.0)
+        errors, held = at_rounding(found, gain, most), at_rounding(held, gain, shown)
         lost = first_beyond(differences, [SATURATED * scale for scale in [*scales, 1.0]])
         lost_at = math.inf if lost is None else fine.marks[lost].t
         same_end = (coarse.event is None) == (fine.event is None) and partner.agree
@@ -305,6 +311,17 @@ class Controller:
             False,
             None,
             self,
+        )
+
+    def _grows(
+        self, differences: Sequence[Sequence[float]], scales: Sequence[float], fine: Run
+    ) -> bool:
+        """Whether two runs part faster than t^3; chance may bring a later pair together again."""
+        early = sum(mark.t <= self.span / 4 for mark in fine.marks)
+        least = self.rounded or _SHARP
+        return any(
+            max(column, default=0.0) > _GROWS * max(least * scale, *column[:early], 0.0)
+            for column, scale in zip(differences, scales, strict=False)
         )
 
     def _late(self, coarse: Run, fine: Run, places: Sequence[int]) -> list[float]:
