@@ -164,8 +164,7 @@ class Meaning:
         if path in {"discovered", "charges"}:  # another one with its rate is as true
             left = [each for each in left if not self._has_its_rate(each)]
         if path == "modes":  # of a place that the first sheet calls unstable
-            places = [each["at"] for each in a]
-            left = [e for e in left if e["at"] in places and not self.values.oscillates(e)]
+            left = [each for each in left if not self.values.oscillates(each)]
         if path == "equilibria":  # a second time, without a verdict
             places = [each.get("at") for each in a]
             left = [
@@ -210,14 +209,14 @@ class Meaning:
     def _solves(self, sheet: Any) -> bool:
         """Whether H(q, W') = E, the W' the derivatives of each W, with all constants in them."""
         slopes, constants = sheet.get("derivatives") or {}, sheet.get("constants") or ()
-        H = sheet["hamiltonian"] or ""
+        H = sheet.get("hamiltonian") or ""
         for name, slope in slopes.items():
             if slope.startswith("sqrt(") and re.fullmatch(r"(?:(?!sqrt).)*", slope[1:]):
                 H = H.replace(f"p_{name}^2", f"({slope[4:]})")
             H = re.sub(rf"\bp_{name}\b", f"({slope})", H)
         own = all(any(re.search(rf"\b{c}\b", s) for s in slopes.values()) for c in constants)
         return (
-            bool(slopes)
+            bool(slopes and H)
             and own
             and self.values.equal(H, "E", partly=True)
             and self._same_action(sheet, sheet)
