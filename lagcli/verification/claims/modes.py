@@ -85,6 +85,8 @@ def _are_all(x: Examination, places: Sequence[RestPlace]) -> bool:
         return True
     if any(not row.holonomic for row in x.reference.rows):
         return True
+    if not places and any(c.holds_while for c in x.problem.constraints):
+        return True  # they may open
     for near in unlisted(Balance(x), places):
         if near.eigenvalues and near.is_stable and _is_so_later(near):
             why = f"there is a stable equilibrium at {shown(near)}"
@@ -118,7 +120,7 @@ def _is_mode(x: Examination, mode: ModesOfFrequency) -> bool:
         return False
     tried = [near for near in place.states() if near.defined and near.regular]
     resting = [near for near in tried if near.residual < _STAYS]
-    if tried and not resting:
+    if tried and not resting and not mode.at and mode.on is None:  # said of every place
         x.refute(what, "the equations of motion do not let it stay there")
         return False
     if mode.damped:
