@@ -168,7 +168,7 @@ def _beside_zero(factor: Expr) -> int | None:
 def sign_of(expression: Expr, positive: Sequence[Expr]) -> int | None:
     """1, -1 or 0 where it has one sign for all values; else None."""
     known = sign(expression, positive)
-    for other in (_on_the_circle, _in_roots, _within_bounds):
+    for other in (_on_the_circle, _in_roots):
         known = other(expression, positive) if known is None else known
     return known
 
@@ -187,25 +187,6 @@ def _in_roots(expression: Expr, positive: Sequence[Expr]) -> int | None:
     if not put_in:
         return None
     return sign(simplify(expression.xreplace(put_in)), [p.xreplace(put_in) for p in positive])
-
-
-def _within_bounds(expression: Expr, positive: Sequence[Expr]) -> int | None:
-    """The sign with l² = p + x² where l² - x² = p > 0: m l² - m x² + M x² = m p + M x²."""
-    above, below = sympy.fraction(sympy.together(expression))
-    for bound in positive:
-        for s in sorted(bound.free_symbols, key=str):
-            rest = bound - s**2
-            if not s.is_real or rest.has(s) or not rest.is_polynomial() or not above.has(s):
-                continue
-            p = sympy.Dummy("p", positive=True)
-            shown = sympy.expand(sympy.expand(above).subs(s**2, p - rest))
-            if shown.has(s):
-                continue
-            others = [other for other in positive if other != bound]
-            known, under = sign(shown, others), sign(below, positive)
-            if known is not None and under is not None:
-                return known * under
-    return None
 
 
 def _on_the_circle(expression: Expr, positive: Sequence[Expr]) -> int | None:

@@ -261,25 +261,3 @@ def test_no_equilibrium_is_listed_that_is_one_of_a_family(potential):
     assert any(len(place) == 1 for place in places)
     for one in places:
         assert not any(other.items() < one.items() for other in places)
-
-
-@pytest.mark.parametrize(("a", "b"), [(1, 2), (5, 1), (3, 3)])
-@pytest.mark.parametrize("spring", ["(sqrt(x^2 + y^2) - l)^2/2", "(x^2 + y^2 - l^2)^2/(8*l^2)"])
-def test_unequal_masses_on_a_circle_of_equilibria(a, b, spring):
-    """omega^2 = k n.M^-1 n across it, with its normal n = (x, y)/l; stable without a condition."""
-    dynamics = derivation(f"""
-coordinates: [x, y]
-parameters: {{m: {{assume: positive}}, k: {{assume: positive}}, l: {{assume: positive}}}}
-T: m*({a}*x'^2 + {b}*y'^2)/2
-V: k*{spring}
-""").dynamics
-    [family] = [each for each in equilibria(dynamics).equilibria or () if each.on]
-    assert family.verdict.stable is True
-    values = {"m": 1.3, "k": 0.7, "l": 2.0, "x": 1.2, "y": 1.6}
-    found = [
-        evaluated(mode.frequency, values, FUNCTIONS)
-        for mode in modes(dynamics).modes or ()
-        if mode.on and mode.frequency
-    ]
-    expected = (0.7 * (1.2**2 / a + 1.6**2 / b) / 1.3 / 4) ** 0.5
-    assert sorted(found) == pytest.approx([0, expected])

@@ -17,7 +17,7 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import combinations
 
-from sympy import Expr, I, S, Symbol, acos, count_ops, im, sqrt
+from sympy import Expr, I, S, Symbol, acos, im
 
 from lagcli.algebra import dot, is_zero
 from lagcli.algebra.conjugate_roots import (
@@ -262,19 +262,9 @@ class Place:
                 or self.held.grazes(self.point)
             ):
                 return []
-            return [self._on_family(m) for m in normal_modes(self.near, self.characteristic)]
+            return normal_modes(self.near, self.characteristic)
         except ZeroDivisionError:
             return []
-
-    def _on_family(self, mode: NormalMode) -> NormalMode:
-        """k (m1 y² + m2 x²)/(m1 m2 l²) for x² + y² = l², where that is shorter."""
-        family, square = self.point.family, mode.square
-        if family is None or square is None or mode.frequency is None:
-            return mode
-        square = family.written_back(square) or square
-        frequency = sqrt(square)
-        longer = count_ops(frequency) >= count_ops(mode.frequency)
-        return mode if longer else replace(mode, square=square, frequency=frequency)
 
     @property
     def unshaped(self) -> bool:

@@ -15,8 +15,6 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.field import common_denominator
-from lagcli.algebra.relations import Relations
-from lagcli.algebra.shapes import Shapes
 from lagcli.algebra.signs import sign
 from lagcli.record import record
 
@@ -78,10 +76,8 @@ class Family:
         if any(map(is_root, sympy.preorder_traversal(back))):
             return None
         other = {self.unknown: self.root}
-        if is_zero(back.xreplace(other) - expression) is not True:
-            return None
-        shorter = Shapes((), Relations([self.relation], moving=self.coordinates)).simplify(back)
-        return min(back, shorter, key=sympy.count_ops)
+        same = is_zero(back.xreplace(other) - expression) is True
+        return back if same else None
 
 
 def family(relation: Expr, given: Mapping[Symbol, Expr], q: Sequence[Symbol]) -> Family | None:

@@ -58,11 +58,10 @@ class Near:
     @cached_property
     def positive(self) -> tuple[Expr, ...]:
         """What is positive there: by the conditions of existence, and the minors of M."""
-        family = self.linear.point.family
-        known = (*self.linear.point.positive, *(() if family is None else family.radicands))
         if not self._definite_where_regular:
-            return known
-        return (*known, *(m for m in self._minors if sign_of(m, ()) is None))
+            return tuple(self.linear.point.positive)
+        open_ = [m for m in self._minors if sign_of(m, ()) is None]
+        return (*self.linear.point.positive, *open_)
 
     @cached_property
     def _minors(self) -> list[Expr]:
