@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 
 import sympy
 from sympy import Expr, Symbol
@@ -22,6 +22,7 @@ from lagcli.expression import (
     opposite,
     walk,
 )
+from lagcli.notation.ordering import negative_of
 from lagcli.rewriting import put_in, rebuilt
 
 _ROOT = "sqrt"  # the place of the root; no name of a file, since it is a function's
@@ -138,12 +139,6 @@ def with_positive_factors(
             sums = [x for part in parts for x in factors_of(part) if isinstance(x, Sum)]
             negative = [x for x in sums if sign_of(build(x), positive) == -1]
             if len(negative) == 2:
-                turned: dict[Expression, Expression] = {
-                    x: Sum(tuple(_negatives_last(map(opposite, x.terms)))) for x in negative
-                }
+                turned: dict[Expression, Expression] = {x: negative_of(x) for x in negative}
                 tree = put_in(tree, {node: put_in(node, turned)})
     return tree
-
-
-def _negatives_last(terms: Iterable[Expression]) -> list[Expression]:
-    return sorted(terms, key=lambda term: isinstance(term, Negative))

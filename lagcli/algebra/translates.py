@@ -14,27 +14,39 @@ from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import is_zero, simplify
 
-#: cos(x/a)^4 - sin(x/a)^4 and the like: the highest n of which the n-th part of a turn is tried.
-_PARTS = 4
+#: cos(x/a)^4 - sin(x/a)^4 and the like: the n of which the n-th part of a turn is tried.
+_PARTS = (8, 4, 3, 2)
+
+
+def recur(formulas: Iterable[Expr], x: Symbol, shift: Expr = 2 * sympy.pi) -> bool:
+    """Whether f(x + shift) = f(x) of all, by a turn if nothing else is said."""
+    return all(is_zero(f.xreplace({x: x + shift}) - f) is True for f in formulas)
 
 
 def least_period(formulas: Sequence[Expr], x: Symbol) -> Expr | None:
     """The least P > 0 with f(x + P) = f(x); None where x is an angle or occurs outside of sines."""
+    whole = common_period(formulas, x, [x])
+    angle = whole is None or (whole / sympy.pi).is_Rational
+    return None if angle or whole is None else least_part(formulas, x, whole)
+
+
+def common_period(formulas: Sequence[Expr], x: Symbol, state: Sequence[Symbol]) -> Expr | None:
+    """That of all sines of r x + …, if the rates r are commensurable and free of the state."""
     nodes = {node for f in formulas for node in f.atoms(*CIRCULAR) if not free_of(node, [x])}
     hidden: dict[Expr, Expr] = {node: sympy.Dummy() for node in nodes}
     if not nodes or any(not free_of(f.xreplace(hidden), [x]) for f in formulas):
         return None
     slopes = [simplify(node.args[0].diff(x)) for node in nodes]
     ratios = [simplify(slope / slopes[0]) for slope in slopes]
-    if slopes[0].is_Rational or not all(ratio.is_Rational for ratio in ratios):
+    if not free_of(slopes[0], state) or not all(ratio.is_Rational for ratio in ratios):
         return None
     rate = slopes[0] * sympy.gcd_list(ratios)
-    whole = 2 * sympy.pi * (-1 if sign(rate) == -1 else 1) / rate
-    for n in range(_PARTS, 1, -1):
-        moved = {x: x + whole / n}
-        if all(is_zero(f.xreplace(moved) - f) is True for f in formulas):
-            return whole / n
-    return whole
+    return simplify(2 * sympy.pi * (-1 if sign(rate) == -1 else 1) / rate)
+
+
+def least_part(formulas: Sequence[Expr], x: Symbol, whole: Expr) -> Expr:
+    """The least part of a period that is one: half of it for sin(x)^2 and tan(x)."""
+    return next((whole / n for n in _PARTS if recur(formulas, x, whole / n)), whole)
 
 
 def one_of_each(values: Iterable[Expr], period: Expr) -> list[Expr]:

@@ -63,6 +63,7 @@ from lagcli.notation.ordering import (
     accelerates,
     has_rate,
     is_letter,
+    negative_of,
     positive_first,
 )
 from lagcli.problem_data import Problem
@@ -414,11 +415,6 @@ def _terms(node: Expression) -> tuple[Expression, ...]:
     """The terms of a sum; V: 0 has none."""
     terms = terms_of(node)
     return tuple(term for term in terms if term != ZERO)
-
-
-def negative_of(node: Sum) -> Sum:
-    """The sum of the terms with their signs changed, a positive one first where there is one."""
-    return Sum(tuple(positive_first([*map(opposite, node.terms)])))
 
 
 def _all_negative(node: Sum) -> bool:

@@ -18,6 +18,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
     children,
+    opposite,
     walk,
 )
 
@@ -277,6 +278,11 @@ def positive_first(terms: Sequence[Expression]) -> list[Expression]:
     while all(map(is_letter, terms)) and end < len(terms) and not minus[end]:
         end += 1
     return [*terms[begin:end], *terms[:begin], *terms[end:]]
+
+
+def negative_of(node: Sum) -> Sum:
+    """The sum of the terms with their signs changed, a positive one first where there is one."""
+    return Sum(tuple(positive_first([*map(opposite, node.terms)])))
 
 
 def bases(term: Expression) -> Iterator[Expression]:

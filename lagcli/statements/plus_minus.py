@@ -16,11 +16,10 @@ from lagcli.expression import (
     Quotient,
     Sum,
     children,
-    opposite,
     walk,
 )
 from lagcli.notation.likeness import signed_key
-from lagcli.notation.ordering import positive_first
+from lagcli.notation.ordering import negative_of
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt
 from lagcli.statements.answers import ModesOfFrequency
@@ -183,11 +182,11 @@ def _both(a: Expression, b: Expression) -> Expression | None:
 def _inward(node: Expression) -> Expression:
     """(b − a) g/c for −(a − b) g/c; the node where no bracket takes its sign."""
     match node:
-        case Negative(operand=Sum(terms=terms)):
-            return Sum((*positive_first([*map(opposite, terms)]),))
+        case Negative(operand=Sum() as inner):
+            return negative_of(inner)
         case Negative(operand=Quotient(numerator=above, denominator=below)):
-            inner = _inward(Negative(above))
-            return node if isinstance(inner, Negative) else Quotient(inner, below)
+            turned = _inward(Negative(above))
+            return node if isinstance(turned, Negative) else Quotient(turned, below)
         case Negative(operand=Product(factors=(*first, Sum() as last))):
             return Product((*first, _inward(Negative(last))))
         case _:

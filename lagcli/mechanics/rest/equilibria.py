@@ -11,14 +11,14 @@ import mpmath
 import sympy
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import is_zero, simplify
+from lagcli.algebra import simplify
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.decimals import decimal, is_decimal
 from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.place import NO_VALUE, at
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, SystemSolution, solve_system
-from lagcli.algebra.translates import least_period, one_of_each
+from lagcli.algebra.translates import least_period, one_of_each, recur
 from lagcli.algebra.vanishing_factors import divisors
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.inequalities import never_together
@@ -203,21 +203,16 @@ class RestPoints(RestConditions):
             if not all(rate.is_Rational and not rate.is_Integer for rate in rates):
                 continue  # an angle of which cos(q) is felt, too, has one turn
             n = sympy.ilcm(1, 1, *(rate.q for rate in rates))
-            if n > 1 and all(free_of(f.xreplace(hidden), [q]) for f in formulas):
-                turned = (is_zero(f.xreplace({q: q + 2 * sympy.pi}) - f) for f in formulas)
-                if not all(same is True for same in turned):
-                    found[q] = int(n)
+            sines = n > 1 and all(free_of(f.xreplace(hidden), [q]) for f in formulas)
+            if sines and not recur(formulas, q):
+                found[q] = int(n)
         return found
 
     @cached_property
     def is_of_one_turn(self) -> bool:
         """Whether places are sought within one turn of an angle, which changes the forces."""
         angles = [q for q in self.system.q if self.is_angle(q) and q not in self._periods]
-        return any(
-            is_zero(f.xreplace({q: q + 2 * sympy.pi}) - f) is not True
-            for q in angles
-            for f in self.forces_at_rest
-        )
+        return not all(recur(self.forces_at_rest, q) for q in angles)
 
     def _up_to_translations(self, equations: list[Expr]) -> SolvedSystem | None:
         """All solutions at which the q are 0 along which nothing changes, then moved along them."""

@@ -281,7 +281,7 @@ class Controller:
 
         scales = scaled(len(fine_rows))
         good, held, held_scales = self._held(differences, len(places), scaled)
-        self._is_unstable |= self._grows(differences, scaled(len(fine_rows)), fine)
+        self._is_unstable |= self._grows(differences, scales, fine)
         most = USUAL * tolerances[0] if factor == USUAL else self.accuracy
         shown = self.accuracy if self._is_unstable else most
         found = [*map(relative, bounds, scales)]

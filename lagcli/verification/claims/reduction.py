@@ -12,6 +12,7 @@ from itertools import pairwise
 
 from flint import arb
 
+from lagcli.evaluation import bisected
 from lagcli.expression import Expression
 from lagcli.record import replace
 from lagcli.statements.answers import ModelSection, ReductionSection
@@ -28,7 +29,7 @@ _WHY = "what was derived does not hold at random states"
 #: Of the terms of the rate of a momentum: rounding leaves some 1e-25, a force 1e-2.
 _CHANGED = 1e-12
 #: One turn, and lengths of other sizes beside it.
-_POSITIVE = [arb(k) / 64 for k in (1, 2, 4, 8, 13, 18, *range(24, 205, 12), 256, 384, 640, 1024)]
+_POSITIVE = [k / 64 for k in (1, 2, 4, 8, 13, 18, *range(24, 205, 12), 256, 384, 640, 1024)]
 _PLACES = [-q for q in reversed(_POSITIVE)] + _POSITIVE
 #: Halvings of 3/16 to 1e-15; listed and found places are apart by 1e-13 then, or by some 1e-1.
 _HALVINGS, _SAME_PLACE = 48, 1e-9
@@ -177,11 +178,11 @@ def _another_turning_point(
         at = x.reference.values({**known, (one.constant, 0): E})
         listed = [q for q in map(at, turning) if q.is_finite()]
 
-        def excess(place: arb, known: Environment = known, E: arb = E) -> arb:
-            values = x.reference.values({**known, (one.coordinate, 0): place})
+        def excess(place: arb | float, known: Environment = known, E: arb = E) -> arb:
+            values = x.reference.values({**known, (one.coordinate, 0): arb(place)})
             return (values(energy) - E).mid()
 
-        def is_listed(root: arb, listed: list[arb] = listed) -> bool:
+        def is_listed(root: float, listed: list[arb] = listed) -> bool:
             places = [arb(3) / 8, arb(9) / 8]
             return any(
                 size(gap) < _SAME_PLACE
@@ -191,22 +192,23 @@ def _another_turning_point(
 
         for root in _crossings(excess, _POSITIVE if one.positive else _PLACES):
             if not is_listed(root):
-                return f"{float(root):.6g}"
+                return f"{root:.6g}"
     return ""
 
 
-def _crossings(f: Callable[[arb], arb], places: Sequence[arb]) -> Iterator[arb]:
+def _crossings(f: Callable[[float], arb], places: Sequence[float]) -> Iterator[float]:
     """Where a continuous function changes its sign between two of the places."""
     values = [f(place) for place in places]
     for (low, a), (high, b) in pairwise(zip(places, values, strict=True)):
         if not (a.is_finite() and b.is_finite() and a * b < 0):
             continue
-        for _ in range(_HALVINGS):
-            middle = (low + high) / 2
-            value = f(middle)
-            low, high = (middle, high) if value * a > 0 else (low, middle)
-        if size(value) < _SAME_PLACE * (1 + size(a) + size(b)):  # no jump, no pole
-            yield middle
+
+        def before(place: float, a: arb = a) -> bool:
+            return bool(f(place) * a > 0)
+
+        root, _ = bisected(before, low, high, _HALVINGS)
+        if size(f(root)) < _SAME_PLACE * (1 + size(a) + size(b)):  # no jump, no pole
+            yield root
 
 
 def _real_between(x: Examination, one: OneFreedom, turning: Sequence[int]) -> bool:
