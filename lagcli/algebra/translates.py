@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import sympy
-from sympy import Expr, Symbol
+from sympy import Expr, Symbol, igcd, ilcm
 
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.signs import sign
@@ -40,7 +40,9 @@ def common_period(formulas: Sequence[Expr], x: Symbol, state: Sequence[Symbol]) 
     ratios = [simplify(slope / slopes[0]) for slope in slopes]
     if not free_of(slopes[0], state) or not all(ratio.is_Rational for ratio in ratios):
         return None
-    rate = slopes[0] * sympy.gcd_list(ratios)
+    # 1/3 of 1, 2 and 1/3, where sympy.gcd_list gives 1 in this order
+    measure = sympy.Rational(igcd(*(r.p for r in ratios), 0), ilcm(*(r.q for r in ratios), 1))
+    rate = slopes[0] * measure
     return simplify(2 * sympy.pi * (-1 if sign(rate) == -1 else 1) / rate)
 
 
