@@ -85,7 +85,8 @@ class OneFreedom:
 
     `turning_points` are the roots of U_eff = E, None where that has no closed solution; those
     that are real count, where the coordinate is `positive` those that are positive.  All of
-    them are real for E between the bounds of each of `turning_energies`; one-sided contacts hold
+    them are real for E between the bounds of each of `turning_energies`.  Where the kinetic energy
+    is `regular`, positive at every position, nothing else turns it back.  One-sided contacts hold
     at each of them under the conditions of `turning_where`.  Where nothing `oscillates`, the motion
     comes back from one of them only.  `when` says when E is constant, where an impact changes it.
     """
@@ -99,6 +100,7 @@ class OneFreedom:
     positive: bool = False
     turning_energies: tuple[tuple[Expression, Expression], ...] = ()
     turning_where: tuple[tuple[Above, ...], ...] = ()
+    regular: bool = True
     oscillates: bool = True
     when: str = ""
     reason: str = ""

@@ -270,3 +270,49 @@ def test_a_turning_point_that_a_stop_never_reaches_needs_no_condition(contact, p
     )
     assert ("±" in found) == (points == 2)
     assert found.count("one-sided constraints hold") == conditions
+
+
+@pytest.mark.parametrize("n", random.Random(5).sample(range(1, 9), 2))
+@pytest.mark.parametrize("mass", ["1 - cos(x)", "1 + sin(x)"])
+def test_what_reaches_a_zero_of_the_inertia_is_not_said_to_go_on(n, mass):
+    """On a cycloid a bead with more energy than the cusp has reaches it, at a finite speed."""
+    text = f"coordinates: [x]\n{_POSITIVE}\nT: {n}*m*({mass})*x'^2\nV: -k*({mass})\n"
+    told = words(explain(derive(text), ["reduction"]), "The reduction")
+    assert "They exist for" in told
+    assert "there is none." in told
+    assert "does not turn back" not in told
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_rest_of_one_surface_of_an_integrable_velocity_constraint_alone_is_not_called_stable(seed):
+    """On y = c the ball falls along a line of slope c: it rests at c = 0 and accelerates beside."""
+    a, b = (random.Random(seed).randint(1, 9) for _ in range(2))
+    text = (
+        f"coordinates: [x, y, z]\n{_POSITIVE}\nT: m*(x'^2 + y'^2 + z'^2)/2\nV: {b}*m*z\n"
+        f"constraints: {{c1: z' = {a}*y*x', c2: y' = 0}}\n"
+    )
+    [rest] = equilibria(derive(text).dynamics).equilibria
+    assert rest.verdict.stable is None
+    level = text.replace(f"{a}*y*x'", f"{a}*y*y'")  # z = a y²/2 + constant: all is level
+    [rest] = equilibria(derive(level).dynamics).equilibria
+    assert rest.verdict.stable is True
+
+
+@pytest.mark.parametrize("drag", ["k*(a'^2 + b'^2)/2", "k*(a' - b')^2/2"])
+def test_a_damped_oscillation_is_told_with_its_condition(drag):
+    text = (
+        f"coordinates: [a, b]\n{_POSITIVE}\nT: m*(a'^2 + b'^2)/2\nV: c*(a - b)^2/2\n"
+        f"dissipation: {drag}\n"
+    )
+    told = words(explain(derive(text), ["modes"]), "Small oscillations")
+    assert "It oscillates only where omega is real and positive." in told
+
+
+def test_the_forces_of_contacts_are_not_said_to_vanish():
+    text = (
+        f"coordinates: [x, y]\n{_POSITIVE}\nT: m*(x'^2 + y'^2)/2\nV: k*y\n"
+        "contacts: {floor: {gap: y - c >= 0, restitution: 1/2}}\n"
+    )
+    told = words(explain(derive(text), ["equilibria"]), "Equilibria")
+    assert "Where no contact is closed, Lagrange's equations then require" in told
+    assert "Where a contact is closed, it pushes, and this force is added to them." in told

@@ -69,9 +69,11 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         if conditions
         else ", which they do everywhere."
     )
+    contacts = explainer.system.problem.contacts
+    each_open = "Where no contact is closed, " if contacts else ""
     yield says(
-        "At an equilibrium all velocities and accelerations are 0. Lagrange's equations then "
-        "require that the generalized forces",
+        "At an equilibrium all velocities and accelerations are 0. "
+        f"{each_open}Lagrange's equations then require that the generalized forces",
         *((", divided by ", explainer.readable.as_written(rest.growth), ",") if timed else ()),
         " vanish"
         + (" along every displacement that the constraints allow" if constrained else "")
@@ -86,7 +88,9 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield vanishing(conditions)
     if any(each.kinked for each in found or ()):
         yield says("Where a force jumps, it takes every value between those on the two sides.")
-    if explainer.system.problem.contacts or any(each.open for each in found or ()):
+    if contacts:
+        yield says("Where a contact is closed, it pushes, and this force is added to them.")
+    elif any(each.open for each in found or ()):
         yield says("Each contact is either closed, and pushes, or open, and there is no force.")
     if states.at_all_times and found:
         yield says("An equilibrium is where they hold at all times.")
@@ -102,7 +106,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says(f"These were not solved: {states.reason}.")
         return
     if not found:
-        yield says(*_none(rest, states))
+        yield says(*_none(rest, states, "Neither case has a" if contacts else "These have no"))
     given = {constraint.name for constraint in explainer.system.problem.constraints}
     for number, each in enumerate(once(found), 1):
         yield Heading(f"Equilibrium {number}", 2)
@@ -126,8 +130,8 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield from recurring(explainer)
 
 
-def _none(rest: RestPoints, states: EquilibriaSection) -> list[Part]:
-    """That there is no equilibrium, and why."""
+def _none(rest: RestPoints, states: EquilibriaSection, conditions: str) -> list[Part]:
+    """That there is no equilibrium, and why: the `conditions` "have no" solution."""
     if not states.complete:
         return ["No solution was found."]
     assert rest.points is not None
@@ -136,9 +140,7 @@ def _none(rest: RestPoints, states: EquilibriaSection) -> list[Part]:
         lead = f"{where}, and in regular coordinates that is not an equilibrium: "
         none = unless("equilibrium", states.unless) if states.unless != () else ["there is none"]
         return [lead, *none, "."]
-    lead = (
-        f"These have no solution{states.where}" + " that holds at all times" * states.at_all_times
-    )
+    lead = f"{conditions} solution{states.where}" + " that holds at all times" * states.at_all_times
     what = "equilibrium" + " there" * bool(states.where)
     return [f"{lead}: ", *unless(what, states.unless, states.edge), "."]
 

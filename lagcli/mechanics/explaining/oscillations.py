@@ -204,6 +204,13 @@ def _damped(
             yield says(lead.strip())
             yield equations_of((s, exponent) for exponent in dict.fromkeys(mode.exponents))
             lead = "and "
+    yield from _where_real(explainer, modes)
+
+
+def _where_real(explainer: Explainer, modes: Sequence[ModesOfFrequency]) -> Iterator[Block]:
+    if any(mode.decay is not None and mode.open_sign for mode in modes):
+        yield says("It oscillates only where ", explainer.letters.free("omega"),
+                   " is real and positive.")  # fmt: skip
 
 
 def _decaying(
@@ -234,6 +241,7 @@ def _one(
     yield from _decaying(explainer, "Its roots are ", write(rate), frequency)
     signs = [sign(x) for x in (M, C, K)]
     if signs not in ([1, 1, 1], [1, -1, 1]):
+        yield from _where_real(explainer, modes)
         return
     falls = signs[1] == 1
     verb, kind = ("decays", "decaying") if falls else ("grows", "growing")

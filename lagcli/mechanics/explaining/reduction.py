@@ -156,7 +156,8 @@ def _one_freedom(motion: OneFreedom, potential: Part) -> Iterator[Block]:
         yield equations_of((q, root) for root in single(motion.turning_points))
         for lower, upper in motion.turning_energies:
             yield says("They exist for ", lower, " ≤ ", E, " ≤ ", upper, ".")
-            yield says("For larger ", E, ", ", q, " does not turn back.")
+            onwards = (", ", q, " does not turn back.") if motion.regular else (" there is none.",)
+            yield says("For larger ", E, *onwards)
         yield from turning_contacts(motion)
     else:
         yield says("It has no turning point.")

@@ -14,6 +14,7 @@ from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.conjugate_roots import written_alike
 from lagcli.algebra.decimals import written
 from lagcli.algebra.factors import square_part
+from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import fraction
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
@@ -246,6 +247,7 @@ class _Statement:
             turning_where=tuple(
                 conditions(each, order, motion.bounds) for each in motion.turning_where
             ),
+            regular=sign(motion.mass) == 1,
             oscillates=not periods.excluded,
             when=self.routh.between_impacts.get("", ""),
             reason=periods.reason.replace("U_eff", self.routh.potential_name),

@@ -281,14 +281,18 @@ class Near:
 
     @property
     def rests_everywhere(self) -> bool:
-        """Whether every displacement leads to an equilibrium.
+        """Whether every displacement leads to an equilibrium, also one to another surface q' = 0
+        of velocity constraints.
 
         At given momenta of cyclic coordinates that is not so at all others.
         """
-        linear = self.linear
-        return set(linear.point.values) <= set(linear.system.q) and self.dimension_released == len(
-            self.restoring.M
-        )
+        values, q, dynamics = self.linear.point.values, self.linear.system.q, self.linear.dynamics
+        if not set(values) <= set(q):
+            return False
+        equations = [e for e in dynamics.constraints.equations if e.holonomic]
+        rows = [[at(a, values) for a in e.row] for e in equations]
+        excluded = rank([[dot(row, dq) for dq in self._tangents] for row in rows]) if rows else 0
+        return len(self._tangents) - excluded == len(q) - (rank(rows) if rows else 0)
 
     @cached_property
     def as_many_equilibria(self) -> bool:
