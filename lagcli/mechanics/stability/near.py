@@ -281,10 +281,10 @@ class Near:
 
     @property
     def rests_everywhere(self) -> bool:
-        """Whether every displacement leads to an equilibrium, also one to another surface q' = 0
-        of velocity constraints.
+        """Whether every displacement leads to an equilibrium.
 
-        At given momenta of cyclic coordinates that is not so at all others.
+        So also where it leads to another surface of integrable velocity constraints.  At given
+        momenta of cyclic coordinates it is not so at all others.
         """
         values, q, dynamics = self.linear.point.values, self.linear.system.q, self.linear.dynamics
         if not set(values) <= set(q):
