@@ -74,7 +74,8 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
         lead: tuple[str | Formula, ...] = (what,)
         if modes[0].damped:
             s = own("s")
-            lead = ("Exponents ", s, " of ", Call("exp", (Product((s, Name("t"))),)))
+            shapes = " and shapes" * any(mode.shape for mode in modes)
+            lead = ("Exponents ", s, " of ", Call("exp", (Product((s, Name("t"))),)), shapes)
         yield from alike_blocks(several, (*lead, f" about the {place} "))
         for mode in modes_in_pairs(modes):
             if rows := tuple(_mode(mode)):

@@ -458,3 +458,44 @@ def test_frequencies_without_shapes_are_called_frequencies(name):
     found = lagcli.solve(name, sections=["modes"])
     assert "Angular frequencies about the equilibri" in str(found)
     assert "shapes" not in str(found)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_shapes_of_damped_modes_by_construction(seed: int) -> None:
+    """T, V and D are sums of squares of the same forms: each form moves by itself."""
+    draw = Random(seed)
+    forms = [[1, 1], [1, -1]] if seed % 2 else [[1, draw.choice([2, 3])], [draw.choice([2, 3]), -1]]
+    if not seed % 2:
+        forms[1][1] = -draw.choice([1, 2])
+    written = [f"({a}*x{{0}} + ({b})*y{{0}})^2/2" for a, b in forms]
+    primed, plain = ([w.format(mark) for w in written] for mark in ("'", ""))
+    charge = draw.choice(["1/c", "k"])  # as of a capacitor, or of a spring
+    drag = draw.choice(["r", "0"])
+    text = f"""
+coordinates: [x, y]
+parameters: {{m: POSITIVE, k: POSITIVE, c: POSITIVE, r: POSITIVE}}
+T: m*({primed[0]} + {primed[1]})
+V: ({charge})*({plain[0]} + 3*{plain[1]})
+dissipation: r*{primed[0]} + {drag}*{primed[1]}
+"""
+    found = modes(dynamics(text)).modes
+    assert found is not None
+    (a, b), (c, d) = forms
+    wanted = {sympy.Rational(-a, b), sympy.Rational(-c, d)}  # one form at rest: y/x
+    assert len(found) == 2
+    assert all(mode.damped for mode in found)
+    ratios = {normal(mode.shape["y"]) / normal(mode.shape["x"]) for mode in found}
+    assert ratios == wanted
+
+
+def test_modes_without_a_real_shape_have_none() -> None:
+    text = """
+coordinates: [x, y]
+parameters: {m: POSITIVE, k: POSITIVE, r: POSITIVE}
+T: m*(x'^2 + y'^2)/2
+V: k*(x^2 + y^2 + (x - y)^2)/2
+dissipation: r*x'^2/2
+"""
+    found = modes(dynamics(text)).modes
+    assert found is not None
+    assert all(mode.shape is None for mode in found)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from lagcli.expression import Product
 from lagcli.reader import parse_text
 from lagcli.record import replace
 
@@ -109,3 +110,30 @@ def test_rates_of_observables_that_are_left_out_are_missed() -> None:
     for name in section.rates:
         found, _ = after(problem, answers, replace(section, rates={name: section.rates[name]}))
         assert found.rates is None
+
+
+CIRCUITS = "T: m*(x'^2 + y'^2)/2\nV: (x^2 + y^2)/(2*k)\ndissipation: w*(x' - y')^2/2"
+
+
+def test_a_wrong_shape_of_a_damped_mode_is_refuted() -> None:
+    problem, answers, section = derived("x, y", CIRCUITS, "modes")
+    kept, _ = after(problem, answers, section)
+    assert kept.modes is not None
+    assert len(kept.modes) == 2
+    one, other = section.modes
+    turned = (replace(one, shape=other.shape), other)
+    found, warnings = after(problem, answers, replace(section, modes=turned))
+    assert found.modes is None
+    assert any("not that of its exponents" in each for each in warnings)
+
+
+@pytest.mark.parametrize("factor", ["2", "1/2"])
+def test_a_wrong_frequency_of_a_damped_mode_is_refuted_in_any_shape(factor: str) -> None:
+    problem, answers, section = derived("x, y", CIRCUITS, "modes")
+    for k, mode in enumerate(section.modes):
+        product = Product((parse_text(factor), mode.frequency))
+        wrong = replace(mode, frequency=product, shape=None)
+        changed = [wrong if j == k else each for j, each in enumerate(section.modes)]
+        found, warnings = after(problem, answers, replace(section, modes=tuple(changed)))
+        assert found.modes is None
+        assert any("an exponent is not" in each for each in warnings)

@@ -118,7 +118,9 @@ def _damped(linear: Linearization, characteristic: Characteristic) -> list[Norma
         if known == 1 or known is None:
             left -= power
             turns = {"damped": True, "open_sign": known is None, "decay": decay}
-            modes.append(NormalMode(simplify(constant / leading), None, (), power, **turns))
+            undamped = simplify(constant / leading)
+            shapes = _damped_shapes(linear, undamped, decay, power)
+            modes.append(NormalMode(undamped, None, shapes, power, **turns))
         else:
             root = sympy.sqrt(simplify(-square))
             exponents += [simplify(side * root - decay) for side in (1, -1)] * power
@@ -126,6 +128,29 @@ def _damped(linear: Linearization, characteristic: Characteristic) -> list[Norma
         alone = tuple(exponents)
         modes.append(NormalMode(None, None, (), left, damped=True, exponents=alone))
     return modes
+
+
+def _damped_shapes(
+    linear: Linearization, square: Expr, decay: Expr, count: int
+) -> tuple[tuple[Expr, ...], ...]:
+    """The real ones: (K - W M) a = 0 and (C - 2 delta M) a = 0, as s² = -2 delta s - W.
+
+    None where there are fewer than `count`, and of one coordinate.
+    """
+    n = len(linear.M)
+    if n == 1:
+        return ()
+    matrix = [
+        [simplify(rows[i][j] - value * linear.M[i][j]) for j in range(n)]
+        for rows, value in ((linear.K, square), (linear.C, 2 * decay))
+        for i in range(n)
+    ]
+    vectors = nullspace(matrix)
+    values = choices(linear)[0]
+    if len(vectors) != count or not all(_annihilates(matrix, v, values) for v in vectors):
+        return ()
+    shapes = [_displacement(linear, vector) for vector in vectors]
+    return tuple(shape for shape in shapes if shape is not None)
 
 
 def never_oscillates(roots: Sequence[Expr], positive: Sequence[Expr]) -> bool:
@@ -344,7 +369,7 @@ def _annihilates(
         if numbers is None:
             return False
         v, flat = numbers[:n], numbers[n:]
-        for i in range(n):
+        for i in range(len(matrix)):
             terms = [a * x for a, x in zip(flat[i * n : (i + 1) * n], v, strict=True)]
             if not abs(sum(terms)) < _ZERO * max(mpf(1), *map(abs, terms)):
                 return False

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Sequence
+from fractions import Fraction
 
 from flint import arb, ctx
 
-from lagcli.expression import Call
+from lagcli.expression import Call, Expression, Number, Power, Product, Quotient
 from lagcli.record import replace
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Pole
 from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues, occur
@@ -197,11 +198,14 @@ def _decays_so(
     x: Examination, what: str, resting: Sequence[LinearMotion], mode: ModesOfFrequency
 ) -> bool:
     """Whether s = -decay ± sqrt(decay² - natural²), and the real s, are exponents."""
-    pair = mode.decay, mode.frequency.arguments[0] if isinstance(mode.frequency, Call) else None
+    pair = mode.decay, None if mode.frequency is None else _squared(mode.frequency)
     complex_ = x.places(what, [f for f in pair if f is not None])
     real = x.places(what, list(mode.exponents))
-    if complex_ is None or real is None:
+    shapes = [s for s in (mode.shape, *mode.more_shapes) if s is not None]
+    flat = x.places(what, [shape[n] for shape in shapes for n in x.reference.names])
+    if complex_ is None or real is None or flat is None:
         return False
+    size = len(x.reference.names)
     for near in resting:
         values = [near.at(p) for p in (*complex_, *real)]
         if not all(value.is_finite() for value in values):
@@ -211,6 +215,14 @@ def _decays_so(
         if complex_:
             root = cmath.sqrt(-numbers[1])
             wanted += [side * root - numbers[0] for side in (1, -1)] * mode.multiplicity
+            parts = [near.at(p) for p in flat]
+            rows = [parts[k : k + size] for k in range(0, len(parts), size)]
+            if not all(_fades_so(near, values[0], values[1], row) for row in rows):
+                x.refute(what, "a shape is not that of its exponents")
+                return False
+            if rows and _independent(rows, size) not in {mode.multiplicity, -1}:
+                x.refute(what, "the shapes of a frequency are not as many as it has")
+                return False
         left = list(near.eigenvalues)
         scale = max([1e-6, *map(abs, left)])
         for s in wanted:
@@ -220,6 +232,18 @@ def _decays_so(
                 return False
             left.remove(nearest)
     return True
+
+
+def _squared(frequency: Expression) -> Expression:
+    """W of sqrt(W), of 2 sqrt(W) and of 1/sqrt(W), which has a value where the motion creeps."""
+    match frequency:
+        case Call(function="sqrt", arguments=(inner,)):
+            return inner
+        case Product(factors=factors):
+            return Product(tuple(map(_squared, factors)))
+        case Quotient(numerator=above, denominator=below):
+            return Quotient(_squared(above), _squared(below))
+    return Power(frequency, Number(Fraction(2)))
 
 
 def _expected(near: LinearMotion, W: arb, mode: ModesOfFrequency) -> int:
@@ -241,6 +265,20 @@ def _independent(rows: Sequence[Sequence[arb]], size: int) -> int:
         return rank(rows, size) if all(e.is_finite() for row in rows for e in row) else -1
     except Unclear:
         return -1
+
+
+def _fades_so(near: LinearMotion, decay: arb, square: arb, shape: Sequence[arb]) -> bool:
+    """Whether (dq''/dq) a = -(omega² + delta²) a and (dq''/dq') a = -2 delta a."""
+    if not all(a.is_finite() for a in shape):
+        return True
+    pairs = zip(near.slopes, (square + decay**2, 2 * decay), strict=True)
+    for slopes, value in pairs:
+        forces = [sum((e * a for e, a in zip(row, shape, strict=True)), arb(0)) for row in slopes]
+        scale = max([1.0, *(abs(float(f.mid())) for f in forces)])
+        gaps = (abs(float((f + value * a).mid())) for f, a in zip(forces, shape, strict=True))
+        if max(gaps) > _AGREE * scale:
+            return False
+    return True
 
 
 def _moves_so(near: LinearMotion, W: arb, shape: Sequence[arb]) -> bool:
