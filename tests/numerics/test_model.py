@@ -1,12 +1,13 @@
 """What `solve --show model` says is what a run does, and what is without influence has none."""
 
 import json
+import random
 import subprocess
 import sys
 
 import pytest
 
-from lagcli import load
+from lagcli import load, loads
 from lagcli.mechanics.derivation import Derivation
 from lagcli.numerics.certified.model import model_section
 from lagcli.pipeline import Request, state
@@ -89,6 +90,40 @@ def test_constraints_that_stay_say_why():
     assert "contact" in reason["surface"]
     reason = model_section(load("problems/nonholonomic/rolling-vertical-disk.yaml")).reason
     assert "velocities" in reason["roll_x"]
+
+
+def test_a_constraint_that_restricts_nothing_more_is_said_to_follow_from_the_others():
+    """A sum of the others, with positions or with their rates; none that is independent."""
+    source = random.Random("follows")
+    for _ in range(4):
+        a, b, c = (source.choice([-3, -2, 2, 3]) for _ in range(3))
+        rows = [f"x + {a}*u", f"y + {b}*u", f"{c}*(x + {a}*u) - y - {b}*u"]
+        if source.random() < 0.5:
+            rows[2] = f"{c}*(x' + {a}*u') - y' - {b}*u'"
+        rows.append("y*w' - u'")
+        lines = [f'  c{k}: "{row} = 0"\n' for k, row in enumerate(rows)]
+        file = (
+            "coordinates: [x, y, u, w]\nparameters: [m, g]\n"
+            "T: m*(x'^2 + y'^2 + u'^2 + w'^2)/2\nV: m*g*x\nconstraints:\n" + "".join(lines)
+        )
+        reason = model_section(loads(file)).reason
+        assert "follows" in reason["c2"], file
+        assert "velocities" in reason["c3"], file
+
+
+def test_what_a_definition_is_made_of_has_the_influence_of_the_definition():
+    """Derived with a definition of constants as a parameter, what it holds is not dropped."""
+    source = random.Random("definition")
+    for _ in range(4):
+        name = source.choice(["s", "nu", "K"])
+        formula = source.choice(["a*sin(b)", "a*b", "a - b", "a/b^2"])
+        place = source.choice(["V: {}*x^2/2", "V: x^4\nforces: {{x: -{}*x'}}"])
+        file = (
+            f"coordinates: [x]\nparameters: [m, a, b, c]\ndefinitions: {{{name}: {formula}}}\n"
+            f"T: m*x'^2/2\n{place.format(name)}\n"
+        )
+        section = solve(loads(file), ["model"]).sections["model"]
+        assert section.dropped == ("c",), file
 
 
 def test_coordinates_that_move_alone_are_named():

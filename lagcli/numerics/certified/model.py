@@ -131,11 +131,14 @@ class _Model:
         e = self.equations
         done = {each.constraint for each in self.reduction.solved}
         possible = {each.constraint for each in self.possible.solved}
+        left = self.possible.rows()
         for k, declared in enumerate(e.declared):
             if k in done:
                 continue
             if self.barrier:
                 why = self.barrier
+            elif k in left and vanish([*left[k].row, left[k].drift], e.form):
+                why = "it follows from those that are solved"
             elif e.constraints[k].position is None:
                 why = "it contains velocities"
             elif k in possible:
@@ -185,8 +188,10 @@ class _Model:
         impacts = [read(c.restitution) for c in e.problem.constraints if c.restitution]
         limits = [c.holds_while for c in e.problem.constraints if c.holds_while]
         conditions = [read(side) for limit in limits for side in (limit.left, limit.right)]
-        mask = with_values(mask_of([*self._dynamics, *impacts, *conditions]), e.parameter_values)
-        starts = with_values(mask_of(read(x) for x in problem.initial.values()), e.parameter_values)
+        named = {e.graph.symbol(name): read(formula) for name, formula in problem.named.items()}
+        values = {**e.parameter_values, **named}
+        mask = with_values(mask_of([*self._dynamics, *impacts, *conditions]), values)
+        starts = with_values(mask_of(read(x) for x in problem.initial.values()), values)
         for parameter in problem.parameters:
             symbol = e.graph.symbol(parameter.name)
             if not symbol.mask & mask:
