@@ -192,8 +192,98 @@ forces: {{x: -k*x^{n - 1}}}
 symmetries: {{time: {{t: 1, gauge: k*x^{n}/{n}}}, across: {{y: 1}}}}
 """
     sentences = said(text, "Conserved quantities")
-    assert "The applied forces do work along this transformation" in sentences
+    assert "The work of the applied forces along it is on the motion the total time" in sentences
+    assert "changes only by a boundary term" not in sentences
     assert "The applied forces do no work along this transformation." in sentences
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_change_that_forces_balance_is_not_called_a_boundary_term(seed):
+    """L = m x'²/2 - V(x) with Q = V'(x) + F: dL = -V' is no total derivative, dL + Q is F."""
+    source = random.Random(seed)
+    n, a = source.choice([3, 4, 5]), source.choice([1, 2, 3])
+    text = f"""
+coordinates: [x]
+parameters: {{m: {{assume: positive}}, k: {{assume: positive}}}}
+L: m*x'^2/2 - k*x^{n}
+forces: {{x: k*{n}*x^{n - 1} + {a}*k}}
+symmetries: {{shift: {{x: 1, gauge: {a}*k*t}}}}
+"""
+    sentences = said(text, "Conserved quantities")
+    assert "Under it the action changes. Together with the work of the applied forces" in sentences
+    assert "changes only by a boundary term" not in sentences
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_conditions_that_constraints_give_are_not_laid_to_the_forces(seed):
+    """f(q) = 0 or a drift a q' + b(q) = 0 are conditions of rest, and not of a force."""
+    source = random.Random(seed)
+    c, W = source.choice([1, 2, 3]), source.choice(["W*x", "W*y"])
+    rods = {
+        f"y = {c}*sin(x)": True,
+        f"x'*cos(z) + {c}*y'*sin(z) = 0": False,
+        f"y' - {c}*x'*sin(z) = {W}": True,
+    }
+    for constraint, held in rods.items():
+        text = f"""
+coordinates: [x, y, z]
+parameters: {{m: {{assume: positive}}, g: {{assume: positive}}, W: {{assume: positive}}}}
+T: m*(x'^2 + y'^2 + z'^2)/2
+V: m*g*x^2
+constraints: {{one: "{constraint}"}}
+"""
+        sentences = said(text, "Equilibria", "equilibria")
+        assert ("The constraint holds, and Lagrange's equations then" in sentences) is held
+
+
+def test_momenta_with_a_rate_are_not_said_to_be_constant():
+    """A knife edge with its centre apart (Chaplygin's sleigh): the momenta change."""
+    text = """
+coordinates: [x, y, f]
+parameters: {m: {assume: positive}, a: {assume: positive}, J: {assume: positive}}
+T: m*((x' - a*f'*sin(f))^2 + (y' + a*f'*cos(f))^2)/2 + J*f'^2/2
+constraints: {blade: "y'*cos(f) = x'*sin(f)"}
+"""
+    sentences = said(text, "Discovered symmetries", "discovered")
+    assert "of each Q below without a rate Q' is 0 on the motion" in sentences
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_what_constraints_eliminate_is_not_called_cyclic(seed):
+    c = random.Random(seed).choice([1, 2, 3])
+    text = f"""
+coordinates: [x, z]
+parameters: {{m: {{assume: positive}}, g: {{assume: positive}}}}
+T: m*(x'^2 + z'^2)/2
+V: m*g*z
+constraints: {{level: z = {c}}}
+"""
+    sentences = said(text, "Steady motions", "steady_motions")
+    assert "Every coordinate that is left is cyclic" in sentences
+
+
+@pytest.mark.parametrize(
+    ("drag", "forces"),
+    [
+        ("dissipation: b*x'^2/2", "plus the dissipative forces:"),
+        ("forces: {x: -b*x}", "plus the applied forces:"),
+        ("dissipation: b*x'^2/2\nforces: {x: b}", "plus the applied forces and the dissipative"),
+    ],
+)
+def test_the_forces_of_the_canonical_equations_are_named(drag, forces):
+    text = f"coordinates: [x]\nparameters: [m, b]\nT: m*x'^2/2\n{drag}\n"
+    assert forces in said(text, "Canonical equations", "canonical_equations")
+
+
+def test_integrals_with_time_are_said_to_be_of_second_degree():
+    """A drive w(t) of two coordinates: the quadratic ones without time were not sought."""
+    text = """
+coordinates: [x, y]
+parameters: {m: {assume: positive}, k: {assume: positive}}
+L: m*(x'^2 + y'^2)/2 - k*(x^2 - 2*y^2)*cos(t)
+"""
+    sentences = said(text, "Discovered symmetries", "discovered")
+    assert "second degree in the velocities with the same functions of time" in sentences
 
 
 def test_a_gauge_of_the_file_that_is_wrong_is_named():

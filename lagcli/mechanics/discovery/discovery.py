@@ -42,6 +42,7 @@ from lagcli.mechanics.discovery.slots import point_slots
 from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
+_SECOND = "first integrals of second degree in the velocities"
 _MOST_FOR_TENSORS = 6  # measured: at most 4
 
 Named = tuple[str, Expr, NoetherCharge]
@@ -189,8 +190,8 @@ class Discovery(Setting):
         if self.system.t not in self.equations_symbols:
             self._degree = 2
             self.words.append(
-                "first integrals of second degree in the velocities without explicit time, "
-                "coefficients up to second degree in the coordinates"
+                f"{_SECOND} without explicit time, coefficients up to second degree in the "
+                "coordinates"
             )
             integrals = QuadraticIntegrals(
                 self.noether, self.equations, self.centred_kinds, self.allowed
@@ -205,7 +206,9 @@ class Discovery(Setting):
             )
             if timed.functions:
                 self._degree = 2
-                self.words.append("and with the same functions of time as coefficients")
+                functions = "with the same functions of time as coefficients"
+                still = self.system.t not in self.equations_symbols
+                self.words.append(f"and {functions}" if still else f"{_SECOND} {functions}")
                 self._keep(timed.found(self.charges))
 
     def _of_higher_degree(self) -> None:
@@ -242,7 +245,7 @@ class Discovery(Setting):
 
     def _by_killing_vectors(self) -> bool:
         """Those of T of constant curvature, which are all; else of T without a factor w(q)."""
-        equations, what = self.equations, "first integrals of second degree in the velocities"
+        equations, what = self.equations, _SECOND
         if self.system.t in self.equations_symbols or is_gyroscopic(equations):
             return False
         if self.isometries is None:
@@ -299,7 +302,7 @@ class Discovery(Setting):
         ):
             second = any(x**2 in spaces for x in self.coordinate_kinds.lengths)
             degree = f"{'of second degree' if second else 'affine'} in the coordinates"
-            powers = "with powers -2 to 3 of the coordinate"
+            powers = "with powers −2 to 3 of the coordinate"
             shapes.append(powers if self.coordinate_kinds.powers else degree)
             if self.coordinate_kinds.exponentials:
                 shapes.append("and in exponentials of them")

@@ -243,7 +243,10 @@ def _candidate(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
     changed = explainer.derivation.noether.change_of_action(change)
     boundary = sympy.S.Zero if gauge is None else gauge
     same = is_zero(changed - explainer.system.total_derivative(boundary)) is True
-    if gauge is None:
+    working = explainer.derivation.noether.working(charge) if charge.conserved else []
+    if working and gauge is not None and not same:
+        yield from _with_work(explainer, gauge, enumerated(working), is_zero(changed) is True)
+    elif gauge is None:
         yield says(
             "Under it the action changes, and no boundary term was found whose total time "
             "derivative equals the change."
@@ -275,12 +278,30 @@ def _candidate(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
         why = f": {charge.broken_by}" if charge.broken_by else ""
         yield says(f"Whether it is conserved was not decided{why}.")
     elif charge.conserved:
-        yield from _work(explainer, charge, with_gauge=bool(boundary != 0))
+        if not working or same:
+            yield from _work(explainer, charge, with_gauge=bool(boundary != 0))
         yield from _struck(explainer, charge)
     else:
         yield says(f"It is not conserved, because of {charge.broken_by}:")
         if charge.rate is not None:
             yield shows(Name(letters.Q.name, 1), explainer.readable.on_surface(charge.rate))
+
+
+def _with_work(
+    explainer: Explainer, gauge: sympy.Expr, working: str, unchanged: bool
+) -> Iterator[Block]:
+    """The change of L and the work of other forces, whose sum is the rate of G on the motion."""
+    letters = explainer.letters
+    none = is_zero(gauge) is True
+    if unchanged:
+        lead = f"Under it the action does not change. The work of {working} along it is"
+    else:
+        lead = f"Under it the action changes. Together with the work of {working} this is"
+    yield says(
+        f"{lead} {'0 on the motion.' if none else 'on the motion the total time derivative of'}"
+    )
+    if not none:
+        yield shows(letters.G, explainer.readable.as_written(gauge))
 
 
 def noether_words(

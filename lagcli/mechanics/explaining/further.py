@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, cast
 
 from sympy import S
 
+from lagcli.algebra import is_zero
 from lagcli.document import Block, Equations, Heading, Label, vanishing
 from lagcli.expression import Expression
 from lagcli.mechanics.explaining.explainer import Explainer
@@ -70,10 +71,12 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         else ", which they do everywhere."
     )
     contacts = explainer.system.problem.contacts
-    each_open = "Where no contact is closed, " if contacts else ""
+    held = _constraints_hold(explainer)
+    each_open = "where no contact is closed, " if contacts else ""
+    lead = f"{held}{each_open}" if held else each_open.capitalize()
     yield says(
         "At an equilibrium all velocities and accelerations are 0. "
-        f"{each_open}Lagrange's equations then require that the generalized forces",
+        f"{lead}Lagrange's equations then require that the generalized forces",
         *((", divided by ", explainer.readable.as_written(rest.growth), ",") if timed else ()),
         " vanish"
         + (" along every displacement that the constraints allow" if constrained else "")
@@ -128,6 +131,14 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says("There may be others.")
     if found:
         yield from recurring(explainer)
+
+
+def _constraints_hold(explainer: Explainer) -> str:
+    """That the constraints hold, where they are among the conditions of rest."""
+    equations = explainer.dynamics.constraints.equations
+    if all(not e.holonomic and is_zero(e.drift) is True for e in equations):
+        return ""
+    return f"The constraint{'s hold' if len(equations) > 1 else ' holds'}, and "
 
 
 def _none(rest: RestPoints, states: EquilibriaSection, conditions: str) -> list[Part]:

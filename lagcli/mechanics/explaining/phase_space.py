@@ -13,7 +13,7 @@ from lagcli.notation.letters import own
 from lagcli.statements.answers import CanonicalSection, Section
 from lagcli.statements.motions import HamiltonJacobiSection
 from lagcli.statements.phase_space import BracketsSection
-from lagcli.statements.wording import conditions, fold, used_to_eliminate
+from lagcli.statements.wording import conditions, enumerated, fold, used_to_eliminate
 
 
 def canonical_equations(explainer: Explainer, section: Section) -> Iterator[Block]:
@@ -57,9 +57,10 @@ def canonical_equations(explainer: Explainer, section: Section) -> Iterator[Bloc
 
 def _momentum_rates(explainer: Explainer) -> list[Part]:
     """-dH/dq + Q - dD/dq' + lambda a."""
-    more = ["the applied forces"] * (explainer.forced or explainer.damped)
+    more = ["the applied forces"] * explainer.forced
+    more += ["the dissipative forces"] * explainer.damped
     more += ["the forces of the constraints"] * bool(explainer.dynamics.constraints.equations)
-    added = f", plus {' and '.join(more)}" if more else ""
+    added = f", plus {enumerated(more)}" if more else ""
     lead = "and the rates of the momenta are minus those with respect to the coordinates"
     return [f"{lead}{added}:"]
 

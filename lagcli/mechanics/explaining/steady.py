@@ -56,7 +56,8 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
             "momenta are constant" if timed else "velocities are constant: every motion is steady"
         )
         between = " while the contacts are open" if explainer.derivation.problem.contacts else ""
-        yield says(f"Every coordinate is cyclic, so all {constant}{between}.")
+        left = " that is left" if explainer.dynamics.constraints.equations else ""
+        yield says(f"Every coordinate{left} is cyclic, so all {constant}{between}.")
         return
     if found.motions is None and found.reason == NONE_LEFT:
         yield says("The constraints leave no coordinate: they prescribe the motion.")

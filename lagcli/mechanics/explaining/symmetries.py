@@ -33,7 +33,9 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
     discovery = explainer.derivation.discovery
     letters = explainer.letters
     constrained = bool(explainer.dynamics.constraints.equations)
-    forced = "" if discovery.canonical else " plus the work of the applied forces"
+    beside: list[Part] = (
+        [] if discovery.canonical else [" plus the work of the forces that are not in ", letters.L]
+    )
     yield says(
         "A symmetry is a change of the coordinates and the time under which the action "
         "changes only "
@@ -48,7 +50,7 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
     yield says(
         "For a point transformation the Euler-Lagrange expression of the change of ",
         letters.L,
-        forced,
+        *beside,
         " must vanish identically" + (" on the constraints" if constrained else "") + ", "
         "which holds "
         "for total time derivatives and only for them. For a constant of the motion the time "
@@ -69,13 +71,15 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
         law = noether_words(explainer, with_gauge=gauge, with_time=timed)[:-1]
         G, L = letters.G, letters.L
         rate: list[Part] = [", where the total time derivative of ", G, " is the change of ", L]
-        boundary = [*rate, forced] if gauge else []
+        boundary = [*rate, *beside] if gauge else []
         yield says(*law, *boundary, ".")
         levels = {each.verified for each in charges if each.verified}
         how = f"; this was checked {_CHECKED[levels.pop()]}" if len(levels) == 1 else ""
+        moving = len(charges) < len(found)
+        without: list[Part] = [" without a rate ", Name(letters.Q.name, 1)] if moving else []
         yield says(
-            "The time derivative of each ", letters.Q, f" below is 0 on the motion{how}. Nothing "
-            "outside of the ansatz was searched.",
+            "The time derivative of each ", letters.Q, " below", *without,
+            f" is 0 on the motion{how}. Nothing outside of the ansatz was searched.",
         )  # fmt: skip
     for charge in found:
         yield from _charge(explainer, charge)
@@ -126,7 +130,7 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says(f"No symmetry was found and proved. Searched: {found.ansatz}.")
         return
     if found.in_involution is None:
-        yield says(_no_brackets(explainer))
+        yield says(*_no_brackets(explainer))
     yield from _brackets(explainer, closed=found.closed)
     yield from _dimension(found)
     number, n = found.independent, explainer.dynamics.degrees_of_freedom
@@ -150,14 +154,15 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield equations_of((Name(name), value) for name, value in case.charges.items())
 
 
-def _no_brackets(explainer: Explainer) -> str:
+def _no_brackets(explainer: Explainer) -> list[Part]:
     """Why the conserved quantities are not compared by Poisson brackets."""
     kinds = explainer.dynamics.constraints.kinds.values()
     if any(kind != "holonomic" for kind in kinds):
-        return "Under velocity constraints no Poisson brackets are taken."
+        return ["Under velocity constraints no Poisson brackets are taken."]
     if not explainer.derivation.discovery.canonical:
-        return "Applied forces act, so no Poisson brackets are taken."
-    return "The Poisson brackets were not worked out."
+        L = explainer.letters.L
+        return ["Forces that are not in ", L, " act, so no Poisson brackets are taken."]
+    return ["The Poisson brackets were not worked out."]
 
 
 def _dimension(found: AlgebraSection) -> Iterator[Block]:
