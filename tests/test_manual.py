@@ -111,7 +111,7 @@ def test_every_page_of_the_manual_is_found_by_its_name_and_topics():
 
 
 def test_every_command_section_and_key_has_a_page():
-    from lagcli.reader.problem_file import KEYS
+    from lagcli.reader.habits import KEYS
     from lagcli.statements.registry import built_in
 
     text = "".join(page.text for page in pages())

@@ -19,6 +19,11 @@ if TYPE_CHECKING:
 
 RESTITUTION = "restitution"
 _ATTRIBUTES = ("gap", RESTITUTION, "multiplier")
+#: The coefficients of kinds of impact.
+_COEFFICIENTS = {
+    **dict.fromkeys(["elastic", "yes", "true"], 1),
+    **dict.fromkeys(["inelastic", "plastic", "none", "no", "false", "sticks"], 0),
+}
 _HINT = "write floor: {gap: y >= 0, restitution: 0.8}"
 
 
@@ -129,4 +134,12 @@ def _gap(file: FileReader, node: DocumentNode, what: str) -> Equation:
 
 def read_restitution(file: FileReader, node: DocumentNode, what: str) -> Expression:
     """Newton's coefficient: a number or a formula of parameters."""
+    word = node.value.strip() if isinstance(node, Scalar) else ""
+    kind = re.sub(
+        r"^(?:perfectly|fully|totally|completely)[ _-]|[ _-](?:impact|collision)$", "", word
+    )
+    if kind in _COEFFICIENTS and word not in file.scope.kinds:
+        message = f"the restitution of {what} is a number from 0 to 1"
+        file.error(message, node.span, f"write {_COEFFICIENTS[kind]}")
+        return ZERO
     return file.expression(node, f"the restitution of {what}", VALUES)

@@ -9,8 +9,9 @@ from lagcli.problem_data import Point, Problem
 from lagcli.reader.file_reader import Required
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import colon_advice
+from lagcli.reader.headings import forces_without_headings, without_headings
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
-from lagcli.reader.misshapen import as_list
+from lagcli.reader.misshapen import as_list, source_of
 from lagcli.reader.names import depends_on_time, derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Growth, Role
@@ -34,8 +35,11 @@ def check_energies(file: FileReader, given: dict[str, Scalar]) -> None:
             message = f"both {whole} and {both[0]} are given"
             message = f"{whole}, T and V are given" if both[1:] else message
             hint = "give L, or H" if "L" in both else f"give {whole}, or T and V"
-            hint = "leave out L: it is T - V" if both[1:] and whole == "L" else hint
-            file.error(message, given[both[0]].span, hint, related)
+            at = both[0]
+            if both[1:] and "L" not in both:
+                at, related = whole, ((given[both[0]].span, f"{both[0]} is given here"),)
+                hint = "leave out L: it is T - V" if whole == "L" else "leave out H: it is derived"
+            file.error(message, given[at].span, hint, related)
             file.scope.refused += both  # as in L: T - V
 
 
@@ -72,6 +76,10 @@ def declare_definitions(file: FileReader, node: DocumentNode) -> list[tuple[Scal
         written = [each.value for each in lines if isinstance(each, Scalar)]
         hint = colon_advice(written[0]) if written else hint
         file.scope.refused += [line.partition("=")[0].strip() for line in written]
+    if found := without_headings(node, ()):
+        file.error(f"'{found[0].label}' in definitions is not a formula", found[0].span, found[1])
+        file.scope.refused.append("")
+        return []
     for key, value in file.entries(node, "definitions", hint):
         if file.declare(key.label, "definition", key.span):
             file.scope.definitions[key.label] = Definition(place=len(declared))
@@ -142,16 +150,46 @@ def _by_axes(node: DocumentNode) -> str:
     return ", ".join(written) or "x, y"
 
 
-def _components(file: FileReader, node: DocumentNode, what: str, hint: str) -> list[DocumentNode]:
+def read_components(
+    file: FileReader, node: DocumentNode, what: str, hint: str, length: int = 0
+) -> list[DocumentNode]:
+    """The components of a vector; a mistake where it is written otherwise than as a list.
+
+    The `length` is that of the position, or 0.
+    """
+    from lagcli.reader.foreign.vectors import components, of_listed
+
+    known = file.scope.kinds
     if isinstance(node, Scalar) and not node.is_empty:
         hint = f"write {as_list(_shown(node.value))}"
+        if written := components(node.value, known, length):
+            file.error(f"{what} must be a list, not a text", node.span, _listed(written))
+            return []
+        if length > 1 and "," not in node.value:
+            axes = ", ".join(["0"] * (length - 1) + [node.value.strip()])
+            hint = f"one component for each of the position's, as in [{axes}]"
+    elif isinstance(node, Mapping) and {key.label for key, _ in node.entries} <= {*"xyz"}:
+        given = {key.label: source_of(value) for key, value in node.entries}
+        size = length or max(("xyz".index(axis) + 1 for axis in given), default=2)
+        hint = _listed([given.get(axis, "0") for axis in "xyz"[:size]])
+    elif isinstance(node, Sequence):
+        texts = [each.value for each in node.items if isinstance(each, Scalar)]
+        if len(texts) == len(node.items) and (written := of_listed(texts, known)):
+            message = f"{what} is a list of components, without unit vectors"
+            file.error(message, node.span, _listed(written))
+            return []
     return file.items(node, what, hint)
+
+
+def _listed(parts: list[str]) -> str:
+    return f"write [{', '.join(parts)}]"
 
 
 def _position(file: FileReader, node: DocumentNode, name: str) -> tuple[Expression, ...]:
     what = f"the position of '{name}'"
-    items = _components(file, node, what, _CARTESIAN)
-    if isinstance(node, Sequence) and not 1 <= len(items) <= 3:
+    before = len(file.diagnostics)
+    items = read_components(file, node, what, _CARTESIAN)
+    if isinstance(node, Sequence) and not 1 <= len(items) <= 3 and len(file.diagnostics) == before:
         file.error(f"{what} has {len(items)} components, it may have 1 to 3", node.span)
     for axis, item in zip("xyz", items, strict=False):
         if isinstance(item, Scalar):
@@ -161,8 +199,9 @@ def _position(file: FileReader, node: DocumentNode, name: str) -> tuple[Expressi
 
 def _force(file: FileReader, node: DocumentNode, name: str, length: int) -> tuple[Expression, ...]:
     what = f"the force on '{name}'"
-    items = _components(file, node, what, "one component for each of the position's")
-    if isinstance(node, Sequence) and length and len(items) != length:
+    before = len(file.diagnostics)
+    items = read_components(file, node, what, "one component for each of the position's", length)
+    if isinstance(node, Sequence) and 0 < length != len(items) and len(file.diagnostics) == before:
         message = f"{what} has {len(items)} components, its position has {length}"
         file.error(message, node.span)
     return tuple(file.expression(item, what, STATE) for item in items)
@@ -182,9 +221,15 @@ def read_by_coordinate(
 ) -> dict[str, Expression]:
     """A map coordinate → expression."""
     found = {}
-    for key, value in file.entries(node, section, file.by_name(node)):
+    coordinates = list(file.scope.of_kind("coordinate"))
+    entries = list(file.entries(node, section, file.by_name(node)))
+    if whole := forces_without_headings(node, coordinates):
+        [heading, *_] = [key for key, value in entries if isinstance(value, Mapping)]
+        message = f"'{heading.label}' in {section} is not a coordinate"
+        file.error(message, heading.span, whole)
+        return {}
+    for key, value in entries:
         if file.scope.kinds.get(key.label) != "coordinate":
-            coordinates = list(file.scope.of_kind("coordinate"))
             along = re.sub(r"^[FQf]_?", "", key.label.rstrip("'"))
             along = coordinates[0] if not along and len(coordinates) == 1 else along
             hint = f"write {along}" if along in coordinates else ""

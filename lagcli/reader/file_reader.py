@@ -12,6 +12,7 @@ from lagcli.expression import ZERO, Equation, Expression, Name
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import (
+    KEYS,
     LISTS,
     MAPS,
     is_constant,
@@ -163,6 +164,8 @@ class FileReader:
         """How a list or a text of values is written as a map by coordinate."""
         if isinstance(node, Mapping):
             return ""
+        if isinstance(node, Scalar) and re.match(r"(?:\w+\.)?zeros\b", node.value):
+            return "leave it out: what is not given is 0"
         names = list(self.scope.of_kind("coordinate")) or ["x"]
         written = node.text.source.text[node.start : node.end].strip("[] \n")
         stated = [(self._meant(name), value) for name, value in _GIVEN.findall(written)]
@@ -315,6 +318,9 @@ class FileReader:
         stem = None if advice else key_of_stem(key.label, names)
         if stem and stem != closest(key.label, names):
             meant, hint = stem, f"the key is {stem}"
+        outer = key_meant(key.label, KEYS) if len(key.label) > 2 and not advice else None
+        if outer is not None and what != "the problem":
+            hint = f"a key of the problem: write {outer}: {source_of(value)} on a line of its own"
         plural = f"{key.label}s" in names
         shape = key_by_shape(value, around) if what == "the problem" and not plural else None
         near = meant or closest(key.label, names)
@@ -440,17 +446,15 @@ class FileReader:
             return None
         if self.is_full or self.scalar(node, what) is None:
             return None
+        foreign = any(
+            each in node.value for each in self.scope.refused if each and name_mistake(each)
+        )
         try:
             return read(node.excerpt())
         except Mistake as error:
-            self.diagnostics += [each for each in error.diagnostics if not self._is_known(each)]
+            if not foreign:  # a name that was refused where it was declared
+                self.diagnostics += error.diagnostics
             return None
-
-    def _is_known(self, mistake: Diagnostic) -> bool:
-        """Whether a character that is in no name was reported where the name was declared."""
-        refused = "".join(self.scope.refused)
-        named = mistake.message.startswith(("a name has letters", "'\\' has no meaning"))
-        return named and any(f"'{character}'" in mistake.message for character in refused)
 
     # Names.
 

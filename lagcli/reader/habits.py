@@ -15,6 +15,13 @@ from typing import Any, get_args
 
 from lagcli.problem_data import Assumption
 
+#: The keys of a problem.
+KEYS = (
+    "title", "source", "description", "coordinates", "parameters", "functions", "definitions",
+    "points", "T", "V", "L", "H", "forces", "dissipation", "constraints", "contacts", "symmetries",
+    "observables", "brackets", "canonical_transformations", "initial", "find", "simulation",
+    "picture", "expect",
+)  # fmt: skip
 #: Keys whose value is a map or a list.
 MAPS = frozenset(
     "coordinates parameters functions definitions points forces constraints contacts symmetries "
@@ -117,7 +124,10 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
     if part in known:
         return f"write {part}: {{{key}: {value or '…'}}}"
     if "parameters" in known and is_constant(word, value):
-        return f"a constant stands under parameters: write parameters: {{{word}: {value.strip()}}}"
+        value, unit = value.strip(), unit_behind(value)
+        number = value.partition(unit)[0].strip(" [(") if unit else value
+        given = f"{{value: {number}, unit: {unit}}}" if unit else value
+        return f"a constant stands under parameters: write parameters: {{{word}: {given}}}"
     if word.casefold() in {"gravity", "gravitation", "weight", "spring", "field"} and "V" in known:
         return "it has a potential energy: write V: m*g*y"
     return ""
@@ -144,9 +154,9 @@ def colon_advice(line: str) -> str:
 
 
 def is_constant(word: str, value: str) -> bool:
-    """Whether a key with its value is a name with its number."""
+    """Whether a key with its value is a name with its number, which may have a unit."""
     named = re.fullmatch(r"[^\W\d]\w*", word) and word not in meanings("parts")
-    return bool(named and _NUMBER.fullmatch(value.strip()))
+    return bool(named and (_NUMBER.fullmatch(value.strip()) or unit_behind(value)))
 
 
 def name_meant(name: str, *, one: bool = False) -> str:

@@ -30,6 +30,9 @@ def as_list(written: str) -> str:
 def one_sum(node: DocumentNode, what: str) -> str:
     """`write a + b` for the list `[a, b]` and the map `{spring: a, weight: b}`."""
     terms = node.items if isinstance(node, Sequence) else []
+    inner = [key.label for key, _ in node.entries] if isinstance(node, Mapping) else []
+    if what in {"L", "H"} and {key_meant(word, ("T", "V")) for word in inner} == {"T", "V"}:
+        return f"leave out '{what}': T and V begin lines of their own"
     if isinstance(node, Mapping):
         pairs = [(value, key) for key, value in node.entries]
         terms = [k if isinstance(v, Scalar) and v.is_empty else v for v, k in pairs]

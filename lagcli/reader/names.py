@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 _MOMENTA = "momenta stand in H: give H, or write velocities x'"
 #: Words for a value that is left open.
-_NO_VALUE = frozenset(
+NO_VALUE = frozenset(
     "const constant unknown free any None null none symbolic given yes true".split()
 )
 _ORDERS = ("coordinate", "velocity", "acceleration", "third derivative")
@@ -219,7 +219,8 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return "a constraint is written without its multiplier"
     if what in {"T", "V", "L"} and name in {"lambda", "lam"}:
         return f"a constraint stands under 'constraints', without its multiplier; or {UNDECLARED}"
-    rate = role.order > 0 and rate_meant(name, Vocabulary(tuple(coordinates), frozenset()))
+    words = Vocabulary(tuple(coordinates), frozenset(), moving=scope.moving)
+    rate = role.order > 0 and rate_meant(name, words)
     hint = "" if rate else did_you_mean(name, scope.usable(role))
     if not hint and role.time and name[-1] == "t" and (len(name) == 2 or name[:-1] in GREEK):
         return f"did you mean {name[:-1]}*t?"
@@ -231,7 +232,7 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return "the velocities are " + "' and ".join(coordinates) + "'"
     if not hint and primes and role.order > 0:
         return COORDINATE
-    if not hint and what.startswith("the value of") and name in _NO_VALUE:
+    if not hint and what.startswith("the value of") and name in NO_VALUE:
         return "a parameter without a value is written without ':', or as [m, k]"
     if not hint and name in (usual := meanings("names")):
         return usual[name]

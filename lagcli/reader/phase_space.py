@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from lagcli.expression import Name, walk
 from lagcli.problem_data import BracketQuestion, CanonicalTransformation
-from lagcli.reader.nodes import DocumentNode, Scalar, Sequence
+from lagcli.reader.misshapen import source_of
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import PHASE_SPACE, name_mistake
 
 if TYPE_CHECKING:
@@ -56,11 +58,15 @@ def read_brackets(
     """Pairs of functions; the charges of symmetries and H may stand in them by name."""
     found = []
     hint = "write name: [x, p_x]"
+    if (pair := _pair(node)) and not isinstance(node, Mapping):
+        file.error("brackets have names", node.span, f"write {{name: [{', '.join(pair)}]}}")
+        return ()
     names = [HAMILTONIAN, *(symmetry.name for symmetry in symmetries)]
     with file.scope.also(names, "observable"):
         for key, value in file.entries(node, "brackets", hint):
             what = f"the bracket '{key.label}'"
-            items = file.items(value, what, hint)
+            pair = _pair(value)
+            items = file.items(value, what, f"write [{', '.join(pair)}]" if pair else hint)
             if isinstance(value, Sequence) and len(items) != 2:
                 file.error(f"{what} has {len(items)} functions, not 2", value.span, hint)
             read = [file.expression(item, what, BRACKETED) for item in items]
@@ -70,18 +76,49 @@ def read_brackets(
     return tuple(found)
 
 
+def _pair(node: DocumentNode) -> list[str]:
+    """The two functions of `[A, B]`, `{A, B}` and the text `"{A, B}"`; else nothing."""
+    given: list[DocumentNode] = []
+    if isinstance(node, Sequence):
+        given = node.items
+    elif isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
+        given = [key for key, _ in node.entries]
+    elif isinstance(node, Scalar):
+        within = re.fullmatch(r"\s*[{(\[]?\s*([^,{}]+?)\s*,\s*([^,{}]+?)\s*[})\]]?\s*", node.value)
+        return [*within.groups()] if within else []
+    names = [each.value for each in given if isinstance(each, Scalar)]
+    return names if len(names) == len(given) == 2 else []
+
+
 def read_transformations(
     file: FileReader, node: DocumentNode
 ) -> tuple[CanonicalTransformation, ...]:
     """New variables in the old ones, with a generating function or without."""
-    entries = file.entries(node, "canonical_transformations", _WRITE)
+    entries = list(file.entries(node, "canonical_transformations", _WRITE))
+    if entries and all(isinstance(value, Scalar) for _, value in entries):
+        message = f"'{entries[0][0].label}' is a new variable, not the name of a transformation"
+        file.error(message, entries[0][0].span, f"write name: {{{_renamed(entries)}}}")
+        return ()
     return tuple(_transformation(file, key, value) for key, value in entries)
+
+
+def _renamed(entries: list[tuple[Scalar, DocumentNode]]) -> str:
+    """`Q: p_x, p_Q: -x` for `Q: p_x, P: -x`, the new momenta in the order of the coordinates."""
+    momenta = [key.label for key, _ in entries if re.fullmatch(r"P(_?\w+)?|p_\w+", key.label)]
+    new = [key.label for key, _ in entries if key.label not in {*momenta, *_KINDS}]
+    names = {p: f"p_{q}" for p, q in zip(momenta, new, strict=False)}
+    return ", ".join(f"{names.get(key.label, key.label)}: {source_of(v)}" for key, v in entries)
 
 
 def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> CanonicalTransformation:
     what = f"the transformation '{key.label}'"
     entries = list(file.entries(node, what, _WRITE))
     labels = {name.label for name, _ in entries} - _KINDS.keys()
+    capital = [name for name, _ in entries if re.fullmatch(r"P_?\d*", name.label)]
+    if 2 * len(capital) == len(labels) and not any(each.startswith("p_") for each in labels):
+        message = f"'{capital[0].label}' is not the name of a new momentum"
+        file.error(message, capital[0].span, f"write {key.label}: {{{_renamed(entries)}}}")
+        return CanonicalTransformation(name=key.label, coordinates={}, momenta={}, span=key.span)
     coordinates: dict[str, Expression] = {}
     momenta: dict[str, Expression] = {}
     generating: list[tuple[Scalar, DocumentNode]] = []

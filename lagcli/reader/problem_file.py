@@ -20,7 +20,7 @@ from lagcli.reader.dynamics import (
 )
 from lagcli.reader.expectations import ExpectReader
 from lagcli.reader.file_reader import FileReader
-from lagcli.reader.habits import colon_advice
+from lagcli.reader.habits import KEYS, colon_advice
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, kind
 from lagcli.reader.phase_space import read_brackets, read_observables, read_transformations
@@ -35,19 +35,12 @@ from lagcli.reader.restrictions import declare_constraints, read_constraints, re
 from lagcli.reader.scenery import read_scenery
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
 from lagcli.reader.text import Mistake, SourceText, decode
-from lagcli.reader.undeclared import one_for_undeclared
+from lagcli.reader.undeclared import one_for_alike, one_for_undeclared
 from lagcli.reader.value_checks import check_values, slips
 from lagcli.record import record, replace
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
-
-KEYS = (
-    "title", "source", "description", "coordinates", "parameters", "functions", "definitions",
-    "points", "T", "V", "L", "H", "forces", "dissipation", "constraints", "contacts", "symmetries",
-    "observables", "brackets", "canonical_transformations", "initial", "find", "simulation",
-    "picture", "expect",
-)  # fmt: skip
 
 
 @record
@@ -113,9 +106,8 @@ def _read_source(source: Source) -> ProblemReading:
     problem = _read(file, source, root)
     if problem is not None and not file.diagnostics:
         file.diagnostics += _dimension_mistakes(problem) or slips(problem)
-    found = one_for_undeclared(
-        sorted(file.diagnostics, key=lambda each: each.span), together=not _declares(root)
-    )
+    by_place = one_for_alike(sorted(file.diagnostics, key=lambda each: each.span))
+    found = one_for_undeclared(by_place, together=not _declares(root))
     has_errors = any(diagnostic.is_error for diagnostic in found)
     return ProblemReading(source, None if has_errors else problem, found)
 

@@ -5,15 +5,19 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, TypedDict, cast, get_args
 
-from lagcli.expression import Expression, Name, walk
+from lagcli.expression import FUNCTIONS, Expression, Name, walk
+from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
 from lagcli.reader.habits import SIGNS, names_among, unit_behind
+from lagcli.reader.headings import system_meant, without_headings
+from lagcli.reader.misshapen import source_of
+from lagcli.reader.names import NO_VALUE
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
 from lagcli.reader.scope import VALUES, Kind, name_mistake
-from lagcli.reader.suggest import did_you_mean
+from lagcli.reader.suggest import closest, did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Collection, Iterator
 
     from lagcli.diagnostics import Span
     from lagcli.reader.file_reader import FileReader
@@ -32,6 +36,7 @@ class _Said(TypedDict, total=False):
 _COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
 _PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
 _RANGE = re.compile(r"\s*[\[(]?\s*(-?[\d.]*\d)\s*(?:\.\.+|…|to|bis|:|–)\s*-?[\d.:]+\s*[\])]?\s*")
+_ONE_NAME = re.compile(r"write (\w+)(?:, without .*)?")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 
 
@@ -59,6 +64,7 @@ def read_parameters(
 ) -> tuple[Parameter, ...]:
     """The parameters with their values, which may use each other without a cycle."""
     parameters = []
+    described: list[tuple[Scalar, Scalar]] = []
     for key, node in declared:
         attributes: dict[str, DocumentNode] = {}
         if isinstance(node, Scalar) and not node.is_empty:
@@ -72,6 +78,8 @@ def read_parameters(
         elif isinstance(given := attributes.get("value"), Scalar) and _RANGE.fullmatch(given.value):
             hint = f"write one; several are run by lagcli sweep --vary {key.label}=1,2,3"
             file.error(f"'{key.label}' has a range for its value", given.span, hint)
+        elif isinstance(given, Scalar) and is_described(given.value, file.scope.kinds):
+            described.append((key, given))
         elif "value" in attributes:
             what = f"the value of '{key.label}'"
             mistakes = len(file.diagnostics)
@@ -86,8 +94,26 @@ def read_parameters(
         parameters.append(
             Parameter(name=key.label, span=key.span, value=value, integer=bool(integer), **said)
         )
+    if described:
+        key, first = described[0]
+        others = ", ".join(each.label for each, _ in described[1:])
+        hint = f"write {{description: {source_of(first)}}}"
+        message = f"the value of '{key.label}' is a text, not a number"
+        file.error(message, first.span, f"{hint}, and so for {others}" if others else hint)
     _check_cycles(file, parameters)
     return tuple(parameters)
+
+
+def is_described(text: str, known: Collection[str]) -> bool:
+    """Whether a value is words, such as `mass of the bob`, and no name of the file is in it."""
+    words = re.split(r"[ ,.-]+", text.strip())
+    if any(word in known or not word.isalpha() for word in words):
+        return False
+    longest = max(words, key=len)
+    if len(words) > 1:
+        return len(longest) > 3 and longest not in FUNCTIONS
+    is_name = longest in GREEK or longest in NO_VALUE or closest(longest, [*_ASSUMPTIONS, *known])
+    return len(longest) > 3 and longest.islower() and longest not in FUNCTIONS and not is_name
 
 
 def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str, ...]]:
@@ -134,6 +160,12 @@ def _declared(
         file.error(f"{section} with values are a map", node.span, hint)
         file.scope.refused.append("")
         return
+    attributes = _PARAMETER_ATTRIBUTES if section == "parameters" else _COORDINATE_ATTRIBUTES
+    if found := without_headings(node, attributes):
+        message = f"'{found[0].label}' is not a name of {section}: names stand below it"
+        file.error(message, found[0].span, found[1])
+        file.scope.refused.append("")
+        return
     if isinstance(node, Mapping):
         entries = list(node.entries)
     elif isinstance(node, Sequence):
@@ -149,6 +181,11 @@ def _declared(
         file.error(f"{section} must be a list or a map, not {kind(node)}", node.span, hint)
         file.scope.refused.append("")  # whatever was to be declared
         return
+    if isinstance(node, Sequence) and (renamed := _renamed([key for key, _ in entries])):
+        first, hint = renamed
+        file.error(f"'{first.label}' is not a name", first.span, hint)
+        file.scope.refused += [key.label for key, _ in entries]
+        return
     for key, value in entries:
         if is_decimal_part(key, value):
             message = f"'{key.label}' is not a name"
@@ -158,6 +195,18 @@ def _declared(
             file.scope.refused.append(key.label)
         elif file.declare(key.label, kind_, key.span, one=value is not None and not value.is_empty):
             yield key, value
+
+
+def _renamed(names: list[Scalar]) -> tuple[Scalar, str] | None:
+    """The first of several names that are none, and the whole list; None for fewer."""
+    mistakes = [(each, name_mistake(each.label)) for each in names]
+    wrong = [(each, mistake[1]) for each, mistake in mistakes if mistake is not None]
+    better = {each.label: found[1] for each, hint in wrong if (found := _ONE_NAME.fullmatch(hint))}
+    if len(wrong) < 2 or len(better) < len(wrong):
+        return None
+    tail = wrong[0][1].partition(", without")
+    listed = ", ".join(better.get(each.label, each.label) for each in names)
+    return wrong[0][0], f"write [{listed}]{tail[1]}{tail[2]}"
 
 
 def _with_unit(key: Scalar, value: DocumentNode | None) -> str:
@@ -183,6 +232,8 @@ def _list_advice(text: str) -> str:
         return f"write {{{listed}}}" if "," in text else f"write {listed.split(', ')[0]}"
     if text.strip().casefold() in {"none", "null", "no", "~"}:
         return "leave out the key, or write such as [x, y]"
+    if meant := system_meant(text):
+        return f"write their names, as in {meant}"
     if counted := names_among(text):
         return f"write [{', '.join(counted)}]"
     names = [
@@ -197,7 +248,8 @@ def _pairs(node: DocumentNode) -> str:
     """`m: 1, k: 2` for `[m = 1, k = 2]`, `{m 1, k 2}` and a list of maps; else nothing."""
     given = []
     if isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
-        given = [re.fullmatch(r"(\w+)[\s=:]+([\d.]\S*)", key.label) for key, _ in node.entries]
+        relation = r"(\w+)(?:\s*(?:[-=]>|:?=|:|→)\s*|\s+)([\d.]\S*)"
+        given = [re.fullmatch(relation, key.label) for key, _ in node.entries]
     elif isinstance(node, Sequence):
         source = [item.text.source.text[item.start : item.end] for item in node.items]
         source = [re.sub(r"^\[(\w+),\s*([^,\]]+)\]$", r"\1: \2", text) for text in source]

@@ -16,6 +16,7 @@ from lagcli.problem_data import (
     Where,
 )
 from lagcli.reader.habits import name_meant
+from lagcli.reader.headings import state_without_headings
 from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end, source_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar
@@ -39,6 +40,8 @@ _PARTNERS = {
 }
 _SIMULATION_ATTRIBUTES = ("until", "accuracy", "method")
 
+#: An event for an end: `x = 0`, `y < 0`.
+_ENDS = re.compile(r"([^<>=≤≥]+)(?:[<>=]=?|≤|≥)([^<>=≤≥]+)")
 _REACHES = "as in reaches: theta = pi"
 
 #: What a question can be answered for.
@@ -52,7 +55,13 @@ def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]
     """The state at t = 0, by coordinate and by velocity."""
     initial: dict[Name, Expression] = {}
     coordinates = list(file.scope.of_kind("coordinate"))
-    for key, value in file.entries(node, "initial", file.by_name(node)):
+    entries = list(file.entries(node, "initial", file.by_name(node)))
+    headings = [key for key, value in entries if not isinstance(value, Scalar)]
+    if headings and (whole := state_without_headings(node, coordinates)):
+        message = f"'{headings[0].label}' in initial has no number"
+        file.error(message, headings[0].span, whole)
+        return {}
+    for key, value in entries:
         what = f"the initial '{key.label}'"
         if is_decimal_part(key, value):
             message = f"'{key.label}' is not a coordinate"
@@ -89,6 +98,10 @@ def _state_name(
             hint = f"write {name_meant(key.label)}"
         if "rest" in key.label:
             hint = "leave it out: a velocity that is not given is 0"
+        if letters.startswith("p_") and letters[2:] in coordinates:
+            hint = f"a state has velocities, not momenta: give {letters[2:]}'"
+        elif letters.casefold() in {"e", "energy", "h", "l", "angular_momentum"}:
+            hint = f"a state has coordinates and velocities: give {coordinates[0]}'"
         if letters == "t":
             hint = "a motion begins at t = 0: leave it out"
         file.error(f"'{key.label}' in initial is not a coordinate", key.span, hint)
@@ -227,10 +240,23 @@ def read_simulation(file: FileReader, node: DocumentNode) -> SimulationDefaults:
     return SimulationDefaults(until=until, accuracy=accuracy, method=method)
 
 
+def _gap(left: str, right: str) -> str:
+    """What is 0 where both sides are equal."""
+    left, right = left.strip(), right.strip()
+    if right == "0":
+        return left
+    return f"{left} - ({right})" if re.search(r"[-+]", right) else f"{left} - {right}"
+
+
 def _number(file: FileReader, node: DocumentNode, what: str) -> Expression:
     if what == "'until'" and isinstance(node, Scalar) and (end := range_end(node.value)):
         hint = f"a motion begins at t = 0: write {end}"
         file.error("'until' is one time, no range", node.span, hint)
+        return ZERO
+    if what == "'until'" and isinstance(node, Scalar) and (ends := _ENDS.fullmatch(node.value)):
+        stop = f'write a time; lagcli simulate FILE --stop-when "{_gap(*ends.groups())}" ends there'
+        only = ends[1].strip() in {"t", "time"}
+        file.error("'until' is a time", node.span, f"write {ends[2].strip()}" if only else stop)
         return ZERO
     if isinstance(node, Scalar) and (mistake := run_mistake(node.value, what)):
         file.error(mistake[0], node.span, mistake[1])

@@ -115,4 +115,6 @@ def _vocabulary(scope: Scope, role: Role) -> Vocabulary:
     functions = frozenset(scope.of_kind("function"))
     refused = [name for each in scope.refused if (name := name_meant(each, one=True))]
     usable = {*scope.usable(role), *refused} - {*coordinates} - functions
-    return Vocabulary(coordinates, frozenset(usable), functions, role.momenta, scope.components)
+    return Vocabulary(
+        coordinates, frozenset(usable), functions, role.momenta, scope.components, scope.moving
+    )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Constraint, Symmetry, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
+from lagcli.reader.habits import is_angle, name_meant
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import QUESTION, STATE
@@ -126,6 +127,20 @@ def _restitution(
     return read_restitution(file, node, f"the constraint '{one.key.label}'")
 
 
+def _usual_change(word: str, coordinates: list[str]) -> str:
+    """What a rotation, a shift in time or a boost changes; nothing for other words."""
+    if "time" in word or word in {"t", "energy"}:
+        return "{t: 1}"
+    if "boost" in word.casefold() or "galil" in word.casefold():
+        return f"{{{coordinates[0] if coordinates else 'x'}: t}}"
+    if "rot" not in word.casefold() or not coordinates:
+        return ""
+    angle = next((name for name in reversed(coordinates) if is_angle(name)), "")
+    if len(coordinates) == 1 or (angle and not {"x", "y"} <= {*coordinates}):
+        return f"{{{angle or coordinates[0]}: 1}}"
+    return "{{{0}: -{1}, {1}: {0}}}".format(*coordinates)
+
+
 def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...]:
     """The candidate symmetries."""
     coordinates = list(file.scope.of_kind("coordinate"))
@@ -134,6 +149,8 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
     listed = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
     named = [name for name in listed if name in {*coordinates, "t"}]
     hint = f"write {{shift: {change_of(next(iter([*named, *coordinates]), 'x'))}}}"
+    if listed and not named and (usual := _usual_change(listed[0], coordinates)):
+        hint = f"write {{{name_meant(listed[0], one=True) or listed[0]}: {usual}}}"
     entries = [*file.entries(node, "symmetries", hint)]
     moves = [key.label for key, value in entries if key.in_flow and _MOVED.search(key.label)]
     for key, value in ((k, v) for k, v in entries if k.label not in moves):
@@ -144,10 +161,8 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
         words = re.findall(r"\w+", value.value) if isinstance(value, Scalar) else []
         changed = [name for name in words if name in {*coordinates, "t"}]
         usual = change_of(*(changed or coordinates or ["x"])[:1])
-        if "rot" in key.label and not changed and len(coordinates) > 1:
-            usual = "{{{0}: -{1}, {1}: {0}}}".format(*coordinates)
-        if "time" in key.label or key.label in {"t", "energy"}:
-            usual = "{t: 1}"
+        if not changed or "time" in key.label:
+            usual = _usual_change(key.label, coordinates) or usual
         here = f"write {key.label}: {usual}"
         said = ", ".join([value.value, *moves]) if isinstance(value, Scalar) else ""
         if moved := _MOVED.findall(said):

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from lagcli.expression import Expression
 from lagcli.problem_data import Point, Scenery
+from lagcli.reader.dynamics import read_components
 from lagcli.reader.file_reader import FileReader
-from lagcli.reader.nodes import DocumentNode
+from lagcli.reader.misshapen import source_of
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import POSITION
 from lagcli.reader.suggest import did_you_mean
 
@@ -42,7 +44,7 @@ def _places(
         what = f"the place '{key.label}'"
         if key.label in taken:
             file.error(f"{what} has the name of a point", key.span)
-        items = file.items(value, what, "write [x, y]")
+        items = read_components(file, value, what, "write [x, y]", size or 0)
         if size is not None and items and len(items) != size:
             file.error(f"{what} has {len(items)} components, the points have {size}", value.span)
         found[key.label] = tuple(file.expression(item, what, POSITION) for item in items)
@@ -53,7 +55,17 @@ def _pairs(
     file: FileReader, node: DocumentNode, key: str, names: list[str]
 ) -> tuple[tuple[str, str], ...]:
     found = []
-    for item in file.items(node, key, "write [[O, bob], [bob, ball]]"):
+    inner = node.items if isinstance(node, Sequence) else []
+    ends_alone = [each.value for each in inner if isinstance(each, Scalar)]
+    if len(ends_alone) == len(inner) == 2:
+        hint = f"write [[{', '.join(ends_alone)}]]"
+        file.error(f"{key} is a list of pairs", node.span, hint)
+        return ()
+    hint = "write [[O, bob], [bob, ball]]"
+    if isinstance(node, Mapping) and all(isinstance(v, Scalar) for _, v in node.entries):
+        pairs = ", ".join(f"[{k.label}, {source_of(v)}]" for k, v in node.entries)
+        hint = f"write [{pairs}]"
+    for item in file.items(node, key, hint):
         ends = file.items(item, f"one of the {key}", "write two names: [O, bob]")
         if ends and len(ends) != 2:
             file.error(f"one of the {key} joins {len(ends)} points, it joins two", item.span)

@@ -126,6 +126,11 @@ class Scope:
         known = name != coordinate and self.kinds.get(coordinate) == "coordinate"
         return coordinate if known else None
 
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """The definitions that depend on coordinates."""
+        return tuple(name for name, one in self.definitions.items() if one.order > CONSTANT)
+
     def usable(self, role: Role) -> list[str]:
         """The names that may stand in an expression, for suggestions."""
         allowed: dict[Kind, bool] = {

@@ -139,6 +139,8 @@ def _missing_product(
         return Diagnostic("a formula has no conditions", span, "values stand under 'parameters'")
     if {str(left), str(right)} & CASES:
         return Diagnostic("a formula has no cases", span, CASE)
+    if right.type == "LPAR" and following is not None and following.type == "STAR":
+        return Diagnostic("a comment is no part of a formula", span, COMMENT)
     if apart and _PROSE.fullmatch(excerpt.value.strip()):
         hint = (
             "write left = right, as in x' = R*theta'" if start == "equation" else "write a formula"

@@ -12,7 +12,30 @@ from lagcli.diagnostics import Diagnostic
 UNDECLARED = "declare it under 'parameters'"
 #: What it says of one with a prime.
 COORDINATE = "declare it under 'coordinates'"
+_KEY = re.compile(r"unknown keys? (?P<keys>'.*') in (?P<place>(?:the |[^']).*)")
 _NAME = re.compile(r"unknown name '(\w+)' in (.*)")
+
+
+def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """The mistakes, with one for those of one map or list that have the same advice.
+
+    Parameters
+    ----------
+    diagnostics
+        By their place.
+    """
+    kept: dict[tuple[str, str], Diagnostic] = {}
+    for each in diagnostics:
+        found = _KEY.fullmatch(each.message)
+        place = found["place"] if found else each.message
+        same = found is None or place != "the problem"
+        key = (place, each.hint) if each.hint and same else (str(each.span), each.message)
+        first = kept.setdefault(key, each)
+        if found and first is not each:
+            earlier = _KEY.sub(r"\g<keys>", first.message)
+            message = f"unknown keys {earlier}, {found['keys']} in {place}"
+            kept[key] = replace(first, message=message)
+    return tuple(kept.values())
 
 
 def one_for_undeclared(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from lagcli.lsp.features import hover, mistakes, suggestions
-from lagcli.reader.problem_file import KEYS
+from lagcli.reader.habits import KEYS
 
 FILE = """title: Pendulum
 coordinates:

@@ -14,7 +14,7 @@ from lagcli.cli.run import run
 from lagcli.formatters.schema import answers_schema
 from lagcli.library import entries, folder
 from lagcli.reader import read_problem
-from lagcli.reader.problem_file import KEYS
+from lagcli.reader.habits import KEYS
 from lagcli.reader.schema import problem_schema
 from lagcli.templates import TEMPLATES, template
 

@@ -16,8 +16,9 @@ _LETTER = rf"[^\W\d{RAISED}]"
 _TOKEN = re.compile(
     r"(?P<skip>(?:\s|\$|\\[,;:! ]"
     r"|\\(?:left|right|[bB]igg?[lr]?|q?quad|displaystyle|limits)(?![A-Za-z]))+)"
-    r"|(?P<number>(?:\d{1,3}(?:[' _]\d{3})+(?![\w.])|\d+(?:\.\d+)?|\.\d+|\d+\.)"
-    r"(?:[eEdD][-+]?\d+)?(?:[fF](?!\w))?)"
+    r"|(?P<number>(?:\d{1,3}(?:\.\d{3})+,\d+|\d{1,3}(?:,\d{3})+\.\d+"
+    r"|\d{1,3}(?:[' _]\d{3})+(?![\w.])|\d+(?:\.\d+)?|\.\d+|\d+\.)"
+    r"(?:(?:[eEdD]|\*\^)[-+]?\d+)?(?:[fF](?!\w))?)"
     r"|(?P<macro>\\[A-Za-z]+)"
     rf"|(?P<name>(?:(?:np|numpy|math|Math|sp|sympy|cmath|std|jnp)(?:\.linalg)?(?:\.|::))?{_LETTER}"
     rf"(?:[\w\u0300-\u036f](?<![{RAISED}]))*(?:(?<=_)\{{\\?\w+\}})?)"
@@ -90,7 +91,7 @@ def _square_of_speed(text: str, names: Vocabulary) -> str:
 
 def _leibniz(text: str, names: Vocabulary) -> str:
     r"""A prime for each dx/dt, d/dt x and \frac{dx}{dt}."""
-    for x in sorted(names.coordinates, key=len, reverse=True):
+    for x in sorted(names.dependent, key=len, reverse=True):
         spelled = "|".join(map(re.escape, {x, BY_NAME.get(x, x), BY_LETTER.get(x, x)}))
         d, name = r"(?:d|\\mathrm\{?d\}?|∂|\\partial)\s*", rf"\\?(?:{spelled})(?!\w)(?:\(t\))?"
         for order, above, below in ((1, "", ""), (2, r"(?:\^\{?2\}?|²)", r"(?:\^\{?2\}?|²)")):

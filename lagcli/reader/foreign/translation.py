@@ -11,6 +11,8 @@ from lagcli.reader.foreign.words import VELOCITIES, Unclear, Vocabulary, functio
 from lagcli.reader.habits import CASES, foreign_function, fraction
 
 _DEEPEST = 30
+#: How often `x.dot` and the like differentiate.
+METHODS = {**dict.fromkeys("diff dt dot d der deriv derivative".split(), 1), "ddot": 2, "dd": 2}
 
 
 def translated(text: str, names: Vocabulary) -> str:
@@ -61,8 +63,14 @@ class _Translation(Functions):
         raise Unclear
 
     def number(self, token: Token) -> Part:
-        """With a decimal point, without groups of digits, and e for the d of Fortran."""
-        text = re.sub(r"[dD]", "e", re.sub(r"[' _fF]", "", token.text)).removesuffix("e0")
+        """With a decimal point, without groups of digits, and e for 6.67d-11 and 6.67*^-11."""
+        text = re.sub(r"[dD]|\*\^", "e", re.sub(r"[' _fF]", "", token.text)).removesuffix("e0")
+        if "," in text and self.depth > 1:
+            raise Unclear  # f(1,234.5)
+        if "," in text and text.index(",") < text.find("."):  # 1,234.5
+            text = text.replace(",", "")
+        elif "," in text:  # 1.234,5
+            text = text.replace(".", "").replace(",", ".")
         comma, digits = self.peek(), self.peek(1)
         if comma is None or comma.text != "," or self.depth > 1 or "." in text or digits is None:
             return Part(text, 3)
@@ -135,15 +143,15 @@ class _Translation(Functions):
         if word in VELOCITIES and more:
             self.by_letter = name
         if self.called_by_time():
-            if name not in self.names.coordinates or (more and "dot" not in word):
+            if name not in self.names.dependent or (more and "dot" not in word):
                 raise Unclear
             primes += self.primes()
-        while self.sign() == "." and (method := self.peek(1)) and method.text in {"diff", "dt"}:
+        while self.sign() == "." and (method := self.peek(1)) and method.text in METHODS:
             self.at += 2
             arguments = self.arguments() if self.sign() == "(" else []
             if len(arguments) == 1 and arguments[0] != "t":
                 return self.partial("diff", [name + "'" * primes, *arguments])
-            primes += self.order(arguments)
+            primes += self.order(arguments) * METHODS[method.text]
         text = name + "'" * primes
         return Part(text, 1 if "*" in text else 3)
 

@@ -13,6 +13,7 @@ from lagcli.reader.habits import is_angle, meanings
 from lagcli.reader.suggest import alike
 
 _DOTS = {"\u0307": 1, "\u0308": 2}
+_LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 #: Letters that are a velocity of the only coordinate: v of x, ω of an angle.
 VELOCITIES = frozenset({"v", "velocity", "speed", "omega", "ω"})
 
@@ -33,12 +34,18 @@ class Vocabulary(NamedTuple):
     functions: frozenset[str] = frozenset()
     momenta: bool = False
     components: Mapping[str, str] = {}  #: of points: what `bob.x` is written as
+    moving: tuple[str, ...] = ()  #: definitions that depend on coordinates
 
     @property
     def known(self) -> tuple[str, ...]:
         """Everything that may stand alone."""
         momenta = [f"p_{each}" for each in self.coordinates] if self.momenta else []
         return (*self.coordinates, *self.others, *momenta)
+
+    @property
+    def dependent(self) -> tuple[str, ...]:
+        """What has a velocity."""
+        return (*self.coordinates, *self.moving)
 
 
 def meant(word: str, names: Vocabulary) -> tuple[str, int]:
@@ -56,8 +63,8 @@ def meant(word: str, names: Vocabulary) -> tuple[str, int]:
         if spelled in known:
             return spelled, primes
         same = alike(spelled, known)
-        if same and same.casefold() != spelled.casefold():  # M is another mass than m
-            return same, primes
+        if same and (len(same) > 2 or same.casefold() != spelled.casefold()):
+            return same, primes  # M is another mass than m
     if plain in meanings("functions") and meanings("functions")[plain] == "pi":
         return "pi", primes
     return rate_meant(plain, names) or (plain, primes)
@@ -68,8 +75,9 @@ def parts_of(word: str, names: Vocabulary) -> list[str]:
     if word in {*names.known, *names.functions} or function_named(word, names):
         return [word]
     apart = unicodedata.normalize("NFD", word)
-    letters = {each: BY_NAME[each] for each in names.known if each in BY_NAME}
-    spelled = sorted({*names.known, *letters.values(), *FUNCTIONS}, key=len, reverse=True)
+    letters = {BY_NAME[each] for each in names.known if each in BY_NAME}
+    lowered = {each.replace("_", "").translate(_LOWERED) for each in names.known}
+    spelled = sorted({*names.known, *letters, *lowered, *FUNCTIONS}, key=len, reverse=True)
 
     def split(text: str) -> list[str] | None:
         if not text:
@@ -102,7 +110,7 @@ def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
     """`x` and 1 for xdot, dx, vx, v_x, omega and the like."""
     found = {
         (x, order)
-        for x in names.coordinates
+        for x in names.dependent
         for order, forms in enumerate(_rates(x), start=1)
         if word in forms
     }

@@ -1,0 +1,133 @@
+"""Vectors in the notation of books and other programs, as a list of their components."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Container
+
+from lagcli.reader.foreign.functions import bare_text
+
+#: One axis by its index, its letter or i, j, k.
+_AXES = {"1": 0, "2": 1, "3": 2, "x": 0, "y": 1, "z": 2, "i": 0, "j": 1, "k": 2}
+_HATS = str.maketrans({"î": "i", "ĵ": "j", "ẑ": "z", "ŷ": "y"})
+_UNIT = (
+    r"(?:[A-Z]\.(?P<frame>[xyz])|\\(?:hat|vec|mathbf)\s*\{?\\?(?P<hat>[xyzijk])(?:math)?\}?"
+    r"|(?:\\?(?:vec|hat|mathbf)?\{?\\?)?(?:e|u|unit)_?\{?(?P<e>[xyz123])\}?\}?|(?P<word>[xyzijk])_?hat"
+    r"|(?P<letter>[ijk]))"
+)
+_BEHIND = re.compile(rf"(?P<rest>.*?)\s*\*?\s*(?<![\w.]){_UNIT}\s*")
+_BEFORE = re.compile(rf"(?P<sign>[-+]?)\s*{_UNIT}(?:\s*\*\s*|\s+)(?P<rest>.+)")
+_TERMS = r"(?<=[\w)\]}])\s*(?=[-+])"
+#: A constructor with its components, and brackets of a vector.
+_MADE = re.compile(
+    r"(?:(?:\w+\.)?(?:array|Matrix|[vV]ector|vec|[pP]oint|list|tuple|Vec[23]d?)\s*\(\s*(.*)\))"
+    r"|<(.*)>|⟨(.*)⟩|\\begin\{\w*(?:matrix|array)\}(.*)\\end\{\w*(?:matrix|array)\}",
+    re.DOTALL,
+)
+
+
+def components(text: str, known: Container[str], length: int = 0) -> list[str]:
+    r"""The components of `a*N.x + b*N.y`, `a i + b j`, `<a, b>`, `l*(a, b)`, `np.array([a, b])`.
+
+    Parameters
+    ----------
+    text
+        What may be a vector.
+    known
+        The names of the file: none of them is a unit vector.
+    length
+        The number of components, where it is known; those that are not written are 0.
+
+    Returns
+    -------
+    list of str
+        Empty where the text is no vector.
+    """
+    text = " ".join(text.translate(_HATS).replace("x\u0302", "xhat").split())
+    if made := _MADE.fullmatch(text):
+        inside = next(each for each in made.groups() if each is not None)
+        listed = re.sub(r"^[\[(](.*)[\])]$", r"\1", inside.strip())
+        return [re.sub(r"^\[(.*)\]$", r"\1", each) for each in _split(listed, r",|;|&|\\\\")]
+    if scaled := _scaled_list(text):
+        return scaled
+    return _of_unit_vectors(text, known, length)
+
+
+def of_listed(texts: list[str], known: Container[str]) -> list[str]:
+    """The components of `[a i, b j]`, each with its unit vector; empty for others."""
+    found = [_term(text, known) for text in texts]
+    if len(texts) > 1 and [each[0] if each else None for each in found] == [*range(len(texts))]:
+        return [each[1] for each in found if each]
+    return []
+
+
+def _scaled_list(text: str) -> list[str]:
+    """The components of `l*(a, b)`."""
+    for product in re.finditer(r"\s*\*\s*\((?=.*\)$)", text):
+        factor, inside = text[: product.start()], text[product.end() : -1]
+        if _balanced(factor) and _balanced(inside) and len(_split(factor, _TERMS)) == 1:
+            parts = _split(inside, ",")
+            return [_scaled(factor, part) for part in parts] if len(parts) > 1 else []
+    return []
+
+
+def _of_unit_vectors(text: str, known: Container[str], length: int) -> list[str]:
+    terms = [re.sub(r"^([-+])\s+", r"\1", each) for each in _split(text, _TERMS)]
+    found: dict[int, list[str]] = {}
+    for term in terms:
+        part = _term(term, known)
+        if part is None or 0 < length <= part[0]:
+            return []
+        found.setdefault(part[0], []).append(part[1])
+    if len(terms) < 2 and not length:
+        return []
+    size = max(length, *(axis + 1 for axis in found))
+    return [" + ".join(found.get(axis, ["0"])).replace("+ -", "- ") for axis in range(size)]
+
+
+def _term(text: str, known: Container[str]) -> tuple[int, str] | None:
+    """The axis of `-l*cos(theta) j` and what stands before it."""
+    text = text.strip()
+    found = _BEHIND.fullmatch(text) or _BEFORE.fullmatch(text)
+    if found is None:
+        return None
+    groups = found.groupdict()
+    if groups["letter"] in known:
+        return None
+    axis = next(v for k, v in groups.items() if k not in {"rest", "sign"} and v is not None)
+    rest = (groups.get("sign") or "").replace("+", "") + groups["rest"].strip().removeprefix("+")
+    rest = bare_text(rest) if re.fullmatch(r"\([^-+]*\)", rest) else rest
+    return _AXES[axis], (rest + "1" if rest in {"", "-"} else rest)
+
+
+def _scaled(factor: str, part: str) -> str:
+    part = part.strip()
+    if part == "0":
+        return part
+    sign = "-" if re.fullmatch(r"-[^-+]*", part) else ""
+    part = part.removeprefix(sign)
+    return f"{sign}{factor}*{part}" if not re.search(r"[-+]", part) else f"{factor}*({part})"
+
+
+def _balanced(text: str) -> bool:
+    """Whether no parenthesis is closed that was not opened before."""
+    depth = 0
+    for each in text:
+        depth += {"(": 1, ")": -1}.get(each, 0)
+        if depth < 0:
+            return False
+    return depth == 0
+
+
+def _split(text: str, between: str) -> list[str]:
+    """At what stands between, outside of parentheses."""
+    parts, depth, begin = [], 0, 0
+    levels = []
+    for each in text:
+        depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(each, 0)
+        levels.append(depth)
+    for found in re.finditer(between, text):
+        if 0 < found.end() < len(text) and levels[max(0, found.start() - 1)] == 0:
+            parts.append(text[begin : found.start()])
+            begin = found.end()
+    return [part.strip() for part in [*parts, text[begin:]]]

@@ -1,0 +1,117 @@
+"""Entries below a heading that the format does not have, such as `{masses: {m: 1, M: 2}}`."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from lagcli.notation.greek import BY_NAME as GREEK
+from lagcli.reader.habits import unit_behind
+from lagcli.reader.misshapen import source_of
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+
+#: Longer maps are not repeated in a hint.
+_LONGEST = 120
+_RATE = re.compile(r"veloc|speed|rate|dot|geschw|vitesse|veloci|^v$", re.IGNORECASE)
+#: What a system of coordinates is called, and its coordinates.
+SYSTEMS = {
+    "polar": "[r, phi]",
+    "cartesian": "[x, y, z]",
+    "spherical": "[r, theta, phi]",
+    "cylindrical": "[r, phi, z]",
+    "generalized": "[q_1, q_2]",
+}
+
+
+def system_meant(word: str) -> str:
+    """`[r, phi]` for `polar` and `plane polar`; nothing for other words."""
+    found = re.fullmatch(r"(?:\w+[- ])*(\w+?)(?:[- ]coordinates)?", word.strip().casefold())
+    return SYSTEMS.get(found[1], "") if found else ""
+
+
+def without_headings(node: DocumentNode, attributes: tuple[str, ...]) -> tuple[Scalar, str] | None:
+    """The first heading of names in a map, and the names without headings; None without one.
+
+    A heading has a list of names, or a map of other keys than the `attributes` of a name.
+    """
+    entries = node.entries if isinstance(node, Mapping) else []
+    headings = [key for key, value in entries if _is_heading(value, attributes)]
+    if not headings:
+        return None
+    parts: list[str] = []
+    valued = False
+    for key, value in entries:
+        if key not in headings:
+            written = source_of(value)
+            parts.append(f"{key.label}: {written}" if written else key.label)
+            valued |= bool(written)
+        elif isinstance(value, Mapping):
+            parts += [f"{name.label}: {source_of(each)}" for name, each in value.entries]
+            valued = True
+        elif isinstance(value, Sequence):
+            parts += [each.value for each in value.items if isinstance(each, Scalar)]
+    whole = ", ".join(parts)
+    brackets = "{%s}" if valued else "[%s]"
+    if len(whole) > _LONGEST:
+        return headings[0], f"leave out '{headings[0].label}': its names stand without a heading"
+    return headings[0], f"write {brackets % whole}"
+
+
+def _is_heading(node: DocumentNode, attributes: tuple[str, ...]) -> bool:
+    if isinstance(node, Mapping):
+        labels = {key.label for key, _ in node.entries}
+        inner = [value for _, value in node.entries]
+        are_names = bool(labels) and all(map(str.isidentifier, labels))
+        return are_names and not labels & {*attributes} and not _mean(labels, inner)
+    items = node.items if isinstance(node, Sequence) else []
+    names = [each.value for each in items if isinstance(each, Scalar)]
+    are_names = len(names) == len(items) and all(map(str.isidentifier, names))
+    return bool(names) and are_names and not all(unit_behind(f"1 {name}") for name in names)
+
+
+def _mean(labels: set[str], inner: list[DocumentNode]) -> bool:
+    """Whether keys may be attributes in other words, not names: units, min, default."""
+    words = [each for each in labels if len(each) > 2 and each.isalpha() and each.islower()]
+    words = [each for each in words if each not in GREEK]
+    return bool(words) and all(isinstance(each, Scalar) for each in inner)
+
+
+def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:
+    """`{x: 1, x': 0}` for `{positions: {x: 1}, velocities: {x: 0}}`, `{x: {value: 1, rate: 0}}`."""
+    parts = []
+    for heading, value in node.entries if isinstance(node, Mapping) else []:
+        rate = "'" if _RATE.search(heading.label) else ""
+        if isinstance(value, Scalar):
+            parts.append(f"{heading.label}: {source_of(value)}")
+        elif heading.label in coordinates and isinstance(value, Sequence):
+            return ""
+        elif isinstance(value, Sequence) and len(value.items) == len(coordinates):
+            given = zip(coordinates, value.items, strict=True)
+            parts += [f"{name}{rate}: {source_of(each)}" for name, each in given]
+        elif isinstance(value, Mapping):
+            for key, each in value.entries:
+                name, prime = key.label.rstrip("'"), rate or "'" * key.label.endswith("'")
+                if name not in coordinates:
+                    name, prime = heading.label, "'" if _RATE.search(key.label) else ""
+                parts.append(f"{name}{prime}: {source_of(each)}")
+    names = {part.partition(":")[0].rstrip("'") for part in parts}
+    return f"write {{{', '.join(parts)}}}" if names and names <= {*coordinates} else ""
+
+
+def forces_without_headings(node: DocumentNode, coordinates: Iterable[str]) -> str:
+    """`{y: -m*g - c*y'}` for `{weight: {y: -m*g}, drag: {y: -c*y'}}`; nothing for others."""
+    entries = node.entries if isinstance(node, Mapping) else []
+    known = {*coordinates}
+    sums: dict[str, list[str]] = {}
+    for heading, value in entries:
+        if heading.label in known and isinstance(value, Scalar):
+            sums.setdefault(heading.label, []).append(value.value)
+        elif heading.label in known or not isinstance(value, Mapping) or not value.entries:
+            return ""
+        else:
+            for key, each in value.entries:
+                sums.setdefault(key.label, []).append(source_of(each))
+    if not {*sums} <= known or all(heading.label in known for heading, _ in entries):
+        return ""
+    whole = [f"{x}: {' + '.join(terms).replace('+ -', '- ')}" for x, terms in sums.items()]
+    return f"write {{{', '.join(whole)}}}"

@@ -1,0 +1,235 @@
+"""Sections in the shapes of other programs: one mistake, whose hint can be put in its place."""
+
+from __future__ import annotations
+
+import random
+import re
+
+import pytest
+
+from lagcli.reader import read_problem
+from lagcli.reader.foreign.vectors import components
+from tests.reader.test_habits import messages, text
+
+PENDULUM = {
+    "coordinates": "[theta]",
+    "parameters": "{m: 1, l: 2, g: 9.81}",
+    "T": None,
+    "V": "-m*g*l*cos(theta)",
+}
+
+
+def only_mistake(written):
+    found = read_problem("p.yaml", written.encode()).diagnostics
+    assert len(found) == 1, [each.message for each in found]
+    return found[0]
+
+
+def put_in(written):
+    """The file with what the hint of its only mistake proposes in the place of the mistake."""
+    mistake = only_mistake(written)
+    proposed = re.search(r"(?:write|as in|mean) ([^?]*)\??$", mistake.hint)
+    assert proposed is not None, mistake.hint
+    lines = written.split("\n")
+    line = lines[mistake.span.line - 1]
+    assert mistake.span.line == mistake.span.end_line
+    before, after = line[: mistake.span.column - 1], line[mistake.span.end_column - 1 :]
+    lines[mistake.span.line - 1] = before + proposed[1] + after
+    return "\n".join(lines)
+
+
+X, Y = ["l*sin(theta)", "x + l*cos(theta)", "l", "2*l*theta"], ["-l*cos(theta)", "3*l", "l*theta"]
+NOTATIONS = [
+    lambda x, y: f"({x})*N.x + ({y})*N.y",
+    lambda x, y: f"({x}) i + ({y}) j",
+    lambda x, y: f"({x})*i + ({y})*j",
+    lambda x, y: f"({x})*ihat + ({y})*jhat",
+    lambda x, y: f"e_x*({x}) + e_y*({y})",
+    lambda x, y: rf"({x}) \hat{{x}} + ({y}) \hat{{y}}",
+    lambda x, y: f"<{x}, {y}>",
+    lambda x, y: f"({x}, {y})",
+    lambda x, y: f"np.array([{x}, {y}])",
+    lambda x, y: f"Matrix([[{x}], [{y}]])",
+    lambda x, y: f"Vector({x}, {y})",
+    lambda x, y: rf"\begin{{pmatrix}} {x} \\ {y} \end{{pmatrix}}",
+]
+
+
+@pytest.mark.parametrize("notation", NOTATIONS)
+def test_a_vector_is_told_its_components(notation):
+    draw = random.Random(NOTATIONS.index(notation))
+    for _ in range(3):
+        x, y = draw.choice(X).replace("x", "theta"), draw.choice(Y)
+        written = text(**PENDULUM, points=f"\n  bob:\n    mass: m\n    position: {notation(x, y)}")
+        mended = read_problem("p.yaml", put_in(written).encode())
+        assert mended.diagnostics == ()
+        listed = text(**PENDULUM, points=f"\n  bob:\n    mass: m\n    position: [{x}, {y}]")
+        right = read_problem("p.yaml", listed.encode()).problem
+        values = [[str(each) for each in problem.points[0].position]
+                  for problem in (mended.problem, right)]  # fmt: skip
+        assert values[0] == values[1]
+
+
+@pytest.mark.parametrize("name", ["a", "m*g", "k*(a + 1)"])
+def test_a_factor_before_a_vector_multiplies_each_component(name):
+    assert components(f"{name}*(x, -y, 0)", {"k"}) == [f"{name}*x", f"-{name}*y", "0"]
+    assert components(f"{name}*(x + 1, y)", {"k"}) == [f"{name}*(x + 1)", f"{name}*y"]
+
+
+@pytest.mark.parametrize(
+    "formula", ["k*x", "atan2(y, x)", "m*atan2(y, x)", "k*(a)*atan2(y, x)", "a + b*(x, y)", "x + y"]
+)
+def test_a_formula_is_no_vector(formula):
+    assert components(formula, {"k", "x", "y"}, 2) == []
+
+
+def test_components_with_unit_vectors_are_one_mistake():
+    written = text(**PENDULUM, points="{bob: {mass: m, position: [l*sin(theta) i, 2*l j]}}")
+    assert put_in(written).count("[l*sin(theta), 2*l]") == 1
+
+
+@pytest.mark.parametrize(
+    ("force", "hint"),
+    [("-m*g", "as in [0, -m*g]"), ("{y: -m*g}", "write [0, -m*g]"), ("-m*g*j", "write [0, -m*g]"),
+     ("m*g*(1, -1)", "write [m*g*1, -m*g*1]")],
+)  # fmt: skip
+def test_a_force_on_a_point_has_the_components_of_its_position(force, hint):
+    points = f"\n  bob:\n    mass: m\n    position: [l*theta, 0]\n    force: {force}"
+    assert only_mistake(text(**PENDULUM, points=points)).hint.endswith(hint)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_names_below_a_heading_are_told_without_it(seed):
+    draw = random.Random(seed)
+    word = draw.choice(["masses", "cartesian", "body_1", "Geometry"])
+    names = draw.sample(["x", "y", "phi", "q_1", "s"], draw.randrange(2, 4))
+    listed = f"[{', '.join(names)}]"
+    kinetic = " + ".join(f"{name}'^2" for name in names)
+    written = text(coordinates=f"\n  {word}: {listed}", T=kinetic, V=None, parameters=None)
+    assert only_mistake(written).hint == f"write {listed}"
+    valued = ", ".join(f"{name}: {draw.randrange(1, 9)}" for name in names)
+    written = text(parameters=f"\n  m: 1\n  {word}: {{{valued}}}", T="m*x'^2", V=None)
+    if "x" not in names:
+        assert only_mistake(written).hint == f"write {{m: 1, {valued}}}"
+
+
+@pytest.mark.parametrize("unit", ["kg", "N/m", "[1, kg]", "[m]", "{units: kg}", "{min: 0}"])
+def test_what_is_no_heading_is_not_taken_for_one(unit):
+    assert "names stand below it" not in messages(text(parameters=f"{{m: {unit}, k: 2}}"))[0]
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_state_below_headings_is_told_without_them(seed):
+    draw = random.Random(seed)
+    x, y, u, v = (str(draw.randrange(9)) for _ in range(4))
+    place, rate = draw.choice([("positions", "velocities"), ("q", "qdot"), ("pos", "vel_rates")])
+    system = {"coordinates": "[x, y]", "T": "m*(x'^2 + y'^2)/2"}
+    shapes = [
+        f"\n  {place}: {{x: {x}, y: {y}}}\n  {rate}: {{x: {u}, y: {v}}}",
+        f"\n  {place}: [{x}, {y}]\n  {rate}: [{u}, {v}]",
+        f"\n  {place}: {{x: {x}, y: {y}}}\n  {rate}: {{x': {u}, y': {v}}}",
+    ]
+    for shape in shapes:
+        hint = only_mistake(text(**system, initial=shape)).hint
+        assert hint == f"write {{x: {x}, y: {y}, x': {u}, y': {v}}}"
+    by_name = f"\n  x: {{value: {x}, velocity: {u}}}\n  y: {{value: {y}, velocity: {v}}}"
+    hint = only_mistake(text(**system, initial=by_name)).hint
+    assert hint == f"write {{x: {x}, x': {u}, y: {y}, y': {v}}}"
+
+
+def test_forces_by_their_causes_are_told_as_sums():
+    forces = "{weight: {x: -m*g}, drag: {x: -k*x'}}"
+    assert only_mistake(text(forces=forces)).hint == "write {x: -m*g - k*x'}"
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize("form", ["{}dot", "{}_dot", "{}.dot", "{}.diff(t)", "d{}/dt", "v_{}"])
+def test_a_definition_has_velocities_in_other_notations_too(form, order):
+    names = ["y_1", "h"][:order]
+    definitions = "{" + ", ".join(f"{name}: k*sin(x)^{i + 1}" for i, name in enumerate(names)) + "}"
+    kinetic = " + ".join(f"m*{form.format(name)}^2" for name in names)
+    if "/" in form:
+        kinetic = kinetic.replace("d", "(d").replace("dt", "dt)").replace("(dt)", "dt)")
+    hint = only_mistake(text(definitions=definitions, T=f'"{kinetic}"')).hint
+    assert hint == "write " + " + ".join(f"m*{name}'^2" for name in names)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_numbers_of_other_tongues_and_programs(seed):
+    draw = random.Random(seed)
+    whole, part = draw.randrange(1000, 9_999_999), draw.randrange(100)
+    english = f"{whole:,}.{part:02}"
+    german = english.translate(str.maketrans(",.", ".,"))
+    for written in (english, german):
+        hint = only_mistake(text(parameters=f"\n  m: {written}\n  k: 2")).hint
+        assert hint == f"write {whole}.{part:02}"
+    power = draw.randrange(-30, 30)
+    hint = only_mistake(text(parameters=f"{{m: 1, k: {part}*^{power}}}")).hint
+    assert hint == f"write {part}e{power}"
+
+
+@pytest.mark.parametrize("key", ["initial", "points", "forces", "constraints", "symmetries"])
+@pytest.mark.parametrize("around", ["simulation", "picture"])
+def test_a_key_of_the_problem_within_another_is_told_where_it_stands(around, key):
+    within = only_mistake(text(**{around: f"{{{key}: {{x: 1}}}}"}))
+    assert within.hint == f"a key of the problem: write {key}: {{x: 1}} on a line of its own"
+
+
+def test_unknown_keys_with_one_advice_are_one_mistake():
+    found = only_mistake(text(coordinates="{x: {min: 0, max: 1}}"))
+    assert found.message == "unknown keys 'min', 'max' in the coordinate 'x'"
+    assert len(read_problem("p", text(foo="[]", bar="[]").encode()).diagnostics) == 2
+
+
+HINTS = [
+    (text(coordinates="polar", T="m*r'^2"), "write their names, as in [r, phi]"),
+    (text(coordinates="plane polar", T="m*r'^2"), "[r, phi]"),
+    (text(T=None, V=None, L="{T: m*x'^2/2, V: k*x^2}"), "T and V begin lines of their own"),
+    (text(T=None, V=None, L="{kinetic: m*x'^2/2, potential: k*x^2}"), "T and V begin lines"),
+    (text(H="T + V"), "leave out H"),
+    (text(initial="{p_x: 1}"), "not momenta: give x'"),
+    (text(initial="{x: 1, energy: 3}"), "give x'"),
+    (text(initial="np.zeros(2)"), "what is not given is 0"),
+    (text(simulation="{until: x = 0}"), '--stop-when "x"'),
+    (text(simulation="{until: x > 5}"), '--stop-when "x - 5"'),
+    (text(simulation="{until: t = 5}"), "write 5"),
+    (text(contacts="{floor: {gap: x, restitution: fully inelastic}}"), "write 0"),
+    (text(contacts="{floor: {gap: x, restitution: elastic}}"), "write 1"),
+    (text(contacts="{floor: {gap: x, mu: 0.1}}"), "a contact has no friction"),
+    (text(symmetries="rotation", coordinates="[r, phi]", T="m*(r'^2 + phi'^2)", V="k*r"),
+     "write {rotation: {phi: 1}}"),
+    (text(symmetries="time translation"), "write {time_translation: {t: 1}}"),
+    (text(stiffness="100 N/m", V="stiffness*x^2/2"), "{stiffness: {value: 100, unit: N/m}}"),
+    (text(parameters="{m: mass of the bob, k: constant of the spring}"), "and so for k"),
+    (text(T="m*x'^2/2 (* kinetic *)"), "a comment begins with '#'"),
+    (text(**PENDULUM | {"T": "m*theta'^2", "V": "-m*g*l*COS(THETA)"}), "-m*g*l*cos(theta)?"),
+    (text(parameters="[m, k_0]", V="k₀x²"), "write k_0*x^2"),
+    (text(coordinates="[q(1), q(2)]", T="q(1)'^2 + q(2)'^2", V=None), "write [q_1, q_2]"),
+    (text(parameters="{m -> 1, k -> 2}"), "write {m: 1, k: 2}"),
+    (text(points="{P: {position: [x], mass: m, velocity: [x']}}"), "follows from the position"),
+    (text(picture="{rods: [O, P]}"), "write [[O, P]]"),
+    (text(picture="{rods: {O: P}}"), "write [[O, P]]"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("written", "hint"), HINTS)
+def test_a_shape_gets_one_mistake_with_the_hint_that_helps(written, hint):
+    [only] = messages(written)
+    assert hint in only
+
+
+PHASE = "coordinates: [x]\nH: p_x^2/2 + x^2/2\nobservables: {A: x^2, B: p_x^2}\n"
+
+
+@pytest.mark.parametrize("shape", ['"{A, B}"', "[A, B]", '"[A, B]"', '"(A, B)"'])
+def test_a_bracket_without_its_name_is_told_it(shape):
+    found = only_mistake(f"{PHASE}brackets: {shape}\n")
+    assert found.hint == "write {name: [A, B]}"
+    mended = f"{PHASE}brackets: {found.hint.removeprefix('write ')}\n"
+    assert read_problem("p", mended.encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize("shape", ["{Q: p_x, P: -x}", "{name: {Q: p_x, P: -x}}"])
+def test_a_new_momentum_is_named_after_its_coordinate(shape):
+    found = only_mistake(f"{PHASE}canonical_transformations: {shape}\n")
+    assert found.hint == "write name: {Q: p_x, p_Q: -x}"
