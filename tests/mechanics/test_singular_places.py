@@ -66,6 +66,23 @@ L: "{A}*({slope}^2*r'^2 + {f}^2*phi'^2)/2 + {b}*{f}^2*phi'/2 - {k}*{f}^2/2 + {m}
     assert sorted(found) == pytest.approx(sorted([root - larmor, root + larmor, (c / m) ** 0.5]))
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_the_azimuth_of_a_pole_may_stand_in_the_positions_of_the_points(seed):
+    """A bead in a bowl of revolution z = k s²/2, s = f(r), by positions: ω² = k g, twice."""
+    source = random.Random(seed)
+    m, g, k = (source.randint(1, 9) for _ in "mgk")
+    f, turned = source.choice(["r", "sin(r)", "(r + r^3)"]), source.choice(["phi", "(1 - phi)"])
+    problem = lagcli.loads(f"""
+coordinates: [r, phi]
+points:
+  bead: {{position: ["{f}*cos({turned})", "{f}*sin({turned})", "{k}*{f}^2/2"], mass: {m}}}
+V: {m * g * k}*{f}^2/2
+""")
+    [mode] = lagcli.solve(problem, "modes")._answers.sections["modes"].modes[:1]
+    assert finite_value(mode.frequency) ** 2 == pytest.approx(k * g)
+    assert mode.multiplicity == 2
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_an_upright_top_swings_as_a_pendulum_in_two_directions(seed):
     """Precession and spin have one axis there; without a spin the top is a spherical pendulum."""
