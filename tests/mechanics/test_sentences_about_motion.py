@@ -161,6 +161,25 @@ def test_what_a_frame_that_moves_along_leaves_the_same(text, frame):
     assert frame is None or f"any constant {frame}:" in told
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_frame_that_moves_along_may_have_constraints(seed):
+    """A bob on a rod whose support slides: with u - n x alone in all, u' = n x' is any constant."""
+    source = random.Random(seed)
+    n, wall = source.choice([1, 2, 3]), source.choice(["c*x^2/2", "c*(u^2 + x^2)"])
+    rod = f"(u - {n}*x)^2 + v^2 = c^2"
+    head = f"coordinates: [x, u, v]\n{_POSITIVE}\nT: m*x'^2/2 + k*(u'^2 + v'^2)/2\n"
+    for V, constraint, moves in (
+        ("c*v", f'"{rod}"', True),
+        (f"c*v + {wall}", f'"{rod}"', False),
+        ("c*v", f'"{rod} + x"', False),
+    ):
+        sections = [*(["equilibria", "modes"] * moves), "steady_motions"]
+        text = f"{head}V: {V}\nconstraints: {{rod: {constraint}}}\n"
+        told = words(explain(derive(text), sections), "Steady motions")
+        assert ("at any constant" in told) is moves, (V, constraint)
+        assert ("momentum: the steady motions are the equilibria." in told) <= (not moves)
+
+
 @pytest.mark.parametrize("mass", ["1 + c*t", "2 + cos(t)", "exp(-t) + m"])
 def test_a_mass_that_changes_makes_the_equations_depend_on_the_time(mass):
     """x = 0 rests, and nothing is proportional to exp(s t) near it."""

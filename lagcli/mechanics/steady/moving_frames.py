@@ -5,6 +5,8 @@ Of M(q) q'' = F(q, q') these are the constant c with
     M(q + s c) = M(q),   F(q + s c, q' + u c) = F(q, q')   for all s and u,
 
 so that with q(t) also q(t) + u c t is a motion: two masses that a spring joins, two coupled discs.
+Each constraint f(q, q') = 0 must keep its values in the same way: then so do its gradient a, with
+a . c = 0, and its multiplier.
 
 Where L and all constraints keep their values when one pair (x, y) of coordinates turns about its
 origin, steady rotations have x and y that are not constant: polar coordinates are needed.
@@ -26,15 +28,18 @@ from lagcli.mechanics.rest.rest_conditions import RestConditions
 
 
 def moving_frames(rest: RestConditions) -> dict[Symbol, list[Expr]]:
-    """The c by the coordinate at which each is 1; none under constraints."""
-    if rest.dynamics.constraints.equations or rest.depends_on_time:
+    """The c by the coordinate at which each is 1."""
+    if rest.depends_on_time:
         return {}
+    kept = [e.f for e in rest.dynamics.constraints.equations]
     system, s, u = rest.system, Symbol("#s", real=True), Symbol("#u", real=True)
     found = {}
     for free, c in rest.translations.items():
         moved = {q: q + s * x for q, x in zip(system.q, c, strict=True)}
         moved |= {v: v + u * x for v, x in zip(system.qdot, c, strict=True)}
-        same = (is_zero(e.xreplace(moved) - e) for e in chain(*rest.mass_matrix, rest.forcing))
+        same = (
+            is_zero(e.xreplace(moved) - e) for e in chain(*rest.mass_matrix, rest.forcing, kept)
+        )
         if sum(x != 0 for x in c) > 1 and all(each is True for each in same):
             found[free] = c
     return found
