@@ -23,6 +23,11 @@ if TYPE_CHECKING:
     from lagcli.reader.file_reader import FileReader
 
 _CARTESIAN = "write [x, y], in polar coordinates [r*cos(phi), r*sin(phi)]"
+#: A unit vector of polar coordinates.
+_POLAR = re.compile(
+    r"(?<!\w)(?:e_?|\\hat\s*\{?\\?|\\vec\s*\{?e\}?_\{?\\?)(?:r|rho|phi|varphi|theta|[ρφϕθ])(?!\w)\}?"
+    r"|[rρφϕθ]\u0302|(?<!\w)(?:r|rho|phi|theta)_?hat(?!\w)"
+)
 _POINT_ATTRIBUTES = ("position", "mass", "force")
 
 
@@ -54,7 +59,14 @@ def check_masses(file: FileReader, problem: Problem, span: Span) -> None:
     for point in problem.points:
         if point.mass is None:
             message = f"the point '{point.name}' has no mass, and there is no T"
-            file.error(message, point.span, "give its mass, or T, or L")
+            hint = "give its mass, or T, or L"
+            if max(derivative_order(axis, file.scope) for axis in point.position) < 0:
+                written = [file.scope.components[f"{point.name}.{axis}"]
+                           for axis, _ in zip("xyz", point.position, strict=False)]  # fmt: skip
+                axes = ", ".join(written)
+                place = f"{{places: {{{point.name}: [{axes}]}}}}"
+                hint = f"what does not move has no mass and stands under picture: {place}"
+            file.error(message, point.span, hint)
 
 
 def check_momenta(file: FileReader) -> None:
@@ -160,6 +172,12 @@ def read_components(
     from lagcli.reader.foreign.vectors import components, of_listed
 
     known = file.scope.kinds
+    texts = [each.value for each in (node, *getattr(node, "items", ())) if isinstance(each, Scalar)]
+    along = _POLAR.search(" ".join(texts))
+    if along and along[0] not in known:
+        message = f"{what} has Cartesian components, not one along '{along[0]}'"
+        file.error(message, node.span, _CARTESIAN)
+        return []
     if isinstance(node, Scalar) and not node.is_empty:
         hint = f"write {as_list(_shown(node.value))}"
         if written := components(node.value, known, length):

@@ -49,6 +49,8 @@ if TYPE_CHECKING:
 
 _T = TypeVar("_T")
 
+#: The likeness of a key and its misspelling: another word of as many letters is less like it.
+_NEAR = 0.7
 #: What stands for an expression that could not be read; the file is refused anyway.
 UNREADABLE = ZERO
 #: Places where a number stands, without its unit.
@@ -56,12 +58,17 @@ _NUMERIC = (VALUES,)
 #: The words for it, and what they mean.
 YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
 _NAME = re.compile(r"[^\W\d]\w*")
+_FREQUENCIES = "write [sqrt(g/l)]"
 _RELATION = re.compile("[=<>≤≥]")
 _OF_RELATIONS = frozenset({"holds_while", "where", "always", "reaches"})
 #: `x' = 0` and `x(0): 1`, several of them.
 _GIVEN = re.compile(
     r"([^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]>|[=:→])\s*([^,;=:→]+?)"
     r"(?=\s*(?:$|[,;]|[^\W\d]\w*'*(?:\(0\))?\s*(?:[-=]>|[=:→])))"
+)
+#: A state that is 0.
+_AT_REST = re.compile(
+    r"^(?:\w+\.)?zeros\b|\b(?:rest|equilibrium|standard|default|Ruhe|repos)\b", re.IGNORECASE
 )
 #: A quantity within a formula: the 9.81 m/s² of `m*9.81 m/s²*x`.
 _UNIT_WITHIN = re.compile(
@@ -164,7 +171,7 @@ class FileReader:
         """How a list or a text of values is written as a map by coordinate."""
         if isinstance(node, Mapping):
             return ""
-        if isinstance(node, Scalar) and re.match(r"(?:\w+\.)?zeros\b", node.value):
+        if isinstance(node, Scalar) and _AT_REST.search(node.value) and "=" not in node.value:
             return "leave it out: what is not given is 0"
         names = list(self.scope.of_kind("coordinate")) or ["x"]
         written = node.text.source.text[node.start : node.end].strip("[] \n")
@@ -209,12 +216,18 @@ class FileReader:
         if isinstance(node, Scalar):
             if node.broken:
                 return []
+            if hint == _FREQUENCIES and (given := re.fullmatch(r"([^=]+)=([^=]+)", node.value)):
+                value = given[2].strip()
+                squared = re.search(r"(?:\^|\*\*)\s*2\s*$|²\s*$", given[1])
+                hint = f"write [sqrt({value})]" if squared else f"write [{value}]"
+                self.error(f"{what} must be a list, not {kind(node)}", node.span, hint)
+                return []
             listed = not hint or hint.startswith("write [")
             hint = f"write {as_list(node.value)}" if listed and node.value.strip() else hint
         elif isinstance(node, Mapping) and hint in {
             "",
             "write [one, another]",
-            "write [sqrt(g/l)]",
+            _FREQUENCIES,
         }:
             hint = f"write [{', '.join(source_of(value) for _, value in node.entries)}]"
         self.error(f"{what} must be a list, not {kind(node)}", node.span, hint)
@@ -314,7 +327,7 @@ class FileReader:
         forceless = meant == "dissipation" and "'" not in written
         advice = key_advice("friction" if forceless else key.label, written, names)
         advice = f"the key is {meant}" if meant and not forceless else advice
-        hint = advice or did_you_mean(key.label, names)
+        hint = advice or did_you_mean(key.label, names, _NEAR)
         stem = None if advice else key_of_stem(key.label, names)
         if stem and stem != closest(key.label, names):
             meant, hint = stem, f"the key is {stem}"
@@ -322,6 +335,7 @@ class FileReader:
         if outer is not None and what != "the problem":
             hint = f"a key of the problem: write {outer}: {source_of(value)} on a line of its own"
         plural = f"{key.label}s" in names
+        parts = {k.label: v for k, v in around.entries if isinstance(v, Scalar)}
         shape = key_by_shape(value, around) if what == "the problem" and not plural else None
         near = meant or closest(key.label, names)
         if (
@@ -336,12 +350,18 @@ class FileReader:
             )
         ):
             meant, hint = shape, f"the key is {shape}"
+        if meant in {"T", "V"} and meant in parts and what == "the problem" and written:
+            hint = f"it is one sum: write {meant}: {parts[meant].value.strip()} + {written}"
+        elif meant in {each.label for each, _ in around.entries} and hint == f"the key is {meant}":
+            hint = f"the key is {meant}, which is given already: its entries stand there"
         if "at" in names and key.label in self.scope.of_kind("coordinate"):
             hint = f"write at: {{{key.label}: {written}}}"
+        if not hint and what == "the problem" and self._is_used(key, value, around):
+            hint = f"a formula with a name stands under definitions: {key.label}: {written}"
+            self.scope.refused.append(key.label)
         if not hint and isinstance(value, Mapping) and value.entries:
             inner = [each.label for each, _ in value.entries]
             hint = f"leave it out: {inner[0]} begins a line" if {*inner} <= {*names} else ""
-        parts = {k.label: v for k, v in around.entries if isinstance(v, Scalar)}
         part = re.match(r"[TV](?=\d|_)", key.label)
         if not advice and part and part[0] in parts and what == "the problem":  # V2, V_spring
             hint = f"it is one sum: write {part[0]}: {parts[part[0]].value.strip()} + {written}"
@@ -355,7 +375,21 @@ class FileReader:
         if "parameters" in names and is_constant(key.label, written):
             self.scope.refused.append(key.label)
         self.error(f"unknown key '{key.label}' in {what}", key.span, hint)
-        return meant or (closest(key.label, names) if hint.startswith("did you mean") else None)
+        guessed = hint.startswith("did you mean")
+        return meant or (closest(key.label, names, _NEAR) if guessed else None)
+
+    def _is_used(self, key: Scalar, value: DocumentNode, around: Mapping) -> bool:
+        """Whether an entry is the formula of a name that stands in other formulas of the file."""
+        if not _NAME.fullmatch(key.label) or not isinstance(value, Scalar) or value.is_empty:
+            return False
+        text = around.text.source.text
+        elsewhere = text[: key.start] + text[value.end :]
+        used = re.search(rf"(?<![\w.]){re.escape(key.label)}(?!\w|\s*:)", elsewhere)
+        try:
+            read_expression(value.excerpt())
+        except Mistake:
+            return False
+        return used is not None
 
     # Formulas.
 

@@ -40,7 +40,7 @@ CASE = "(1 + sign(x))/2 is 1 for x > 0, else 0"
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
 #: A number with a unit behind it, as in `10 kg` and `9.81 m/s^2`.
 _WITH_UNIT = re.compile(
-    r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*"
+    r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*(?:[,;]\s+)?"
     r"(?P<unit>(?:[kmcµu]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa)|rad|deg|rpm|min|h|mol)(?:[ \^*/].*)?)"
 )
 #: Words for a kind of number, before a name in other languages.
@@ -94,7 +94,7 @@ def key_of_stem(word: str, known: tuple[str, ...]) -> str | None:
 
 def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
     """What to write instead of an unknown key with its value; nothing where that is unclear."""
-    if word in get_args(Assumption) and "assume" in known:
+    if word in get_args(Assumption) and word != "real" and "assume" in known:
         return f"write assume: {word}"
     for neighbour, words, advice in habits()["advice"]:
         if word in words and neighbour in known:
@@ -125,7 +125,7 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
         return f"write {part}: {{{key}: {value or '…'}}}"
     if "parameters" in known and is_constant(word, value):
         value, unit = value.strip(), unit_behind(value)
-        number = value.partition(unit)[0].strip(" [(") if unit else value
+        number = value.partition(unit)[0].strip(" [(,;") if unit else value
         given = f"{{value: {number}, unit: {unit}}}" if unit else value
         return f"a constant stands under parameters: write parameters: {{{word}: {given}}}"
     if word.casefold() in {"gravity", "gravitation", "weight", "spring", "field"} and "V" in known:
@@ -142,7 +142,7 @@ def colon_advice(line: str) -> str:
     if "''" in line:
         return DERIVED
     if found and found[1] not in habits()["keys"] and (unit := unit_behind(found[2])):
-        number = found[2].partition(unit)[0].strip(" [(")
+        number = found[2].partition(unit)[0].strip(" [(,;")
         return f"write parameters: {{{found[1]}: {{value: {number}, unit: {unit}}}}}"
     if found:
         value = re.sub(r"^\{([^:{}]*)\}$", r"[\1]", found[2].strip())

@@ -81,7 +81,10 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
         return f"write {{unit: {written}}}"
     if names[0] == "at":
         within = re.fullmatch(r"\{?\s*(\w+)\s*[:=]\s*([^=:]+?)\s*\}?", written)
-        return f"write {{at: {{{within[1]}: {within[2]}}}}}" if within else "write {at: {x: 0}}"
+        if within:
+            return f"write {{at: {{{within[1]}: {within[2]}}}}}"
+        place = written if len(names_given) == 1 and isinstance(node, Scalar) else "0"
+        return f"write {{at: {{{unknown}: {place or '0'}}}}}"
     if isinstance(node, Sequence) and names[0] == "unit" and unit_behind(f"1 {written[1:-1]}"):
         return f"write {{unit: {written[1:-1]}}}"
     if isinstance(node, Sequence) and names[0] == "unit" and "value" not in names:
@@ -101,6 +104,8 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
         return f"write {{description: {written}}}"
     if isinstance(node, Scalar) and names[0] == "where" and written in FOUND:
         return ALREADY_FOUND
+    if isinstance(node, Scalar) and names[0] == "where" and len(written.split()) > 2:
+        return f"write a question as {{where: {unknown}' = 0, for: {unknown}}}"
     if isinstance(node, Scalar) and names[0] == "where":
         return f"write {{value: {written or '…'}, in_terms_of: [{unknown}]}}"
     if (

@@ -19,7 +19,7 @@ from lagcli.expression import (
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
 from lagcli.reader.foreign.words import Vocabulary, rate_meant
-from lagcli.reader.habits import foreign_function, instead, meanings
+from lagcli.reader.habits import foreign_function, instead, is_angle, meanings
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import alike, closest, did_you_mean
 from lagcli.reader.undeclared import COORDINATE, UNDECLARED
@@ -221,11 +221,19 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return f"a constraint stands under 'constraints', without its multiplier; or {UNDECLARED}"
     words = Vocabulary(tuple(coordinates), frozenset(), moving=scope.moving)
     rate = role.order > 0 and rate_meant(name, words)
+    along = re.fullmatch(r"v_?(\w+)", name)
+    radius = next((x for x in coordinates if x in {"r", "rho", "ρ", "s"}), "")
+    if role.order > 0 and along and radius and along[1] in coordinates and is_angle(along[1]):
+        polar = next((x for x in coordinates if x in {"theta", "θ"} and x != along[1]), "")
+        sine = f"*sin({polar})" if polar and along[1] in {"phi", "φ", "ϕ"} else ""
+        return f"the speed along {along[1]} is {radius}{sine}*{along[1]}'"
     hint = "" if rate else did_you_mean(name, scope.usable(role))
     if not hint and role.time and name[-1] == "t" and (len(name) == 2 or name[:-1] in GREEK):
         return f"did you mean {name[:-1]}*t?"
     if re.fullmatch(r"_?\d+", name.removeprefix(closest(name, scope.usable(role)))):
         return UNDECLARED  # x0 beside x is another quantity
+    if name == "T" and role.time and what.startswith(("the force", "the constraint", "the symm")):
+        return "the time is t"
     if (not hint or name == "T") and name in {"T", "V", "L", "H"}:  # t is near to T
         return f"{name} is a key and not a name: write its formula"
     if not hint and name in {"v", "velocity", "speed", "d"} and role.order > 0 and coordinates:
@@ -238,8 +246,12 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return usual[name]
     if not hint and name in get_args(Assumption):
         return f"an assumption is written {{assume: {name}}}"
+    if not hint and name.casefold() in {"const", "constant"}:
+        return f"a constant has a name and a value: write it as C, and {UNDECLARED}"
     if not hint and name in {"I", "i", "j"}:
         return f"every quantity is real; {UNDECLARED}"
+    if rate:
+        return f"the velocity of {rate[0]} is {rate[0]}'"
     return hint or UNDECLARED + (", or its formula under 'definitions'" if role.definitions else "")
 
 

@@ -28,7 +28,7 @@ def unit_mistake(
     unit = unit_behind(text)
     if not unit:
         return None
-    number = text.partition(unit)[0].strip(" [(")
+    number = text.partition(unit)[0].strip(" [(,;")
     hint = f"write {number}: numbers are in the units of the file"
     if declared:
         hint = f"write {{value: {number}, unit: {unit}}}"

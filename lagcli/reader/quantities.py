@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypedDict, cast, get_args
 from lagcli.expression import FUNCTIONS, Expression, Name, walk
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
-from lagcli.reader.habits import SIGNS, names_among, unit_behind
+from lagcli.reader.habits import SIGNS, is_constant, names_among, unit_behind
 from lagcli.reader.headings import system_meant, without_headings
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.names import NO_VALUE
@@ -125,6 +125,12 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
     called = re.match(r"(\w+)\(([\w, ]+)\)", items[0]) if items else None
     hint = "write {}: [{}]".format(*(called.groups() if called else ("U", "r")))
     for key, value in file.entries(node, "functions", hint):
+        called = re.fullmatch(r"(\w+)\(\s*\w[\w, ]*\)", key.label)
+        if called and isinstance(value, Scalar) and re.search(r"[-+*/^(]|^\d", value.value):
+            hint = f"a formula stands under definitions: {called[1]}: {value.value}"
+            file.error(f"'{called[1]}' has a formula", key.span, hint)
+            file.scope.refused.append(key.label)
+            continue
         if not file.declare(key.label, "function", key.span):
             continue
         what = f"the arguments of '{key.label}'"
@@ -153,11 +159,13 @@ def _declared(
 ) -> Iterator[tuple[Scalar, DocumentNode | None]]:
     """The names of a list or of a map's keys, as far as they could be declared."""
     entries: list[tuple[Scalar, DocumentNode | None]]
-    if given := _pairs(node):
+    if given := _pairs(node, section):
         listed = ", ".join(re.findall(r"(\w+):", given))
         state = f"write [{listed}], and below it initial: {{{given}}}"
         hint = state if section == "coordinates" and "{" not in given else f"write {{{given}}}"
-        file.error(f"{section} with values are a map", node.span, hint)
+        coordinates = "coordinates have no values; their state is initial"
+        message = coordinates if hint is state else f"{section} with values are a map"
+        file.error(message, node.span, hint)
         file.scope.refused.append("")
         return
     attributes = _PARAMETER_ATTRIBUTES if section == "parameters" else _COORDINATE_ATTRIBUTES
@@ -167,7 +175,7 @@ def _declared(
         file.scope.refused.append("")
         return
     if isinstance(node, Mapping):
-        entries = list(node.entries)
+        entries = _within(file, node.entries, attributes)
     elif isinstance(node, Sequence):
         names = [file.scalar(item, "a name") for item in node.items]
         entries = [(name, None) for name in names if name is not None]
@@ -195,6 +203,24 @@ def _declared(
             file.scope.refused.append(key.label)
         elif file.declare(key.label, kind_, key.span, one=value is not None and not value.is_empty):
             yield key, value
+
+
+def _within(
+    file: FileReader, entries: list[tuple[Scalar, DocumentNode]], attributes: tuple[str, ...]
+) -> list[tuple[Scalar, DocumentNode | None]]:
+    """The entries; a mistake where the attributes of a name begin their lines as it does."""
+    kept: list[tuple[Scalar, DocumentNode | None]] = []
+    above, reported = "", False
+    for key, value in entries:
+        if above and key.label in attributes and not key.in_flow:
+            if not reported:
+                message = f"'{key.label}' stands below '{above}', but not in it"
+                file.error(message, key.span, "begin the line with more blanks")
+            reported = True
+            continue
+        above = key.label if value.is_empty else ""
+        kept.append((key, value))
+    return kept
 
 
 def _renamed(names: list[Scalar]) -> tuple[Scalar, str] | None:
@@ -244,12 +270,18 @@ def _list_advice(text: str) -> str:
     return f"write [{', '.join(names)}]" if names else "such as [x, y]"
 
 
-def _pairs(node: DocumentNode) -> str:
+def _pairs(node: DocumentNode, section: str) -> str:
     """`m: 1, k: 2` for `[m = 1, k = 2]`, `{m 1, k 2}` and a list of maps; else nothing."""
     given = []
     if isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
         relation = r"(\w+)(?:\s*(?:[-=]>|:?=|:|→)\s*|\s+)([\d.]\S*)"
         given = [re.fullmatch(relation, key.label) for key, _ in node.entries]
+    elif isinstance(node, Mapping) and len(node.entries) > 1:
+        numbers = [
+            (k, v) for k, v in node.entries if isinstance(v, Scalar) and section == "coordinates"
+        ]
+        if len(numbers) == len(node.entries) and all(is_constant("x", v.value) for _, v in numbers):
+            return ", ".join(f"{key.label}: {value.value}" for key, value in numbers)
     elif isinstance(node, Sequence):
         source = [item.text.source.text[item.start : item.end] for item in node.items]
         source = [re.sub(r"^\[(\w+),\s*([^,\]]+)\]$", r"\1: \2", text) for text in source]

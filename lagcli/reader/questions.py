@@ -102,6 +102,9 @@ def _state_name(
             hint = f"a state has velocities, not momenta: give {letters[2:]}'"
         elif letters.casefold() in {"e", "energy", "h", "l", "angular_momentum"}:
             hint = f"a state has coordinates and velocities: give {coordinates[0]}'"
+        at = re.fullmatch(r"\w+'*\(\s*(?:t\s*=\s*)?([^()]+)\)", key.label)
+        if at and at[1].strip() not in {"0", "0.0", "t"}:
+            hint = "a state is that at t = 0: leave it out"
         if letters == "t":
             hint = "a motion begins at t = 0: leave it out"
         file.error(f"'{key.label}' in initial is not a coordinate", key.span, hint)

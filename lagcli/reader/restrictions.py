@@ -24,6 +24,8 @@ _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RE
 _MOVED = re.compile(
     r"(\w+)\s*(?:->|→|↦|=>|=)\s*\1\s*([-+])\s*(?:eps(?:ilon)?|ε|s|delta|a|alpha)\b\s*\*?\s*([^,;]*)"
 )
+#: `eps*y`, a change with its small parameter.
+_SCALED = re.compile(r"\s*(eps(?:ilon)?|ε|s|delta|lambda|lam|alpha|a)(?:\s*\*\s*(\S.*?))?\s*")
 _ON_LOSS = ("stop", "release")
 _FORCES: dict[str, ForceKind] = {
     "normal": "normal",
@@ -141,6 +143,17 @@ def _usual_change(word: str, coordinates: list[str]) -> str:
     return "{{{0}: -{1}, {1}: {0}}}".format(*coordinates)
 
 
+def _without_parameter(file: FileReader, node: DocumentNode) -> str:
+    """`{x: x, y: 1}` for `{x: s*x, y: s}` with a parameter s that is not declared; else nothing."""
+    entries = node.entries if isinstance(node, Mapping) else []
+    found = [(k.label, _SCALED.fullmatch(v.value)) for k, v in entries if isinstance(v, Scalar)]
+    given = [(name, each[1], each[2] or "1") for name, each in found if each is not None]
+    parameters = {parameter for _, parameter, _ in given}
+    if len(given) < len(entries) or len(parameters) != 1 or parameters & file.scope.kinds.keys():
+        return ""
+    return f"{{{', '.join(f'{name}: {change}' for name, _, change in given)}}}"
+
+
 def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...]:
     """The candidate symmetries."""
     coordinates = list(file.scope.of_kind("coordinate"))
@@ -168,6 +181,9 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
         if moved := _MOVED.findall(said):
             pairs = [f"{name}: {'-' * (sign == '-')}{change or 1}" for name, sign, change in moved]
             here = f"write {key.label}: {{{', '.join(pairs)}}}"
+        if scaled := _without_parameter(file, value):
+            file.error(f"{what} contains its small parameter", value.span, f"write {scaled}")
+            continue
         for name, change in file.entries(value, what, here):
             if name.label in coordinates or name.label in {"t", "gauge"}:
                 changes[name.label] = file.expression(change, what, STATE)

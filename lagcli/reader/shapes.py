@@ -34,6 +34,12 @@ REDUCED = Role(order=1, why="an answer is free of accelerations", momenta=True)
 CHARGE = Role(order=1, why="an answer is free of accelerations")
 PLACE = Role(order=0, why="an equilibrium is given by its coordinates")
 
+#: Words for a stable and an unstable equilibrium.
+_VERDICTS = {
+    **dict.fromkeys("stable Stable True minimum center centre".split(), "yes"),
+    **dict.fromkeys("unstable Unstable instable False maximum saddle".split(), "no"),
+}
+
 #: The keys that lead to a place.
 Path = tuple[str, ...]
 
@@ -175,8 +181,12 @@ def _stable(
     file = reader.file
     if isinstance(node, Scalar) and node.value.strip() in YES_OR_NO:
         return YES_OR_NO[node.value.strip()]
-    items = node.items if isinstance(node, Sequence) else [node]
     what = "a condition of stability"
+    word = node.value.strip().split()[-1:] if isinstance(node, Scalar) else []
+    if word and word[0] in _VERDICTS:
+        file.error("'stable' is yes, no or conditions", node.span, f"write {_VERDICTS[word[0]]}")
+        return None
+    items = node.items if isinstance(node, Sequence) else [node]
     read = [file.comparison(item, what, REDUCED) for item in items]
     for item, each in zip(items, read, strict=True):
         if each is not None and each.comparison not in (">", "<"):

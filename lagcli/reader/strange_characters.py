@@ -22,9 +22,11 @@ _MEANT = [
     (r"\\(?:partial|nabla)", "write diff(expression, name); a force that V has is found from V"),
     (r"\\int\b", instead("int")),
     (r"\\(?:sum|prod)\b", instead("sum")),
+    (r"\[\s*[\w'.]+(?:\s+[-\w'.]+)+\s*\]", "a vector is written by its components"),
     (r"\.\.\.|…", "leave it out: a line that continues the one above begins with blanks"),
     (r"\.subs\b", "leave out what begins with '.subs': values stand under 'parameters'"),
     (r"\.(?:evalf|simplify|expand|n|doit|replace|rewrite)\b", "leave out what begins with '.'"),
+    (r"\.[^\W\d]", "a product of vectors is written by its components, as in x'^2 + y'^2"),
 ]
 
 

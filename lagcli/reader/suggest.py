@@ -18,9 +18,9 @@ _LONGEST, _MOST = 60, 300
 _CYRILLIC = dict(zip("асеорхуіјкмтн", "aceopxyijkmth", strict=True))
 
 
-def did_you_mean(name: str, known: Iterable[str]) -> str:
-    """`did you mean 'theta'?`, or nothing when no known name is near."""
-    best = closest(name, known)
+def did_you_mean(name: str, known: Iterable[str], near: float = 0.6) -> str:
+    """`did you mean 'theta'?`, or nothing when no known name is as `near`."""
+    best = closest(name, known, near)
     named = [unicodedata.name(letter, "") for letter in best + name if letter in _CYRILLIC]
     shown = f", with the letter {named[0].capitalize()}" if named else ""
     return f"did you mean '{best}'{shown}?" if best else ""
@@ -31,8 +31,11 @@ def alike(name: str, known: Iterable[str]) -> str:
     return next((each for each in known if _folded(each) == _folded(name)), "")
 
 
-def closest(name: str, known: Iterable[str]) -> str:
-    """The known name nearest to `name`, or nothing."""
+def closest(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
+    """The known name nearest to `name`, or nothing.
+
+    The likeness is twice the number of letters in common over that of both, from 0 to 1.
+    """
     names = list(known)
     if (usual := meanings("functions").get(name)) in names:
         return usual
@@ -47,7 +50,7 @@ def closest(name: str, known: Iterable[str]) -> str:
         spelled = {spelling: known for spelling, known in spelled.items() if len(spelling) > 1}
     if len(name) == 1:  # one letter is near to those that begin with it
         spelled = {spelling: known for spelling, known in spelled.items() if spelling[0] == name}
-    near = get_close_matches(name, list(spelled)[-_MOST:], n=1, cutoff=0.6)
+    near = get_close_matches(name, list(spelled)[-_MOST:], n=1, cutoff=cutoff)
     return spelled[near[0]] if near else ""
 
 

@@ -72,7 +72,9 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
         return Diagnostic("'->' has no meaning", _span(token, excerpt), "write '='")
     if token.type == "COMPARISON":
         message = f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once"
-        hint = _contact_advice(excerpt.value) if start == "equation" else ""
+        hint = _contact_advice(excerpt.value) if start == "equation" else CASE
+        if start == "expression" and re.search(r"<[^<>]+>", excerpt.value):
+            hint = "group with parentheses ( ), without '<' and '>'"
         return Diagnostic(message, _span(token, excerpt), hint)
     is_last = place + 1 == len(tokens)
     message, hint = _unexpected(token, previous, tokens[:place], start, is_last=is_last)
@@ -119,6 +121,7 @@ def _missing_product(
 ) -> Diagnostic:
     span = excerpt.span(left.start_pos, right.end_pos)
     apart = left.end_pos < right.start_pos
+    ahead = excerpt.value[right.start_pos :]
     # th may as well be an angle
     known = str(left) if len(left) == 2 and left != "ln" else meanings("functions").get(left, left)
     if left.type == "NAME" and known in FUNCTIONS:
@@ -133,7 +136,7 @@ def _missing_product(
         return Diagnostic("a formula is no program", span, f"write {written}")
     if left.type == "NUMBER" and str(right) == "percent":
         return Diagnostic("'percent' has no meaning", span, f"write {left}/100")
-    if str(left) == "Σ":
+    if re.fullmatch(r"Σ|(?:Σ|sum|prod)_\w+", str(left)):
         return Diagnostic("a formula has no sums", span, instead("sum"))
     if {"where", "with"} & {left, right} and re.search("[=<>]", excerpt.value):
         return Diagnostic("a formula has no conditions", span, "values stand under 'parameters'")
@@ -141,6 +144,8 @@ def _missing_product(
         return Diagnostic("a formula has no cases", span, CASE)
     if right.type == "LPAR" and following is not None and following.type == "STAR":
         return Diagnostic("a comment is no part of a formula", span, COMMENT)
+    if right.type == "LPAR" and re.match(r"\(\s*[^\W\d]{3,}(?:\s+[^\W\d]+)+\s*\)\s*$", ahead):
+        return Diagnostic("a remark is no part of a formula", span, COMMENT)
     if apart and _PROSE.fullmatch(excerpt.value.strip()):
         hint = (
             "write left = right, as in x' = R*theta'" if start == "equation" else "write a formula"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Known, KnownRow, Trajectory
@@ -61,7 +62,11 @@ class TrajectoryReader:
     def _read(self, node: DocumentNode) -> Trajectory:
         parts: dict[str, DocumentNode] = {}
         formulas = []
-        for key, value in self.file.entries(node, "'trajectory'", "write x: cos(t)"):
+        hint = "write x: cos(t)"
+        given = re.fullmatch(r"([^\W\d]\w*)(?:\(t\))?\s*=\s*([^=]+)", getattr(node, "value", ""))
+        if given:
+            hint = f"write {given[1]}: {given[2].strip()}"
+        for key, value in self.file.entries(node, "'trajectory'", hint):
             self.spans["trajectory", key.label] = key.span
             if key.label in _KEYS:
                 parts[key.label] = value

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from lagcli.diagnostics import Diagnostic
@@ -13,6 +13,8 @@ UNDECLARED = "declare it under 'parameters'"
 #: What it says of one with a prime.
 COORDINATE = "declare it under 'coordinates'"
 _KEY = re.compile(r"unknown keys? (?P<keys>'.*') in (?P<place>(?:the |[^']).*)")
+_ORDER = re.compile(r"^(the (?:velocity|acceleration|momentum)) (\S+) (cannot stand in .*)$")
+_SHAPE = re.compile(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
 _NAME = re.compile(r"unknown name '(\w+)' in (.*)")
 
 
@@ -25,17 +27,38 @@ def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
         By their place.
     """
     kept: dict[tuple[str, str], Diagnostic] = {}
-    for each in diagnostics:
+    for each in _with_value(diagnostics):
         found = _KEY.fullmatch(each.message)
-        place = found["place"] if found else each.message
+        place = found["place"] if found else _ORDER.sub(r"\1 \3", each.message)
         same = found is None or place != "the problem"
         key = (place, each.hint) if each.hint and same else (str(each.span), each.message)
+        key = (place, "") if _SHAPE.search(each.message) else key
         first = kept.setdefault(key, each)
         if found and first is not each:
             earlier = _KEY.sub(r"\g<keys>", first.message)
             message = f"unknown keys {earlier}, {found['keys']} in {place}"
             kept[key] = replace(first, message=message)
     return tuple(kept.values())
+
+
+def _with_value(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+    """A wrong key and the wrong shape of its value as one mistake."""
+    last: Diagnostic | None = None
+    for each in diagnostics:
+        meant = re.search(r"the key is (\w+)$", last.hint) if last is not None else None
+        shape = meant and re.match(rf"'?{meant[1]}'? (?:must be|is one)\b", each.message)
+        if last is not None and meant and shape and each.hint and _next_to(last, each):
+            last = replace(last, hint=f"{last.hint}; {each.hint}")
+            continue
+        if last is not None:
+            yield last
+        last = each
+    if last is not None:
+        yield last
+
+
+def _next_to(key: Diagnostic, value: Diagnostic) -> bool:
+    return value.span.line - key.span.line in {0, 1}
 
 
 def one_for_undeclared(

@@ -25,6 +25,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.reader.constants import rational_value
+from lagcli.reader.foreign.words import Vocabulary, rate_meant
 from lagcli.reader.names import derivative_order
 
 if TYPE_CHECKING:
@@ -100,11 +101,19 @@ def _without_inertia(problem: Problem, kinetic: Expression) -> list[Diagnostic]:
     held = {name.name for formula in elsewhere for name in _names(formula)}
     moving = {name.name for name in _names(kinetic) if name.primes}
     missing = "the coordinate '{0}' is missing in T: {0}' does not occur there".format
-    return [
-        _warning(missing(one.name), one.span, f"no inertia: its velocity is {one.name}'")
-        for one in problem.coordinates
-        if one.name not in moving | held
-    ]
+    idle = [one for one in problem.coordinates if one.name not in moving | held]
+    found = []
+    for one in idle:
+        others = tuple(x.name for x in problem.coordinates if x is not one)
+        if rate := rate_meant(one.name, Vocabulary(others, frozenset())):
+            message = f"'{one.name}' is a coordinate of its own here, not the velocity of {rate[0]}"
+            velocity = rate[0] + "'" * rate[1]
+            hint = f"leave it out, and write {velocity}"
+            return [_warning(message, one.span, hint)]
+        found.append(
+            _warning(missing(one.name), one.span, f"no inertia: its velocity is {one.name}'")
+        )
+    return found
 
 
 def _names(formula: Expression) -> list[Name]:

@@ -233,3 +233,131 @@ def test_a_bracket_without_its_name_is_told_it(shape):
 def test_a_new_momentum_is_named_after_its_coordinate(shape):
     found = only_mistake(f"{PHASE}canonical_transformations: {shape}\n")
     assert found.hint == "write name: {Q: p_x, p_Q: -x}"
+
+
+@pytest.mark.parametrize("name", ["omega", "w_0", "Ω"])
+@pytest.mark.parametrize("formula", ["sqrt(k/m)", "k*x", "x'/2"])
+def test_a_formula_with_a_name_that_others_use_stands_under_definitions(name, formula):
+    hint = only_mistake(text(V=f"m*{name}^2*x^2/2", **{name: formula})).hint
+    assert hint == f"a formula with a name stands under definitions: {name}: {formula}"
+    mended = text(V=f"m*{name}^2*x^2/2", definitions=f'{{{name}: "{formula}"}}')
+    assert messages(mended) == []
+    unused = only_mistake(text(Zeta_1=formula))
+    assert "definitions:" not in unused.hint
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_number_with_its_unit_behind_a_comma(seed):
+    draw = random.Random(seed)
+    number, unit = draw.choice(["1", "2.5", "1e3"]), draw.choice(["kg", "N/m", "m/s^2", "rad"])
+    comma = draw.choice([", ", "; ", " ", ""])
+    mistake = only_mistake(text(parameters=f"\n  m: {number}{comma}{unit}\n  k: 2"))
+    assert mistake.hint == f"write {{value: {number}, unit: {unit}}}"
+
+
+@pytest.mark.parametrize("number", range(1, 13))
+def test_a_factorial_is_a_number(number):
+    product = 1
+    for factor in range(1, number + 1):
+        product *= factor
+    assert only_mistake(text(V=f"k*x^4/{number}!")).hint == f"write k*x^4/{product}"
+    assert only_mistake(text(V="k*x!")).hint == "there is no factorial"
+
+
+@pytest.mark.parametrize("bars", ["|r|", "||r||", r"|\vec{r}|", r"\|\mathbf{r}\|"])
+@pytest.mark.parametrize("axes", ["xy", "xyz"])
+def test_the_length_of_a_position_is_written_by_its_components(bars, axes):
+    kinetic = " + ".join(f"{axis}'^2" for axis in axes)
+    squares = " + ".join(f"{axis}^2" for axis in axes)
+    coordinates = f"[{', '.join(axes)}]"
+    hint = only_mistake(text(coordinates=coordinates, T=f"m*({kinetic})/2", V=f"-k/{bars}")).hint
+    assert hint == f"write -k/sqrt({squares})"
+    coordinates = f"[{', '.join(axes)}, r]"
+    read = text(coordinates=coordinates, T=f"m*({kinetic} + r'^2)/2", V="-k/|r|")
+    assert only_mistake(read).hint == "write -k/abs(r)"
+
+
+@pytest.mark.parametrize("angle", ["phi", "theta", "φ"])
+@pytest.mark.parametrize("radius", ["r", "rho", "s"])
+@pytest.mark.parametrize("before", ["v", "v_"])
+def test_the_speed_along_an_angle_is_no_angular_velocity(angle, radius, before):
+    polar = text(
+        coordinates=f"[{radius}, {angle}]", T=f"m*({radius}'^2 + {before}{angle}^2)", V=None
+    )
+    hint = only_mistake(polar).hint
+    assert hint == f"the speed along {angle} is {radius}*{angle}'"
+    alone = text(coordinates=f"[{angle}]", T=f"m*{before}{angle}^2/2", V=None)
+    assert only_mistake(alone).hint == f"write m*{angle}'^2/2"
+
+
+@pytest.mark.parametrize("form", ["{}dot", "{}_dot", "d{}", "v_{}", "{}_t"])
+@pytest.mark.parametrize("name", ["x", "theta", "q_1"])
+def test_a_velocity_among_the_coordinates_is_pointed_out_once(form, name):
+    rate = form.format(name)
+    written = text(coordinates=f"[{name}, {rate}]", T=f"m*{rate}^2/2", V=f"k*{name}^2")
+    assert only_mistake(written).hint == f"leave it out, and write {name}'"
+    moving = text(coordinates=f"[{name}, {rate}]", T=f"m*({name}'^2 + {rate}'^2)/2", V=None)
+    assert messages(moving) == []
+
+
+@pytest.mark.parametrize("parameter", ["eps", "ε", "s", "delta"])
+def test_a_change_without_its_small_parameter(parameter):
+    plane = {"coordinates": "[x, y]", "T": "m*(x'^2 + y'^2)/2"}
+    written = f"{{turn: {{x: {parameter}*(-y), y: {parameter} * x}}}}"
+    assert only_mistake(text(**plane, symmetries=written)).hint == "write {x: (-y), y: x}"
+    alone = f"{{shift: {{x: {parameter}}}}}"
+    assert only_mistake(text(**plane, symmetries=alone)).hint == "write {x: 1}"
+    declared = text(**plane, parameters=f"[m, k, {parameter}]", symmetries=alone)
+    assert messages(declared) == []
+
+
+def test_attributes_that_begin_where_their_name_begins_are_one_mistake():
+    found = only_mistake(text(parameters="\n  m:\n  value: 1\n  unit: kg\n  k: 2"))
+    assert (found.span.line, found.span.column) == (4, 3)
+    assert found.hint == "begin the line with more blanks"
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_coordinates_with_numbers_have_their_state_under_initial(seed):
+    draw = random.Random(seed)
+    names = draw.sample(["x", "y", "phi", "q_1", "s"], draw.randrange(2, 4))
+    given = ", ".join(f"{name}: {draw.choice(['0', '0.5', '-1'])}" for name in names)
+    kinetic = " + ".join(f"{name}'^2" for name in names)
+    found = only_mistake(text(coordinates=f"{{{given}}}", T=kinetic, V=None, parameters=None))
+    assert found.hint == f"write [{', '.join(names)}], and below it initial: {{{given}}}"
+
+
+ANSWERS = [
+    (text(expect="{modes: omega^2 = k/m}"), "write [sqrt(k/m)]"),
+    (text(expect="{modes: omega = sqrt(k/m)}"), "write [sqrt(k/m)]"),
+    (text(expect="{equilibria: [{at: {x: 0}, stable: unstable}]}"), "write no"),
+    (text(expect="{equilibria: [{at: {x: 0}, stable: stable}]}"), "write yes"),
+    (text(expect="{equilibria: [0, 1]}"), "write {at: {x: 0}}"),
+    (text(expect="{trajectory: x(t) = cos(t)}"), "write {x: cos(t)}"),
+    (text(U="m*x"), "it is one sum: write V: k*x^2/2 + m*x"),
+    (text(initial="at rest"), "what is not given is 0"),
+    (text(initial="{x(0): 1, x(10): 0}"), "that at t = 0"),
+    (text(forces="{x: cos(k*T)}"), "the time is t"),
+    (text(V="m*<x>"), "group with parentheses ( ), without '<' and '>'"),
+    (text(V="k*x^2 > 0"), "(1 + sign(x))/2 is 1 for x > 0"),
+    (text(V="-m*g.r"), "by its components"),
+    (text(T="m*[x' k]*[x' k]"), "by its components"),
+    (text(T="m/2*sum_i x_i'^2"), "write each term"),
+    (text(T="m*x'^2/2 (kinetic energy)"), "a comment begins with '#'"),
+    (text(constraints="{rope: x = const}"), "a constant has a name and a value"),
+    (text(points="{O: {position: [0]}, P: {position: [x], mass: m}}", T=None), "{places: {O: [0]}}"),
+    (text(points="{P: {position: [x*e_r], mass: m}}"), "[r*cos(phi), r*sin(phi)]"),
+    (text(points="{P: {position: 'x \\hat{r}', mass: m}}"), "[r*cos(phi), r*sin(phi)]"),
+    (text(simulation="{times: [0, 1, 5]}"), "the key is until; a motion begins at t = 0: write 5"),
+    (text(observables="{A: x*x' + x'^2}"), "has momenta p_x, no velocities"),
+    (text(functions="{U(x): k*x^2}", V="U(x)"), "under definitions: U: k*x^2"),
+    (text(find="{a: what is the largest x?}"), "{where: x' = 0, for: x}"),
+    (text(coordinates="{x: {mass: m}}"), "a constant stands under parameters"),
+    (text(parameters="{m: {real: True}, k: 2}"), "every quantity is real"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("written", "hint"), ANSWERS)
+def test_an_answer_or_a_state_in_other_words(written, hint):
+    assert hint in messages(written)[-1]
+    assert len(messages(written)) == (2 if "x(10)" in written else 1)

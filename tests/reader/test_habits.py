@@ -243,7 +243,7 @@ HABITS = [
     (text(V="U(x)", functions="U(x)"), "write {U: [x]}"),
     (text(V="U(x)", functions="[U]"), "write {U: [r]"),
     (text(V="U(x)", functions="{U: k*x^2}"), "under definitions: U: k*x^2"),
-    (text(V="U(x)", functions="{U(x): k*x^2}"), "write U"),
+    (text(V="U(x)", functions="{U(x): k*x^2}"), "under definitions: U: k*x^2"),
     (text(definitions="{f(x): x^2}"), "write f"),
     (text(constraints="{rod: x^2 + 1 <= 2}"), "as in floor: x^2 + 1 <= 2"),
     (text(constraints="{rod: x != 1}"), "write an equation with '='"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
+from math import factorial
 from typing import NamedTuple
 
 from lagcli.reader.foreign.tokens import SIGNS, Token, prepared, tokens
@@ -153,6 +154,9 @@ class Sums(ABC):
             elif token is not None and token.kind == "raised" and not fraction(token.text):
                 self.at += 1
                 base = _raise(base, raised(token.text))
+            elif token is not None and token.text == "!" and re.fullmatch(r"1?\d", base.text):
+                self.at += 1
+                base = Part(str(factorial(int(base.text))), 3)
             elif token is not None and base.level == 3 and token.text in _BEHIND:
                 self.at += 1
                 base = Part(base.text + _BEHIND[token.text], 1 if _BEHIND[token.text] else 3)

@@ -44,6 +44,12 @@ _SPEED = re.compile(
 #: The square of a position: \\vec{r}^2, |\\mathbf{r}|^2.
 _DISTANCE = re.compile(r"\|?\\(?:vec|mathbf)\s*\{?r\}?\|?\s*(?:(?:\^|\*\*)\s*\{?2\}?|²)(?!\w)")
 _RATE_OF_VECTOR = re.compile(r"\\dot\s*\{?\s*\\(?:vec|mathbf)\s*\{?r\}?\s*\}?(?=\s*[\^²*])")
+#: A remark behind a formula, a row of a matrix, the brackets of a mean.
+_NO_FORMULA = re.compile(
+    r"\(\s*[^\W\d]{3,}(?:\s+[^\W\d]+)+\s*\)\s*$|\[\s*[\w'.]+(?:\s+[-\w'.]+)+\s*\]|<[^<>=]+>"
+)
+#: The length of a position: |r|, ||r||, |\\vec{r}|.
+_LENGTH = re.compile(r"(?:\\?\|){1,2}\s*(?:\\(?:vec|mathbf)\s*)?\{?r\}?\s*(?:\\?\|){1,2}")
 #: `self.` before a name.
 _OWNER = re.compile(r"\b([A-Za-z]\w*)\.(?=[A-Za-z_](?!iff\b))")
 
@@ -63,6 +69,8 @@ def prepared(text: str, names: Vocabulary) -> str:
     behind = re.search(r"\[([^\[\]]+)\]\s*$", text)
     if behind and unit_behind(f"1 {behind[1]}"):
         raise Unclear  # m*g*y [J]
+    if _NO_FORMULA.search(text):
+        raise Unclear
     text = "".join(map(_on_the_keyboard, _RATE_OF_VECTOR.sub(r"\\vec{v}", text)))
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
     text = re.sub(r"(?<=\w)//(?=\w)", "/", re.sub(r"\s\.\s", " * ", text).strip(" =").rstrip(";,"))
@@ -86,6 +94,9 @@ def _square_of_speed(text: str, names: Vocabulary) -> str:
     for pattern, prime in ((_SPEED, "'"), (_DISTANCE, "")):
         squares = " + ".join(f"{x}{prime}^2" for x in names.coordinates)
         text = pattern.sub(f" ({squares}) ", text)
+    if "r" not in names.known:
+        squares = " + ".join(f"{x}^2" for x in names.coordinates)
+        text = _LENGTH.sub(f" sqrt({squares}) ", text)
     return text
 
 

@@ -13,6 +13,8 @@ from lagcli.reader.habits import is_angle, meanings
 from lagcli.reader.suggest import alike
 
 _DOTS = {"\u0307": 1, "\u0308": 2}
+#: Before a coordinate; the speed along an angle is r theta', where there is an r.
+_SPEEDS = ("v", "v_")
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 #: Letters that are a velocity of the only coordinate: v of x, ω of an angle.
 VELOCITIES = frozenset({"v", "velocity", "speed", "omega", "ω"})
@@ -108,11 +110,12 @@ def function_named(word: str, names: Vocabulary) -> str:
 
 def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
     """`x` and 1 for xdot, dx, vx, v_x, omega and the like."""
+    radial = any(x.partition("_")[0] in {"r", "rho", "ρ", "s"} for x in names.coordinates)
     found = {
         (x, order)
         for x in names.dependent
         for order, forms in enumerate(_rates(x), start=1)
-        if word in forms
+        if word in forms and not (radial and is_angle(x) and word in {p + x for p in _SPEEDS})
     }
     if len(names.coordinates) == 1:
         (x,) = names.coordinates
@@ -135,7 +138,7 @@ def _rates(x: str) -> tuple[set[str], set[str]]:
     """How others write x' and x''."""
     stem, _, index = x.partition("_")
     first = {f"{x}{dot}" for dot in ("dot", "_dot", "_d", "d", "p", "_t", "Dot", "_prime")}
-    first |= {f"{dot}{x}" for dot in ("d", "v", "v_", "D", "d_", "dot_", "dot")}
+    first |= {f"{dot}{x}" for dot in ("d", "D", "d_", "dot_", "dot", *_SPEEDS)}
     second = {f"{x}{dot}" for dot in ("ddot", "_ddot", "dd", "_dd", "pp", "_tt")}
     second |= {f"{dot}{x}" for dot in ("dd", "a", "a_", "ddot_", "ddot")}
     if index:
