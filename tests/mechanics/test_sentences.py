@@ -199,7 +199,7 @@ def test_what_the_constraints_eliminate_is_named_before_none_is_cyclic():
     )
     sentences = said(text, "The reduction", "reduction")
     assert "used to eliminate" in sentences
-    assert "No other coordinate is cyclic" in sentences
+    assert "None of the other coordinates is cyclic" in sentences
 
 
 # -- turning points -------------------------------------------------------------------------------
