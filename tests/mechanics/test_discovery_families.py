@@ -300,3 +300,25 @@ L: (x'^2 + y'^2)/2 + {letter}*(x*y' - y*x') - g*(x^2 + y^2)/2
 """).discovery
     )
     assert (found.dimension, found.independent) == (8, 4)
+
+
+OBLIQUE = ["5 1 1", "3 2 4", "0 1 0", "2 -1 3"]
+
+
+@pytest.mark.parametrize("inertia", OBLIQUE)
+def test_free_motion_in_oblique_coordinates_has_the_eight_of_rectangular_ones(inertia):
+    """The rotation is a combination of two dilations, whose charges depend on the time."""
+    a, b, c = map(int, inertia.split())
+    L = f"({a}*x'^2 + ({2 * b})*x'*y' + {c}*y'^2)/2"
+    found = derive(f"{{coordinates: [x, y], L: {L}}}").discovery
+    assert len(found.charges) == 8, [charge.name for charge in found.charges]
+    assert len(found.fixed_charges) == 4
+    assert summary(found).closed
+
+
+def test_a_damped_pair_has_no_charge_twice_where_its_damping_is_critical():
+    """Bateman, Phys. Rev. 38 (1931) 815; in u = e^(g t) x and v = e^(-g t) y it is free."""
+    L = "x'*y' + g*(x*y' - y*x') - g^2*x*y"
+    found = derive(f"{{coordinates: [x, y], parameters: {{g: {POS}}}, L: {L}}}").discovery
+    assert len(found.charges) == 8, [charge.name for charge in found.charges]
+    assert summary(found).dimension == 8

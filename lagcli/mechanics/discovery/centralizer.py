@@ -5,7 +5,8 @@ difference; the basis with fewest entries has a mixture.  Where a combination wi
 time-independent rotations commutes with all translations, it is taken instead: with the
 components Y X_a of a displacement Y along Cartesian X_a, those of P are constant, and [Y, P] = 0
 is P (Y X_a) = 0.
-Likewise the charges p_i - F_i t of a uniform force have combinations without the time.
+Likewise the charges p_i - F_i t of a uniform force have combinations without the time, and so have
+two dilations of a free point in oblique coordinates, their rotation.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.listing import times
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.noether import NoetherCharge, Transformation
@@ -90,12 +92,9 @@ def _sparser(turn: Transformation, central: Transformation, system: System) -> T
 def without_time(
     charges: Sequence[NoetherCharge], system: System, allowed: Allowance
 ) -> list[NoetherCharge]:
-    """The same space of charges, with combinations of those of displacements that have no t."""
+    """The same space of charges, with combinations that have no t."""
     t, result = system.t, list(charges)
-    chosen = [
-        k for k, c in enumerate(result)
-        if t in c.charge.free_symbols and c.transformation.displaces_without([t])
-    ]  # fmt: skip
+    chosen = [k for k, c in enumerate(result) if t in c.charge.free_symbols]
     if len(chosen) < 2:
         return result
     rates = [[result[k].charge.diff(t)] for k in chosen]
@@ -103,20 +102,35 @@ def without_time(
         if len(values) > 1:
             factors = scaled(list(values.values()), set(system.parameters))
             parts = [result[chosen[i]] for i in values]
-            result[chosen[max(values)]] = _combined(parts, factors)
+            result[chosen[max(values)]] = _combined(parts, factors, set(system.parameters))
     return result
 
 
-def _combined(charges: Sequence[NoetherCharge], factors: Sequence[Expr]) -> NoetherCharge:
-    """The sum of multiples of charges of displacements."""
+def _combined(
+    charges: Sequence[NoetherCharge], factors: Sequence[Expr], constants: set[Symbol]
+) -> NoetherCharge:
+    """The sum of multiples of charges, with short coefficients."""
 
     def total(values: Sequence[Expr | None]) -> Expr:
         return sympy.expand(dot(factors, [x or sympy.S.Zero for x in values]))
 
-    columns = zip(*(c.transformation.changes for c in charges), strict=True)
-    return replace(
-        charges[-1],
-        transformation=Transformation(tuple(total(column) for column in columns), sympy.S.Zero),
-        gauge=total([c.gauge for c in charges]),
-        charge=total([c.charge for c in charges]),
+    given = [c.transformation for c in charges]
+    changes = [total(column) for column in zip(*(x.changes for x in given), strict=True)]
+    whole = [*changes, total([x.time for x in given])]
+    factor = next(
+        (
+            simplify(new / old)
+            for new, old in zip(scaled(whole, constants), whole, strict=True)
+            if old
+        ),
+        sympy.S.One,
+    )
+    return times(
+        replace(
+            charges[-1],
+            transformation=Transformation(tuple(changes), whole[-1]),
+            gauge=total([c.gauge for c in charges]),
+            charge=total([c.charge for c in charges]),
+        ),
+        factor,
     )
