@@ -392,9 +392,12 @@ def test_the_time_integral_has_the_potential_as_it_is_printed(inertia: str, V: s
 
 
 @pytest.mark.parametrize(("V", "to_and_fro"), [("-k*x^2", False), ("b*x", False), ("k*x^4", True),
-                                              ("k*abs(x)", True), ("k*x^4 - k*x^2", True)])  # fmt: skip
+                                              ("k*abs(x)", True), ("k*x^4 - k*x^2", True),
+                                              ("b*x - k*sin(a)^2*x^2", False),
+                                              ("b*x + k*sin(a)^2*x^2", True)])  # fmt: skip
 def test_a_period_is_stated_where_the_motion_may_come_back_twice(V: str, to_and_fro: bool):
-    text = f"{{coordinates: [x], parameters: {{k: POSITIVE, b: POSITIVE}}, T: x'^2/2, V: {V}}}"
+    parameters = "{k: POSITIVE, b: POSITIVE, a: }"
+    text = f"{{coordinates: [x], parameters: {parameters}, T: x'^2/2, V: {V}}}"
     one = reduced(text)[0].one_freedom
     assert one is not None
     assert one.oscillates is to_and_fro

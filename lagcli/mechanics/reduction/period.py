@@ -95,8 +95,10 @@ class Periods:
         if rest.points is None or not rest.complete or motion.negative or rest.is_of_one_turn:
             return False
         curvature = motion.potential.diff(motion.q, 2)
-        slopes = (at(curvature, point.values) for point in rest.points)
-        return all(sign(simplify(slope)) == -1 for slope in slopes)
+        return all(
+            sign(simplify(at(curvature, point.values)), point.positive) == -1
+            for point in rest.points
+        )
 
     @cached_property
     def series(self) -> tuple[AmplitudeSeries, ...]:
