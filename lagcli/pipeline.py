@@ -186,17 +186,19 @@ def state(derivation: Derivation, request: Request) -> Answers:
 
 
 def _with_roots(problem: Problem, answers: Answers) -> Answers:
-    """With r for sqrt(x² + y²), where the file defines r so."""
-    from lagcli.mechanics.named_definitions import NamedRoots
+    """With r for sqrt(x² + y²) and mu for m1 m2/(m1 + m2), where the file defines them so."""
+    from lagcli.mechanics.named_definitions import NamedConstants, NamedRoots
     from lagcli.notation.letters import names_in
     from lagcli.rewriting import rewritten
 
-    roots = NamedRoots(problem)
-    if not roots:
+    sections = answers.sections
+    for names in NamedRoots(problem), NamedConstants(problem):
+        sections = rewritten(sections, names) if names else sections
+    if sections is answers.sections:
         return answers
-    answers = replace(answers, sections=rewritten(answers.sections, roots))
-    used = roots.named(problem, names_in(answers.sections))
-    return replace(answers, named={**answers.named, **used})
+    used = names_in(sections)
+    named = {name: node for name, node in problem.definitions.items() if name in used}
+    return replace(answers, sections=sections, named={**answers.named, **named})
 
 
 def _with_charges(derivation: Derivation, answers: Answers) -> Answers:
@@ -279,11 +281,12 @@ def explain(
 
     account = _ended(lambda: explanation(derivation, also))
     if named and derivation.given.definitions:
-        from lagcli.mechanics.named_definitions import NamedRoots
+        from lagcli.mechanics.named_definitions import NamedConstants, NamedRoots
         from lagcli.rewriting import rewritten
 
-        roots = NamedRoots(derivation.given)
-        account = replace(account, steps=rewritten(account.steps, roots)) if roots else account
+        for names in NamedRoots(derivation.given), NamedConstants(derivation.given):
+            if names:
+                account = replace(account, steps=rewritten(account.steps, names))
     return _in_the_manner(derivation, _confirmed(derivation, account, also))
 
 

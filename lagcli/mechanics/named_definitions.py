@@ -3,22 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from fractions import Fraction
 from itertools import chain, combinations
+from math import prod
 
 from sympy import Expr, S
 
 from lagcli.algebra.build import Builder, symbol
 from lagcli.algebra.generic_rank import has_full_rank
 from lagcli.algebra.signs import sign
-from lagcli.expression import Call, Expression, Name, Number, Power, walk
-from lagcli.notation.factors import half_of
-from lagcli.notation.likeness import Polynomial, multiplied_out
+from lagcli.expression import (
+    ONE,
+    Call,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    product_of,
+    quotient_of,
+    walk,
+)
+from lagcli.notation.factors import half_of, parts_of, whole_power
+from lagcli.notation.given_formulas import is_constant
+from lagcli.notation.likeness import Monomial, Polynomial, multiplied_out
 from lagcli.problem_data import Assumption, Parameter, Problem
 from lagcli.record import replace
 from lagcli.rewriting import expressions_in, rebuilt
 
 _ASIDE = ("source", "definitions", "parameters", "coordinates", "functions", "expect", "named",
           "simulation", "picture")  # fmt: skip
+_ONE = Fraction(1)
 _MOST = 5  # definitions of constants among which those to be kept are looked for
 _SIGNS: dict[int | None, Assumption] = {1: "positive", -1: "negative"}
 
@@ -29,7 +47,7 @@ def with_named_constants(problem: Problem) -> Problem:
     What they are made of occurs nowhere else, and they are independent of each other: their
     values are then as arbitrary as those of parameters.
     """
-    constants = [name for name in problem.definitions if _is_constant(problem, name)]
+    constants = [name for name in problem.definitions if is_constant(problem, name)]
     if not constants or len(constants) > _MOST:
         return problem
     sizes = range(len(constants), 0, -1)
@@ -42,13 +60,11 @@ def with_named_constants(problem: Problem) -> Problem:
     return problem
 
 
-def _is_constant(problem: Problem, name: str) -> bool:
-    """Whether a definition holds parameters and no variables."""
-    names = {part.name for part in walk(problem.definitions[name]) if isinstance(part, Name)}
-    parameters = {p.name for p in problem.parameters}
-    known = all(n in parameters or (n in problem.definitions and _is_constant(problem, n))
-                for n in names - {"pi"})  # fmt: skip
-    return known and bool(names - {"pi"})
+def _is_mass(problem: Problem, name: str) -> bool:
+    """Whether a definition is that of a reduced or a total mass."""
+    whole = walk(_without(problem, Name(name), {}))
+    names = [name, *(part.name for part in whole if isinstance(part, Name))]
+    return all(each[0] in "mM" for each in names)
 
 
 def _used(problem: Problem, chosen: tuple[str, ...]) -> set[str]:
@@ -71,7 +87,7 @@ def _values(problem: Problem, names: list[str]) -> dict[str, Expr] | None:
     build = Builder(parameters, arities, lambda _: S.Zero, lambda _: ValueError())
     try:
         for name, formula in problem.definitions.items():
-            if _is_constant(problem, name):
+            if is_constant(problem, name):
                 build.names[name] = build(formula)
     except (ArithmeticError, ValueError):
         return None
@@ -128,15 +144,166 @@ class NamedRoots:
         match node:
             case Call(function="sqrt", arguments=(inner,)) if name := self._name(inner):
                 return Name(name)
-            case Power(base=base, exponent=exponent) if (half := half_of(exponent)) is not None:
-                if name := self._name(base):
-                    return Power(Name(name), Number(2 * half))
+            case Power(base=base, exponent=exponent) if name := self._name(base):
+                power = half_of(exponent)
+                if power is None and isinstance(exponent, Number):
+                    power = exponent.value
+                if power is not None:
+                    return Power(Name(name), Number(2 * power))
+            case Quotient(numerator=above, denominator=below):
+                return Quotient(self._within(above), self._below(below))
         return rebuilt(node, self._within)
+
+    def _below(self, node: Expression) -> Expression:
+        """m r² for m (x² + y²), which is divided by."""
+        name = self._name(node) if isinstance(node, Sum) else ""
+        if name:
+            return Power(Name(name), Number(Fraction(2)))
+        return rebuilt(node, self._below) if isinstance(node, Product) else self._within(node)
 
     def _name(self, node: Expression) -> str:
         value = multiplied_out(node)
         return next((name for known, name in self._found if known == value), "")
 
-    def named(self, problem: Problem, used: set[str]) -> dict[str, Expression]:
-        """The definitions whose names are used."""
-        return {name: problem.definitions[name] for _, name in self._found if name in used}
+
+class NamedConstants:
+    """mu for m1 m2/(m1 + m2), M for m1 + m2, where m1, m2 occur elsewhere, too.
+
+    Definitions of masses, and others that the physics of the file uses.  The derivation has them
+    written out.  A term is looked at as a whole, so that the reciprocal and powers are found:
+    (m1 + m2) p²/(2 m1 m2) is p²/(2 mu).
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self._fractions: dict[str, tuple[Fraction, Mapping[Key, int]]] = {}
+        self._sums: list[tuple[Polynomial, str]] = []
+        constants = [name for name in problem.definitions if is_constant(problem, name)]
+        used = _used(problem, tuple(constants))
+        for name in constants:
+            if name not in used and not _is_mass(problem, name):
+                continue
+            whole = _without(problem, Name(name), {})
+            number, powers = _powers_of(whole)
+            if len(powers) > 1 and any(len(key) > 1 for key in powers):
+                self._fractions[name] = number, powers
+            elif isinstance(whole, Sum) and (value := multiplied_out(whole)) and len(value) > 1:
+                self._sums.append((value, name))
+
+    def __bool__(self) -> bool:
+        return bool(self._fractions or self._sums)
+
+    def __call__(self, node: Expression) -> Expression:
+        """The formula with the names."""
+        return self._with_sums(self._with_fractions(node))
+
+    def _with_fractions(self, node: Expression) -> Expression:
+        node = rebuilt(node, self._with_fractions)
+        if isinstance(node, (Product, Quotient, Sum)):
+            for name, (number, powers) in self._fractions.items():
+                whole = _with_fraction(node, name, number, powers)
+                node = node if whole is None else whole
+        return node
+
+    def _with_sums(self, node: Expression) -> Expression:
+        if isinstance(node, Sum) and self._sums:
+            value = multiplied_out(node)
+            if name := next((name for known, name in self._sums if known == value), ""):
+                return Name(name)
+        return rebuilt(node, self._with_sums)
+
+
+#: The terms of a base without their common number.
+Key = frozenset[tuple[Monomial, Fraction]]
+
+
+def _powers_of(node: Expression) -> tuple[Fraction, dict[Key, int]]:
+    """The number and the exponents of the bases of a product or quotient."""
+    minus, above, below = _parts_of(node)
+    number, powers = Fraction(-1 if minus else 1), dict[Key, int]()
+    for sign_, factors in (1, above), (-1, below):
+        for base, exponent in map(whole_power, factors):
+            content, key = _key(base)
+            number *= content ** (sign_ * exponent)
+            if key:
+                powers[key] = powers.get(key, 0) + sign_ * exponent
+    return number, {key: exponent for key, exponent in powers.items() if exponent}
+
+
+def _parts_of(node: Expression) -> tuple[bool, list[Expression], list[Expression]]:
+    """As `parts_of`, with (m1 + m2)/(m1 m2) for the factor 1/m1 + 1/m2."""
+    minus, above, below = parts_of(node)
+    found: list[list[Expression]] = [[], []]
+    for side, factors in enumerate((above, below)):
+        for factor in factors:
+            sums, under = _over_letters(factor)
+            found[side].append(sums)
+            found[1 - side] += under
+    return minus, found[0], found[1]
+
+
+def _over_letters(node: Expression) -> tuple[Expression, list[Expression]]:
+    """A sum of fractions as a sum and the letters below it; anything else as it is."""
+    if not isinstance(node, Sum):
+        return node, []
+    terms = [parts_of(term) for term in node.terms]
+    under = list(dict.fromkeys(factor for _, _, below in terms for factor in below))
+    if not under or not all(isinstance(each, Name) for each in under):
+        return node, []
+    whole = [
+        product_of((*above, *(u for u in under if u not in below))) for _, above, below in terms
+    ]
+    signs = (minus for minus, _, _ in terms)
+    return Sum(tuple(Negative(w) if m else w for m, w in zip(signs, whole, strict=True))), under
+
+
+def _key(base: Expression) -> tuple[Fraction, Key]:
+    """The number before a base and the base without it; no base of a number."""
+    terms = multiplied_out(base)
+    if not terms or frozenset() in terms:
+        known = terms and len(terms) == 1
+        return (terms[frozenset()], frozenset()) if known and terms else (_ONE, _alone(base))
+    content = min((c for c in terms.values()), key=abs) if len(terms) > 1 else _ONE
+    if len(terms) == 1:
+        (content,) = terms.values()
+    return content, frozenset((term, c / content) for term, c in terms.items())
+
+
+def _alone(base: Expression) -> Key:
+    return frozenset({(frozenset({(repr(base), 1)}), _ONE)})
+
+
+def _with_fraction(
+    node: Expression, name: str, number: Fraction, powers: Mapping[Key, int]
+) -> Expression | None:
+    """The term with name^k for (number · product of powers)^k; None where it does not occur."""
+    _, there = _powers_of(node)
+    ratios = [Fraction(there.get(key, 0), exponent) for key, exponent in powers.items()]
+    if not (all(r >= 1 for r in ratios) or all(r <= -1 for r in ratios)):
+        return None
+    k = int(min(ratios, key=abs))  # towards 0
+    minus, above, below = _parts_of(node)
+    left = {key: k * exponent for key, exponent in powers.items()}
+    count = Fraction(-1 if minus else 1) / number**k
+    kept: list[list[Expression]] = [[], []]
+    for side, sign_, factors in (0, 1, above), (1, -1, below):
+        for factor in factors:
+            base, exponent = whole_power(factor)
+            content, key = _key(base)
+            if not left.get(key, 0) * sign_ > 0:
+                kept[side].append(factor)
+                continue
+            taken = min(exponent, left[key] * sign_)
+            left[key] -= taken * sign_
+            count *= content ** (sign_ * taken)
+            if exponent > taken:
+                rest = Number(Fraction(exponent - taken))
+                kept[side].append(base if rest == ONE else Power(base, rest))
+    power = Name(name) if abs(k) == 1 else Power(Name(name), Number(Fraction(abs(k))))
+    kept[0 if k > 0 else 1].insert(0, power)
+    for side, value in enumerate((abs(count.numerator), count.denominator)):
+        numbers = [f for f in kept[side] if isinstance(f, Number)]
+        whole = value * prod((f.value for f in numbers), start=_ONE)
+        rest_ = [f for f in kept[side] if not isinstance(f, Number)]
+        kept[side] = [Number(whole), *rest_] if whole != 1 else rest_
+    found = quotient_of(kept[0] or [ONE], kept[1])
+    return Negative(found) if count < 0 else found

@@ -53,6 +53,14 @@ def order_of_parameters(problem: Problem) -> list[str]:
     that is no mass.
     """
     names = [parameter.name for parameter in problem.parameters]
+    constants = {
+        name: {part.name for part in walk(node) if isinstance(part, Name)}
+        for name, node in problem.definitions.items()
+        if is_constant(problem, name)
+    }
+    for name, made_of in constants.items():  # mu before m1 and m2, others after what they are of
+        places = [k for k, other in enumerate(names) if other in made_of]
+        names.insert(places[0] if name[0] in "mM" else places[-1] + 1, name)
     weight = names.index("g") if "g" in names else 0
     lead = [k for k, name in enumerate(names[:weight]) if name[0] in "mM"]
     if lead:
@@ -64,6 +72,8 @@ def order_of_parameters(problem: Problem) -> list[str]:
         letters = dict.fromkeys(name for name in row if name in names)
         pairs = (pair for pair in combinations(letters, 2) if pair[::-1] not in before)
         before.update((a, b) for a, b in pairs if not inner or a != "g" or b not in masses)
+    before |= {(a, c) for c, made_of in constants.items() for a, b in before
+               if b in made_of and a not in made_of and (c, a) not in before}  # fmt: skip
     ordered: dict[str, None] = {}
     begun: set[str] = set()
 
@@ -93,6 +103,15 @@ def _multiplied(node: Product) -> Iterator[list[str]]:
         for term in base.terms if isinstance(base, Sum) else ():
             parts = (term if part is factor else part for part in node.factors)
             yield [name for part in parts for name in _letters(part)]
+
+
+def is_constant(problem: Problem, name: str) -> bool:
+    """Whether a definition holds parameters and no variables."""
+    names = {part.name for part in walk(problem.definitions[name]) if isinstance(part, Name)}
+    parameters = {p.name for p in problem.parameters}
+    known = all(n in parameters or (n in problem.definitions and is_constant(problem, n))
+                for n in names - {"pi"})  # fmt: skip
+    return known and bool(names - {"pi"})
 
 
 def decimals_of(problem: Problem, settings: Iterable[str] = ()) -> list[Fraction]:

@@ -32,6 +32,21 @@ definitions:
 T: ((x' - y)^2 + (y' + x)^2)/2
 V: -(1 - mu)/r1 - mu/r2
 """
+# the same with its centre of mass: Landau and Lifshitz, Mechanics, 3rd ed., section 13
+WITH_CENTRE = """
+coordinates: {X: , Y: , r: {assume: positive}, phi: }
+parameters: {m1: {assume: positive}, m2: {assume: positive}, k: {assume: positive}, b: }
+definitions: {mu: m1*m2/(m1 + m2)}
+T: (m1 + m2)*(X'^2 + Y'^2)/2 + mu*(r'^2 + r^2*phi'^2)/2
+V: k*(r - b)^2/2
+"""
+# a charge beside a magnetic dipole: Stoermer
+DIPOLE = """
+coordinates: {rho: {assume: positive}, phi: , z: }
+parameters: {m: {assume: positive}, e: {assume: positive}, mu: {assume: positive}}
+definitions: {r: sqrt(rho^2 + z^2)}
+L: m*(rho'^2 + rho^2*phi'^2 + z'^2)/2 + e*mu*rho^2*phi'/r^3
+"""
 
 
 def problem_of(text):
@@ -66,7 +81,64 @@ def test_distances_keep_their_names():
     assert text.count("√") == 2  # the definitions themselves
 
 
-@pytest.mark.parametrize("text", [TWO_BODIES, THREE_BODIES])
+def test_a_reduced_mass_keeps_its_name_beside_the_masses():
+    text = text_of(answers_of(WITH_CENTRE, "equations", "hamiltonian", "steady_motions"))
+    assert "μ r̈ − μ r φ̇² + k (r − b) = 0" in text
+    assert "(m₁ + m₂) Ẍ " in text
+    assert "+ p_r²/(2 μ) + p_φ²/(2 μ r²)" in text
+    assert "φ̇   = √(k (r − b)/(μ r))" in text
+    assert "parameters m₁, m₂, k, b;" in text
+
+
+@pytest.mark.parametrize("definition", ["m*n/(m + n)", "1/(1/m + 1/n)", "m^2*n/(m + 2*n)"])
+@pytest.mark.parametrize("physics", ["T: mu*x'^2/2\nV: (m + n)*y*x", "T: m*x'^2/2\nV: y*x/mu^2",
+                                     "T: n*x'^2/2\nV: -mu*cos(x/mu)/2 + m*y"])  # fmt: skip
+def test_a_fraction_of_constants_keeps_its_name_with_its_value(definition, physics):
+    """With the reciprocal and the square, and 3 m n/(m + n) at random points."""
+    text = f"""
+coordinates: [x]
+parameters: {{m: {{assume: positive}}, n: {{assume: positive}}, y: {{assume: positive}}}}
+definitions: {{mu: {definition}}}
+{physics}
+"""
+    problem, chance = problem_of(text), random.Random(7)
+    one, other = (
+        answers_of(text, "lagrangian", named=named).sections["lagrangian"].lagrangian
+        for named in (True, False)
+    )
+    assert "mu" in {part.name for part in walk(one) if isinstance(part, Name)}
+    values = {name: chance.uniform(0.2, 0.9) for name in ("x", "x'", "m", "n", "y")}
+    assert value(problem, one, values) == pytest.approx(value(problem, other, values))
+
+
+def test_a_number_that_only_known_answers_use_is_written_out():
+    """Of masses the name is kept: they are what the problem is about."""
+    text = """
+coordinates: [x]
+parameters: {m: {assume: positive}, M: {assume: positive}, k: {assume: positive}}
+definitions: {mu: m*M/(m + M), w: k*(m + M)/(m*M)}
+T: m*M*x'^2/(2*(m + M))
+V: k*x^2/2
+expect: {modes: [sqrt(w)]}
+"""
+    told = text_of(answers_of(text, "lagrangian", "modes"))
+    assert "L = μ ẋ²/2" in told
+    assert "ω   = √(k/μ)" in told
+
+
+def test_a_sum_of_constants_keeps_its_name():
+    told = text_of(answers_of(WITH_CENTRE.replace("{mu:", "{M: m1 + m2, mu:"), "hamiltonian"))
+    assert "H = (p_X² + p_Y²)/(2 M) + p_r²/(2 μ)" in told
+    assert "M = m₁ + m₂" in told
+
+
+def test_even_powers_of_a_distance_have_its_name_too():
+    text = text_of(answers_of(DIPOLE, "reduction"))
+    assert text.count("ρ² + z²") == 1  # the definition itself
+    assert "/(m r⁸)" in text
+
+
+@pytest.mark.parametrize("text", [TWO_BODIES, THREE_BODIES, WITH_CENTRE, DIPOLE])
 @pytest.mark.first_quick
 def test_the_values_are_those_of_what_is_written_out(text):
     """Both answers at random points, the definitions evaluated by the file's own reader."""
