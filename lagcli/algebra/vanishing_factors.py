@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import sympy
 from sympy import Expr, Symbol
@@ -62,6 +62,13 @@ def divisors(product: Expr) -> set[Expr]:
     """What a product is divided by, in powers."""
     powers = (factor.as_base_exp() for factor in sympy.Mul.make_args(product))
     return {base for base, exponent in powers if exponent.is_negative}
+
+
+def squares_divided_by(values: Iterable[Expr]) -> list[Expr]:
+    """The squares of all that anything in the values is divided by: positive where they are."""
+    powers = {power for value in values for power in value.atoms(sympy.Pow)}
+    below = {power.base for power in powers if power.exp.is_negative and power.base.free_symbols}
+    return [d**2 for d in sorted(below, key=sympy.default_sort_key)]
 
 
 def _divides(product: Expr, factors: Sequence[Expr]) -> bool:

@@ -97,6 +97,22 @@ def test_a_blade_across_the_slope_is_not_without_a_force(seed):
     assert "no force" not in said(text, "Equilibria", "equilibria")
 
 
+@pytest.mark.parametrize("inertia", random.Random(17).sample(range(1, 9), 2))
+@pytest.mark.parametrize(
+    ("F", "where"), [("sin(b)", "where … ≠ 0"), ("g*b", "where b ≠ 0"), ("g + b^2", "")]
+)
+def test_a_slope_that_may_be_level_makes_a_blade_leave_where_there_is_one(F, where, inertia):
+    """s'' = F cos(phi) with F of the parameters alone: for F = 0 the blade is at rest anywhere."""
+    text = (
+        "{coordinates: [x, y, phi], parameters: {g: {assume: positive}, b: {}}, "
+        f"T: (x'^2 + y'^2)/2 + {inertia}*phi'^2/2, V: -x*({F}), "
+        "constraints: {blade: x'*sin(phi) = y'*cos(phi)}}"
+    )
+    told = said(text, "Equilibria", "equilibria")
+    verdict = f"Unstable {where}. Near" if where else "Unstable: near"
+    assert f"{verdict} it there are motions with a constant acceleration." in told
+
+
 @pytest.mark.parametrize("rate", ["W*x", "W*sin(x)", "W*x + W*y"])
 def test_a_constraint_that_moves_with_the_place_is_not_linearised(rate):
     """On y' = W x the velocities allowed depend on the displacement: K - w^2 M is not the motion."""
@@ -654,6 +670,19 @@ def test_a_steady_motion_is_not_stated_where_its_rates_divide_by_zero(power):
     text = f"{{coordinates: [x, y], parameters: [B, E, q], L: (x'^2 + y'^2)/2 - q*B^{power}*y*x' + q*E*y}}"
     told = said(text, "Steady motions", "steady_motions")
     assert "It is possible for B ≠ 0." in told
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_rate_that_a_sum_in_a_product_divides_by_is_not_0(seed):
+    """psi' = -(phi' + V'/(c phi'))/s: no value of psi' makes phi' = 0 steady where V' is not 0."""
+    source = random.Random(seed)
+    a, b = source.randint(1, 4), source.randint(1, 4)
+    text = (
+        "{coordinates: [phi, th, psi], parameters: {g: {assume: positive}}, "
+        f"T: {a}*th'^2/2 + {b}*phi'^2*sin(th)^2/2 + (psi' + phi'*cos(th))^2/2, V: g*sin(th)}}"
+    )
+    told = said(text, "Steady motions", "steady_motions")
+    assert "phi' ≠ 0" in told
 
 
 @pytest.mark.parametrize("n", random.Random(13).sample(range(1, 9), 2))

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from sympy import Add, Expr, Symbol, default_sort_key
+from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.place import at, lies_in
-from lagcli.algebra.vanishing_factors import divisors
+from lagcli.algebra.vanishing_factors import squares_divided_by
 from lagcli.mechanics.rest.family import Family
 from lagcli.record import record
 
@@ -49,9 +49,7 @@ class Steady:
     def known_positive(self) -> tuple[Expr, ...]:
         """What is positive there: `positive`, and the squares of what is divided by."""
         values = (*self.values.values(), *(self.rates or {}).values())
-        below = {d for value in values for term in Add.make_args(value) for d in divisors(term)}
-        squares = (d**2 for d in sorted(below, key=default_sort_key) if d.free_symbols)
-        return tuple(dict.fromkeys((*self.positive, *squares)))
+        return tuple(dict.fromkeys((*self.positive, *squares_divided_by(values))))
 
     def within(self, family: Steady, q: Sequence[Symbol]) -> bool:
         """Whether it is one of a family in which more coordinates are free."""

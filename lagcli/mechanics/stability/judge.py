@@ -29,7 +29,7 @@ from lagcli.mechanics.stability.lagrange_dirichlet import (
 from lagcli.mechanics.stability.lyapunov import FALLS, by_a_growing_root, falls
 from lagcli.mechanics.stability.near import Near
 from lagcli.mechanics.stability.roots import by_roots
-from lagcli.mechanics.stability.uniform import displaced_it_accelerates
+from lagcli.mechanics.stability.uniform import by_uniform_acceleration
 from lagcli.mechanics.stability.verdict import Stability, undecided, unstable
 from lagcli.record import replace
 
@@ -39,8 +39,6 @@ GRAZES = "nothing presses on the contact, which may open"
 DRIFTS = "a velocity constraint has a term without velocities that depends on the place"
 #: Of a system without a degree of freedom.
 EXCLUDED = "the constraints exclude every displacement"
-#: By an exact solution.
-ACCELERATES = "near it there are motions with a constant acceleration"
 _EVERYWHERE = "every position along them is an equilibrium, and the kinetic energy does not grow"
 _POWERS = "all roots are 0, and to first order displacements grow in proportion to a power of t"
 NO_MOTION = "the equations of motion are singular there"
@@ -147,7 +145,7 @@ def _judged(near: Near) -> Stability:
 def _without_roots(near: Near) -> Stability:
     """Where all roots are 0."""
     forced = any(x != 0 for row in near.linear.K for x in row)
-    if forced and displaced_it_accelerates(near.linear.dynamics):
-        return unstable(ACCELERATES)
+    if forced and (leaving := by_uniform_acceleration(near.linear.dynamics)):
+        return leaving
     found = by_higher_order(near) or by_both_sides(near)
     return found or undecided(_POWERS if forced else NO_FORCE)

@@ -3,32 +3,54 @@
 Where some coordinates c stay at rest once they rest, q_c'' = 0 for q_c' = 0, and then another
 acceleration depends on them only, a_j = g(q_c): beside a zero of g the velocity q_j' grows in
 proportion to t, in an exact solution.  A blade that is turned a little from across the slope
-begins to slide.
+begins to slide, where there is a slope: sin(alpha) is a factor of g that may be 0.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from sympy import Expr, S, Symbol
+from sympy import Expr, Mul, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.factors import factors_of
+from lagcli.algebra.signs import sign
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.stability.verdict import Stability, unstable
+
+#: By an exact solution.
+_ACCELERATES = "near it there are motions with a constant acceleration"
 
 
-def displaced_it_accelerates(dynamics: Dynamics) -> bool:
-    """Whether an exact solution leaves from beside any state in which no coordinate of c moves."""
+def by_uniform_acceleration(dynamics: Dynamics) -> Stability | None:
+    """Unstable, where an exact solution leaves from beside any state in which c does not move.
+
+    Where factors of the acceleration that no motion changes may be 0, it is so where they are not.
+    """
     motion, constraints = dynamics.motion, dynamics.constraints.equations
     if motion is None or any(is_zero(e.drift) is not True for e in constraints):
-        return False
+        return None
     q, qdot = dynamics.system.q, dynamics.system.qdot
+    state = (*q, *qdot, dynamics.system.t)
     found = motion.accelerations
     resting = [j for j in range(len(q)) if found[j].xreplace({qdot[j]: S.Zero}) == 0]
     fixed = [q[j] for j in resting if all(free_of(e.f, [q[j]]) for e in constraints if e.holonomic)]
     still = {qdot[j]: S.Zero for j in resting}
     others = [simplify(a.xreplace(still)) for j, a in enumerate(found) if j not in resting]
-    return any(_of_these_only(a, fixed, (*q, *qdot, dynamics.system.t)) for a in others)
+    leaving = [_may_be_zero(a, state) for a in others if _of_these_only(a, fixed, state)]
+    if not leaving:
+        return None
+    fewest = min(leaving, key=len)
+    if not fewest:
+        return unstable(_ACCELERATES)
+    return Stability(growing=Mul(*fewest) ** 2, reason=_ACCELERATES)
+
+
+def _may_be_zero(a: Expr, state: Sequence[Symbol]) -> list[Expr]:
+    """The factors of an acceleration that are constant and may be 0."""
+    factors = (factor for factor, power in factors_of(a) if power > 0 and free_of(factor, state))
+    return [factor for factor in factors if sign(factor) not in (1, -1)]
 
 
 def _of_these_only(a: Expr, fixed: Sequence[Symbol], state: Sequence[Symbol]) -> bool:

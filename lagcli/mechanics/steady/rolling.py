@@ -30,6 +30,7 @@ from lagcli.algebra.linear import rank, solve_linear
 from lagcli.algebra.place import NO_VALUE, at, lies_in
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
+from lagcli.algebra.vanishing_factors import squares_divided_by
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.minimal import integrated, minimal
 from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
@@ -37,10 +38,10 @@ from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.rest.exceptions import without_unknowns
 from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.mechanics.rest.rest_conditions import RestPoint
-from lagcli.mechanics.stability.judge import ACCELERATES, judge
+from lagcli.mechanics.stability.judge import judge
 from lagcli.mechanics.stability.roots import by_polynomial
-from lagcli.mechanics.stability.uniform import displaced_it_accelerates
-from lagcli.mechanics.stability.verdict import Stability, undecided, unstable
+from lagcli.mechanics.stability.uniform import by_uniform_acceleration
+from lagcli.mechanics.stability.verdict import Stability, undecided
 from lagcli.record import record
 
 _UNIFORM = "these velocities are constant in every motion"
@@ -54,6 +55,11 @@ class RollingMotion:
 
     values: Mapping[Symbol, Expr]
     positive: tuple[Expr, ...]
+
+    @property
+    def known_positive(self) -> tuple[Expr, ...]:
+        """What is positive there: `positive`, and the squares of what is divided by."""
+        return tuple(dict.fromkeys((*self.positive, *squares_divided_by(self.values.values()))))
 
 
 class RollingMotions:
@@ -314,9 +320,11 @@ class RollingMotions:
         if powers is None:
             found = undecided("the linearised equations were not found")
             return self._at_rest(motion, found) or found, ()
-        found, squares = by_polynomial(powers, motion.positive, dimension=self._dimension(motion))
-        if found.is_open and displaced_it_accelerates(self.dynamics):
-            return unstable(ACCELERATES), squares
+        found, squares = by_polynomial(
+            powers, motion.known_positive, dimension=self._dimension(motion)
+        )
+        if found.is_open and (leaving := by_uniform_acceleration(self.dynamics)):
+            return leaving, squares
         return self._by_energy(motion) or self._at_rest(motion, found) or found, squares
 
     def _at_rest(self, motion: RollingMotion, found: Stability) -> Stability | None:

@@ -81,9 +81,9 @@ def _motion(found: RollingMotions, motion: RollingMotion) -> SteadyMotion:
         free=tuple(s.name for s in free),
         rates={name: shaped(values.get(u, u)) for name, u in turning.items()},
         momenta={},
-        where=conditions(motion.positive, order),
+        where=conditions(motion.known_positive, order),
         mirrored=False,
-        verdict=stated(judged, order, motion.positive, potential=""),
+        verdict=stated(judged, order, motion.known_positive, potential=""),
         frequencies_squared=tuple(map(shaped, squares)),
         rolling=True,
     )
