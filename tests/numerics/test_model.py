@@ -64,6 +64,29 @@ def test_ignorable_are_the_cyclic_coordinates_with_a_conserved_momentum(name):
     assert set(model_section(problem).ignorable) == cyclic
 
 
+@pytest.mark.parametrize(
+    "acting",
+    [
+        "constraints: {c: x'*sin(phi) = y'*cos(phi)}",
+        "constraints: {c: x' = phi*y'}",
+        "constraints: {c: x' = sin(phi)}",
+        "forces: {x: -phi}",
+        "forces: {y: a*x'*cos(phi)}",
+        "dissipation: a*(2 + cos(phi))*x'^2/2",
+    ],
+)
+def test_a_cyclic_coordinate_on_which_forces_or_constraints_depend_is_not_ignorable(acting):
+    """Its momentum is conserved, but the motion of x and y depends on its value."""
+    problem = loads(f"""
+coordinates: [x, y, phi]
+parameters: {{a: {{assume: positive}}}}
+T: (x'^2 + y'^2 + phi'^2)/2
+V: a*x*y
+{acting}
+""")
+    assert model_section(problem).ignorable == ()
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("name", ["hoop", "pulleys/atwood"])
 def test_what_is_dropped_has_no_influence(name):

@@ -170,16 +170,21 @@ class _Model:
                 )
 
     def _is_ignorable(self, j: int) -> bool:
-        """Whether neither L, nor a force, nor a constraint depends on it, with what is solved."""
+        """Whether neither L, nor a force, nor a constraint depends on it, with what is solved.
+
+        So its momentum is conserved, and nothing depends on its value.
+        """
         e, reduction = self.equations, self.reduction
         q, zero = e.q[j], e.graph.zero
         moved = [j, *(s.coordinate for s in reduction.solved if s.formula.mask & q.mask)]
         if any(e.form.applied_forces[i] is not zero for i in moved):
             return False
-        place = reduction.kept.index(j)
-        if any(row.row[place] is not zero for row in reduction.rows().values()):
+        place, rows = reduction.kept.index(j), reduction.rows().values()
+        if any(row.row[place] is not zero for row in rows):
             return False
-        return vanish([partial(e.graph, q)(reduction.put(e.lagrangian))], e.form) is True
+        nodes = [reduction.put(node) for node in (e.lagrangian, *e.form.applied_forces)]
+        nodes += [node for row in rows for node in (row.drift, *row.row)]
+        return vanish([partial(e.graph, q)(node) for node in nodes], e.form) is True
 
     def _without_influence(self) -> Iterator[tuple[str, str]]:
         """The parameters that no equation of motion names, not even through others' values."""
