@@ -86,6 +86,7 @@ def declare_definitions(file: FileReader, node: DocumentNode) -> list[tuple[Scal
     if isinstance(node, Scalar | Sequence):
         lines = [node] if isinstance(node, Scalar) else node.items
         written = [each.value for each in lines if isinstance(each, Scalar)]
+        file.scope.refused.append("")
         hint = colon_advice(written[0]) if written else hint
         file.scope.refused += [line.partition("=")[0].strip() for line in written]
     if found := without_headings(node, ()):

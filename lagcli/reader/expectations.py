@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from lagcli.problem_data import Constraint, Contact, Expect, Inequality, Problem
 from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, size
 from lagcli.reader.scope import ANSWER, Role
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.trajectory import TrajectoryReader
@@ -75,6 +75,10 @@ class ExpectReader:
 
     def count(self, node: DocumentNode, name: str) -> int | None:
         """A whole number, 0 or more."""
+        if isinstance(node, Mapping | Sequence):
+            message = f"'{name}' is a whole number, 0 or more"
+            self.file.error(message, node.span, f"write {size(node)}")
+            return None
         text = self.file.scalar(node, f"'{name}'")
         if text is None:
             return None

@@ -331,7 +331,9 @@ class FileReader:
         stem = None if advice else key_of_stem(key.label, names)
         if stem and stem != closest(key.label, names):
             meant, hint = stem, f"the key is {stem}"
-        outer = key_meant(key.label, KEYS) if len(key.label) > 2 and not advice else None
+        known = {*names, *(f"{name}s" for name in names), *(name.rstrip("s") for name in names)}
+        is_outer = len(key.label) > 2 and not advice and key.label not in known
+        outer = key_meant(key.label, KEYS) if is_outer else None
         if outer is not None and what != "the problem":
             hint = f"a key of the problem: write {outer}: {source_of(value)} on a line of its own"
         plural = f"{key.label}s" in names

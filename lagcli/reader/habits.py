@@ -150,6 +150,11 @@ def colon_advice(line: str) -> str:
         return f"write {found[1]}: {value}"
     if re.search(r"[\w)][*/^+-]", line):
         return f"write L: {line.strip()}"
+    if (
+        re.fullmatch(r"\s*[^\W\d]\w*(?:\s+[^\W\d]\w*)*\s*", line)
+        and key_meant(line.strip(), KEYS) is None
+    ):
+        return f"a heading is a comment, which begins with '#': # {line.strip()}"
     return f"write {line.strip() or 'key'}: value"
 
 

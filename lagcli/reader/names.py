@@ -283,8 +283,9 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         yield Diagnostic(message, node.span, hint)
     elif not scope.refused or instead(name) or foreign_function(name):
         functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]
-        best = closest(name, functions)
-        hint = f"did you mean {best}(…)?" if best else "declare it under 'functions'"
+        best = "" if foreign_function(name) else closest(name, functions)
+        hint = "declare it under 'functions', or write its formula"
+        hint = f"did you mean {best}(…)?" if best else hint
         hint = instead(name) or hint
         yield Diagnostic(f"unknown function '{name}' in {what}", node.span, hint)
 

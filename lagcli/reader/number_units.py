@@ -30,6 +30,12 @@ def unit_mistake(
         return None
     number = text.partition(unit)[0].strip(" [(,;")
     hint = f"write {number}: numbers are in the units of the file"
+    factor, base = _in_base_units(unit)
+    if abs(factor - 1) > 1e-9 and number.count(".") < 2:
+        value = f"{float(number) * factor:.6g}"
+        hint = (
+            f"numbers are in the units of the file: write {number} with {unit}, {value} with {base}"
+        )
     if declared:
         hint = f"write {{value: {number}, unit: {unit}}}"
     elif unit in {"min", "h"}:
@@ -43,6 +49,26 @@ def unit_mistake(
     if unit in names:
         hint += f"; the product is {number}*{unit}"
     return f"the unit '{unit}' cannot stand behind a number", hint
+
+
+def _in_base_units(text: str) -> tuple[float, str]:
+    """The factor of a unit and the product of base units of the SI that it is a multiple of."""
+    from lagcli.units import Unit, UnitMistake, read_unit
+    from lagcli.units.table import meaning
+
+    try:
+        unit = read_unit(text)
+    except UnitMistake:
+        return 1.0, text
+    factor, powers = unit.number, dict[str, Fraction]()
+    for name, exponent in unit.factors:
+        meant = meaning(name)
+        if meant is None:
+            return 1.0, text
+        factor *= meant.factor ** float(exponent)
+        for base, power in meant.powers:
+            powers[base] = powers.get(base, Fraction(0)) + power * exponent
+    return factor, str(Unit(tuple((base, power) for base, power in powers.items() if power)))
 
 
 def run_mistake(text: str, option: str) -> tuple[str, str] | None:

@@ -36,6 +36,7 @@ def read_observables(file: FileReader, node: DocumentNode) -> dict[str, Expressi
     found = {}
     items = getattr(node, "items", [node])
     given = items[0].value.strip() if items and isinstance(items[0], Scalar) else ""
+    given = given if re.search(r"[-+*/^(]|^\w+$", given) else ""
     for key, value in file.entries(node, "observables", f"write A: {given or 'x*p_y - y*p_x'}"):
         what = f"the observable '{key.label}'"
         expression = file.expression(value, what, BRACKETED)

@@ -146,7 +146,9 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
         for argument in arguments:
             wrong = argument and name_mistake(argument.label)
             if argument and wrong and argument.label != "t":
-                file.error(wrong[0], argument.span, wrong[1])
+                is_formula = re.search(r"[-+*/^(]", argument.label)
+                hint = f"write r, and {key.label}({argument.label}) where it is used"
+                file.error(wrong[0], argument.span, hint if is_formula else wrong[1])
         if not arguments and isinstance(value, Sequence):
             file.error(f"'{key.label}' has no argument", value.span, "declare a parameter")
         functions[key.label] = tuple(argument.label for argument in arguments if argument)

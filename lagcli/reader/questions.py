@@ -170,6 +170,11 @@ def _where(
     file: FileReader, key: Scalar, where: DocumentNode, unknown: DocumentNode
 ) -> list[Question]:
     equation = file.equation(where, f"the question '{key.label}'", QUESTION)
+    if isinstance(unknown, Scalar) and unknown.value.strip().endswith("''"):
+        hint = "leave the question out: accelerations are found"
+        message = f"the acceleration {unknown.value.strip()} cannot stand in 'for'"
+        file.error(message, unknown.span, hint)
+        return []
     name = file.name(unknown, "'for'", _UNKNOWN)
     if name is None:
         return []

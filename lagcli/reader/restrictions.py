@@ -195,6 +195,9 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
                 continue
             file.expression(change, what, STATE)
             hint = did_you_mean(name.label, [*coordinates, "t", "gauge"])
+            bare = re.sub(r"^(?:d|delta_?|Delta_?|δ|Δ)(?=.)", "", name.label)
+            if bare in {*coordinates, "t"}:
+                hint = f"write {bare}, whose change it is"
             known = f"known are {', '.join(coordinates)}, t and gauge"
             file.error(message, name.span, hint or known)
         time, gauge = changes.pop("t", None), changes.pop("gauge", None)

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
 #: What begins with the character, and what is written instead.
 _MEANT = [
+    (r"\{\s*\w+\s*[-+]\s*\w+\s*\}", "every name in full, such as x_1"),
     (r"!=|:=", "write an equation with '='"),
     (
         r"\[[^\]]*[,;\[]|\\(?:vec|mathbf|boldsymbol|begin|end)",

@@ -22,6 +22,9 @@ def did_you_mean(name: str, known: Iterable[str], near: float = 0.6) -> str:
     """`did you mean 'theta'?`, or nothing when no known name is as `near`."""
     best = closest(name, known, near)
     named = [unicodedata.name(letter, "") for letter in best + name if letter in _CYRILLIC]
+    if not named and best and best != name and unicodedata.normalize("NFKC", name) == best:
+        letters = zip(best, name, strict=False)
+        named = [unicodedata.name(ours, "") for ours, its in letters if ours != its]
     shown = f", with the letter {named[0].capitalize()}" if named else ""
     return f"did you mean '{best}'{shown}?" if best else ""
 

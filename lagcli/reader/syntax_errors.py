@@ -73,6 +73,8 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
     if token.type == "COMPARISON":
         message = f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once"
         hint = _contact_advice(excerpt.value) if start == "equation" else CASE
+        if start == "comparison":
+            hint = _one_by_one(excerpt.value)
         if start == "expression" and re.search(r"<[^<>]+>", excerpt.value):
             hint = "group with parentheses ( ), without '<' and '>'"
         return Diagnostic(message, _span(token, excerpt), hint)
@@ -213,6 +215,9 @@ def _unexpected(
         alone = len(before) == 1 and previous is not None and previous.type == "NAME"
         hint = f"leave out '{previous} ='" if alone else "leave out '=' and what follows it"
         return "'=' stands only in constraints and equations", hint
+    several = token.type == "COMMA" and "EQUAL" in {each.type for each in before}
+    if several and start == "equation" and inside is None:
+        return "two equations in one", "write each by itself, under its own name"
     if token.type == "COMMA" and previous is not None and previous.type in END_VALUE:
         if CASES & {str(other) for other in before}:
             return "a formula has no cases", CASE
@@ -225,6 +230,15 @@ def _unexpected(
         return f"nothing stands before '{token}'", f"leave out '{token}'"
     hint = COMMENT if f"{previous}{token}" in {"//", "/*"} else f"leave out '{token}'"
     return f"'{token}' cannot follow '{previous}'", hint
+
+
+def _one_by_one(written: str) -> str:
+    """`x >= -1` and `x <= 1` for `-1 <= x <= 1`."""
+    found = re.fullmatch(r"([^<>≤≥]+)(?:<=?|≤)([^<>≤≥]+)(?:<=?|≤)([^<>≤≥]+)", written)
+    if found is None:
+        return "write each by itself, under its own name"
+    low, name, high = (each.strip() for each in found.groups())
+    return f"write each by itself, as in lower: {name} >= {low}, upper: {name} <= {high}"
 
 
 def _contact_advice(written: str) -> str:

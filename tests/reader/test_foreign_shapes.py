@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import random
 import re
 
 import pytest
 
+from lagcli.expression import FUNCTIONS
 from lagcli.reader import read_problem
 from lagcli.reader.foreign.vectors import components
 from tests.reader.test_habits import messages, text
@@ -361,3 +363,110 @@ ANSWERS = [
 def test_an_answer_or_a_state_in_other_words(written, hint):
     assert hint in messages(written)[-1]
     assert len(messages(written)) == (2 if "x(10)" in written else 1)
+
+
+#: Functions of other programs, by Python's own.
+WRITTEN_OUT = {
+    "sech": lambda x: 1 / math.cosh(x),
+    "csch": lambda x: 1 / math.sinh(x),
+    "coth": lambda x: 1 / math.tanh(x),
+    "lg": math.log10,
+    "log10": math.log10,
+    "ld": math.log2,
+    "log1p": math.log1p,
+    "expm1": math.expm1,
+    "exp2": lambda x: 2**x,
+    "acot": lambda x: math.pi / 2 - math.atan(x),
+    "acoth": lambda x: math.log((x + 1) / (x - 1)) / 2,
+    "asec": lambda x: math.acos(1 / x),
+    "acsc": lambda x: math.asin(1 / x),
+    "versin": lambda x: 2 * math.sin(x / 2) ** 2,
+    "cube": lambda x: x * x * x,
+    "cbrt": lambda x: math.exp(math.log(x) / 3),
+    "inv": lambda x: 1 / x,
+}
+
+
+@pytest.mark.parametrize("function", WRITTEN_OUT)
+@pytest.mark.parametrize("seed", range(3))
+def test_a_function_of_other_programs_is_written_out_with_its_values(function, seed):
+    draw = random.Random(seed)
+    argument, factor = (
+        draw.choice(["x", "x + 1", "k*x", "x/2 + 2"]),
+        draw.choice(["k*", "1 - ", ""]),
+    )
+    power = draw.choice(["", "^2"])
+    hint = only_mistake(text(V=f"{factor}{function}({argument}){power}")).hint
+    written = re.sub(r"^(?:write|did you mean) |\?$", "", hint).replace("^", "**")
+    names = {name: getattr(math, name, None) for name in FUNCTIONS} | {"log": math.log}
+    x, k = draw.uniform(1.5, 3), draw.uniform(1, 2)
+    value = eval(written, {**names, "x": x, "k": k})
+    inner = eval(argument, {"x": x, "k": k})
+    expected = eval(
+        f"{factor}value{power}".replace("^", "**"), {"k": k, "value": WRITTEN_OUT[function](inner)}
+    )
+    assert value == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_number_with_a_unit_that_is_none_of_the_si_is_told_in_both(seed):
+    draw = random.Random(seed)
+    unit, factor, base = draw.choice(
+        [("km/h", 1 / 3.6, "m/s"), ("cm", 0.01, "m"), ("mm/s", 1e-3, "m/s"), ("km", 1e3, "m")]
+    )
+    number = draw.randrange(1, 200)
+    hint = only_mistake(text(initial=f"{{x: {number} {unit}}}")).hint
+    told = re.fullmatch(rf"numbers are .*: write {number} with {unit}, (\S+) with {base}", hint)
+    assert told is not None
+    assert float(told[1]) == pytest.approx(number * factor, rel=1e-5)
+    assert only_mistake(text(initial=f"{{x: {number} {base}}}")).hint.startswith(f"write {number}:")
+
+
+@pytest.mark.parametrize("comparison", ["<", "<=", "≤"])
+@pytest.mark.parametrize(("low", "high"), [("-1", "1"), ("0", "k"), ("-k/2", "2*k")])
+def test_a_range_for_a_contact_is_two_contacts(comparison, low, high):
+    hint = only_mistake(
+        text(contacts=f'{{walls: "{low} {comparison} x {comparison} {high}"}}')
+    ).hint
+    lower, upper = re.fullmatch(r".*as in lower: (.*), upper: (.*)", hint).groups()
+    assert messages(text(contacts=f'{{lower: "{lower}", upper: "{upper}"}}')) == []
+    assert (lower, upper) == (f"x >= {low}", f"x <= {high}")
+
+
+@pytest.mark.parametrize("form", ["{1}_{0}", "{0}_{1}", "{0}.{1}"])
+@pytest.mark.parametrize("axis", ["x", "y"])
+def test_a_component_of_a_point_has_several_names(form, axis):
+    point = "{bob: {mass: m, position: [l*sin(theta), -l*cos(theta)]}}"
+    written = text(**PENDULUM | {"V": f"m*g*{form.format('bob', axis)}"}, points=point)
+    component = {"x": "l*sin(theta)", "y": "-l*cos(theta)"}[axis]
+    assert only_mistake(written).hint == f"write m*g*({component})"
+
+
+OTHERS = [
+    (text(T="m*x'squared/2"), "m*x'^2/2"),
+    (text(V="k*x squared/2"), "k*x^2/2"),
+    (text(V="k*x cubed"), "k*x^3"),
+    (text(V="k*arc sin(x)"), "k*asin(x)"),
+    (text(V="k*(1 - e(-x))"), "write k*(1 - exp(-x))"),
+    (text(V="k*(1 - exp^(-k*x))"), "write k*(1 - exp(-k*x))"),
+    (text(coordinates="[x_i]", T="m*x_i'^2", V="k*(x_{i+1} - x_i)^2"), "every name in full"),
+    (text(T="KineticEnergy(m, x')"), "or write its formula"),
+    (text(parameters="[m, k, μ]", V="µ*x"), "with the letter Greek small letter mu"),
+    (text(constraints="\n  two: x = k, x = m"), "write each by itself"),
+    (text(symmetries="{turn: {dx: 1}}"), "write x, whose change it is"),
+    (text(functions="{U: [sqrt(x^2)]}", V="U(x)"), "write r, and U(sqrt(x^2)) where it is used"),
+    (text(definitions="\n  - y: k*x", T="m*y'^2/2"), "leave out the '-' before each key"),
+    (text(points="{P: {position: [x], mass: m, forces: [k*x]}}"), "did you mean 'force'?"),
+    (text(expect="{degrees_of_freedom: [x]}"), "write 1"),
+    (text(find="{a: {where: m*x'' = -k*x, for: x''}}"), "accelerations are found"),
+    (text(observables="[angular momentum]"), "write {A: x*p_y - y*p_x}"),
+    (text(unit_system="SI"), "write parameters: {m: {unit: kg}}"),
+    (text(damping_ratio="0.05"), "dissipation: c*x'^2/2"),
+    ("Energy\n" + text(), "a heading is a comment, which begins with '#': # Energy"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("written", "hint"), OTHERS)
+def test_what_is_written_in_words_or_by_other_rules(written, hint):
+    [only] = messages(written)
+    assert hint in only

@@ -61,7 +61,7 @@ HINTS = [
     (text(T="Rational(1, 2)*m*x'^2"), "write 1/2"),
     (text(V="np.arctan2(x, k)"), "write atan2"),
     (text(V="k*norm(x, k)"), "write k*sqrt(x^2 + k^2)"),
-    (text(V="cosd(x)"), "did you mean cos(x*pi/180)?"),
+    (text(V="cosd(x)"), "write cos(x*pi/180)"),
     (text(V="max(x, k, 0)"), "compare two at a time"),
     (text(V="-grad(U)"), "found from V"),
     (text(T="sum(m*x_i'^2, i=1..2)"), "write each term"),

@@ -29,6 +29,8 @@ class Functions(Sums):
         elif token is not None and token.kind == "raised":
             self.at += 1
             power = raised(token.text)[1:]
+        if function == "exp" and power and self.sign() != "(":
+            return Part(f"exp({bare_text(power)})", 3, is_call=True)  # exp^(-x)
         if power == "(-1)":
             function, power = f"a{function}", ""
             if function not in FUNCTIONS:
@@ -127,8 +129,13 @@ class Functions(Sums):
         form = habits()["written_out"].get(word, "")
         if len(set(re.findall(r"{\d}", form))) != len(arguments):
             raise Unclear
-        text = form.format(*(grouped if re.search(r"}\*|/{", form) else arguments))
-        return Part(text, 3 if form == "{0}" and re.fullmatch(r"[\w.]+", text) else 1)
+        text = form.format(*(grouped if re.search(r"}[*^]|[/^]{", form) else arguments))
+        if form == "{0}" and re.fullmatch(r"[\w.]+", text):
+            return Part(text, 3)
+        is_sum = (
+            re.search(r"[-+]", re.sub(r"\([^()]*(?:\([^()]*\)[^()]*)*\)", "", form)) is not None
+        )
+        return Part(text, 0 if is_sum else 1)
 
     def partial(self, word: str, arguments: list[str]) -> Part:
         """A derivative by a name other than t."""

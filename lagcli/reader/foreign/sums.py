@@ -17,6 +17,8 @@ _BEHIND = {
     **dict.fromkeys(["°", "˚", "º", "deg", "degree", "degrees"], "*pi/180"),
     **dict.fromkeys(["rad", "radian", "radians"], ""),
 }
+#: Powers in words.
+_WORDS = {"squared": 2, "cubed": 3}
 _PRIMES = {"″": 2, "‴": 3}
 
 
@@ -157,6 +159,9 @@ class Sums(ABC):
             elif token is not None and token.text == "!" and re.fullmatch(r"1?\d", base.text):
                 self.at += 1
                 base = Part(str(factorial(int(base.text))), 3)
+            elif token is not None and token.text in _WORDS and token.text not in self.names.known:
+                self.at += 1
+                base = _raise(self.with_primes(base), f"^{_WORDS[token.text]}")
             elif token is not None and base.level == 3 and token.text in _BEHIND:
                 self.at += 1
                 base = Part(base.text + _BEHIND[token.text], 1 if _BEHIND[token.text] else 3)

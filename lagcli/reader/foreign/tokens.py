@@ -71,13 +71,18 @@ def prepared(text: str, names: Vocabulary) -> str:
         raise Unclear  # m*g*y [J]
     if _NO_FORMULA.search(text):
         raise Unclear
+    if "arc" not in names.known:
+        text = re.sub(r"\b(ar[ck]?)\s+(?=(?:sin|cos|tan|cot)h?\b)", "arc", text)
     text = "".join(map(_on_the_keyboard, _RATE_OF_VECTOR.sub(r"\\vec{v}", text)))
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
     text = re.sub(r"(?<=\w)//(?=\w)", "/", re.sub(r"\s\.\s", " * ", text).strip(" =").rstrip(";,"))
     text = re.sub(r"\bDerivative\[(\d)\]\[(\w+)\]", lambda m: m[2] + "'" * int(m[1]), text)
     text = _leibniz(_square_of_speed(text, names), names)
     for name, component in names.components.items():
-        text = re.sub(rf"(?<![\w.]){re.escape(name)}(?!\w)", f"({component})", text)
+        point, axis = name.split(".")
+        forms = [name, *({f"{axis}_{point}", f"{point}_{axis}"} - {*names.known})]
+        spelled = "|".join(map(re.escape, forms))
+        text = re.sub(rf"(?<![\w.])(?:{spelled})(?!\w)", f"({component})", text)
     return _OWNER.sub(lambda m: m[0] if m[1] in names.known else "", text)
 
 

@@ -134,6 +134,8 @@ class _Translation(Functions):
             return self.foreign(word)
         if word in {"e", "E"} and word not in self.names.known and self.sign() == "^":
             return self.exponential()
+        if word in {"e", "E"} and word not in self.names.known and self.sign() == "(":
+            return self.call("exp")
         if word in self.names.functions:
             return self.applied(word + "'" * primes)
         word += self.in_brackets()
