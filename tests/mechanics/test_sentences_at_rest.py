@@ -12,7 +12,11 @@ from lagcli.algebra.signs import sign
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.explaining.recurring import recurrences
-from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
+from lagcli.mechanics.oscillations.small_oscillations import (
+    SmallOscillations,
+    equilibria,
+    modes,
+)
 from lagcli.mechanics.reduction.statement import reduction
 from lagcli.mechanics.rest.equilibria import _finite_where
 from lagcli.pipeline import Request, explain, state
@@ -683,6 +687,28 @@ def test_a_rate_that_a_sum_in_a_product_divides_by_is_not_0(seed):
     )
     told = said(text, "Steady motions", "steady_motions")
     assert "phi' ≠ 0" in told
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_matrices_under_constraints_are_those_of_the_named_displacements(seed):
+    """The Hessian of T with the others eliminated by a . q = 0, for random a and T."""
+    source = random.Random(seed)
+    names = ["x", "y", "z"]
+    q = dict(zip(names, sympy.symbols(names), strict=True))
+    a = [source.choice([-3, -2, 2, 3]) for _ in names]
+    m = [source.randint(1, 5) for _ in names]
+    T = " + ".join(f"{k}*{name}'^2/2" for k, name in zip(m, names, strict=True))
+    V = " + ".join(f"{name}^2/2" for name in names)
+    row = " + ".join(f"({k})*{name}" for k, name in zip(a, names, strict=True))
+    text = f"{{coordinates: [x, y, z], T: {T}, V: {V}, constraints: {{c: {row} = 0}}}}"
+    [place] = SmallOscillations(derive(text).dynamics).places
+    chosen = [q[s.name] for s in place.near.independent]
+    [bound] = set(q.values()) - set(chosen)
+    solved = {bound: sympy.solve(sum(k * v for k, v in zip(a, q.values(), strict=True)), bound)[0]}
+    form = sum(k * v**2 for k, v in zip(m, q.values(), strict=True)).subs(solved) / 2
+    assert sympy.Matrix(place.near.M) == sympy.hessian(form, chosen)
+    told = said(text, "Small oscillations", "modes")
+    assert f"in terms of those of {chosen[0]} and {chosen[1]}." in told
 
 
 @pytest.mark.parametrize("n", random.Random(13).sample(range(1, 9), 2))

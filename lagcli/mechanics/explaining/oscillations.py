@@ -27,7 +27,7 @@ from lagcli.expression import (
 )
 from lagcli.mechanics.conditions import above
 from lagcli.mechanics.explaining.explainer import Explainer
-from lagcli.mechanics.explaining.words import Part, difference, says, shows
+from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
 from lagcli.mechanics.rest.singular import AtPole
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
 from lagcli.statements.plus_minus import modes_in_pairs
@@ -91,7 +91,9 @@ def _linear(explainer: Explainer, place: Place) -> Iterator[Block]:
     if isinstance(place.near, AtPole):
         yield says("in Cartesian displacements at the pole, the second of them in the last row.")
     if explainer.dynamics.constraints.equations:
-        yield says("restricted to the displacements that the constraints allow.")
+        free = [q.name for q in place.near.independent]
+        those = [", in terms of those of ", *names(free)] if free else []
+        yield says("restricted to the displacements that the constraints allow", *those, ".")
 
 
 # -- without damping -----------------------------------------------------------------------------

@@ -59,6 +59,18 @@ class Linearization:
         )
 
     @property
+    def independent(self) -> tuple[Symbol, ...]:
+        """The coordinates whose displacements x are, one for each column of B; () if none are."""
+        found = []
+        for k, column in enumerate(self.basis):
+            others = [*self.basis[:k], *self.basis[k + 1 :]]
+            places = (j for j, x in enumerate(column) if x == 1 and not any(o[j] for o in others))
+            if (place := next(places, None)) is None:
+                return ()
+            found.append(self.system.q[place])
+        return tuple(found)
+
+    @property
     def forces_at_rest(self) -> tuple[Expr, ...]:
         """forcing(q, q' = 0)."""
         return self.rest.forces_at_rest
