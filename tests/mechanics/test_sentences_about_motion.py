@@ -335,3 +335,18 @@ def test_the_forces_of_contacts_are_not_said_to_vanish():
     told = words(explain(derive(text), ["equilibria"]), "Equilibria")
     assert "Where no contact is closed, Lagrange's equations then require" in told
     assert "Where a contact is closed, it pushes, and this force is added to them." in told
+
+
+@pytest.mark.parametrize("V", ["0", "c*r^2/2", "k*(r - c)^2"])
+@pytest.mark.parametrize("motor", ["phi = k*t", "phi - k*t = c", "2*phi = k*t + c"])
+def test_what_rests_on_a_moving_wire_is_not_called_an_equilibrium(V, motor):
+    """The wire turns: nothing is at rest, but r may be constant."""
+    text = (
+        f"coordinates: [r, phi]\n{_POSITIVE}\nT: m*(r'^2 + r^2*phi'^2)/2\nV: {V}\n"
+        f"constraints: {{motor: {motor}}}\n"
+    )
+    found = explain(derive(text), ["equilibria", "steady_motions"])
+    assert "there is no equilibrium" in words(found, "Equilibria")
+    told = words(found, "Steady motions")
+    assert "equilibria" not in told
+    assert "in a steady motion the coordinates that are left rest" in told

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import cast
 
+from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
 from lagcli.document import Block, Equations, Heading, Row, equations_of, vanishing
 from lagcli.expression import ZERO, Expression, Name, Number, Power
@@ -100,7 +101,10 @@ def _with_constant_velocities(found: SteadySection) -> list[Part]:
 
 def _steady_without_momenta(explainer: Explainer, found: SteadySection) -> str:
     """What is steady: the equilibria, under velocity constraints other states perhaps, too."""
-    if all(e.holonomic for e in explainer.dynamics.constraints.equations):
+    equations = explainer.dynamics.constraints.equations
+    if all(e.holonomic for e in equations):
+        if any(is_zero(e.drift) is not True for e in equations):
+            return ", so in a steady motion the coordinates that are left rest:"
         frames = ", at rest or in a frame that moves along" * bool(found.frames)
         return f", so in these coordinates the steady motions are the equilibria{frames}:"
     if found.motions:
