@@ -248,6 +248,22 @@ constraints: {blade: "y'*cos(f) = x'*sin(f)"}
     assert "of each Q below without a rate Q' is 0 on the motion" in sentences
 
 
+@pytest.mark.parametrize(("constraint", "quick"), [
+    ("x*sin(f) = y*cos(f)", False), ("x'*sin(f) = y'*cos(f)", True),
+])  # fmt: skip
+def test_the_unit_of_a_multiplier_is_that_of_its_own_constraint(constraint, quick):
+    """J/m of f in metres, and of a velocity J/(m/s s): a force in both cases."""
+    text = f"""
+coordinates: {{x: {{unit: m}}, y: {{unit: m}}, f: {{unit: rad}}}}
+parameters: {{m: {{unit: kg, assume: positive}}, J: {{unit: kg m^2, assume: positive}}}}
+T: m*(x'^2 + y'^2)/2 + J*f'^2/2
+constraints: {{blade: "{constraint}"}}
+"""
+    sentences = said(text, "Units", "dimensions")
+    assert "A multiplier has that of L divided by that of its constraint" in sentences
+    assert ("of one on velocities also by that of the time:" in sentences) is quick
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 def test_what_constraints_eliminate_is_not_called_cyclic(seed):
     c = random.Random(seed).choice([1, 2, 3])

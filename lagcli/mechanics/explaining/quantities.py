@@ -68,7 +68,9 @@ def dimensions(explainer: Explainer, section: Section) -> Iterator[Block]:
     yield says("A generalized force has that of ", L, " divided by that of its coordinate:")
     yield from _units({n: Label("Q", (n,), unit=True) for n in found.forces}, found.forces)
     if found.multipliers:
-        yield says("A multiplier has that of ", L, " divided by that of its constraint:")
+        quick = any(not e.holonomic for e in explainer.dynamics.constraints.equations)
+        also = ", of one on velocities also by that of the time" if quick else ""
+        yield says("A multiplier has that of ", L, f" divided by that of its constraint{also}:")
         yield from _units({n: Label(n, unit=True) for n in found.multipliers}, found.multipliers)
     if found.charges:
         yield says(
