@@ -274,6 +274,17 @@ class RandomStates:
                     return self._index(wrong[0])
         return self._index(max(range(len(values)), key=lambda i: abs(values[i])))
 
+    def conditions_on_positions(self) -> int:
+        """How many constraints without velocities are independent of each other at a state."""
+        held = [k for k, e in enumerate(self.constraints.equations) if e.holonomic]
+        if len(held) < 2:
+            return len(held)
+        [state], n = self.take(1), len(self.system.q)
+        with mpmath.workdps(DIGITS):
+            rows = rows_of(self._a_rows(state), n + 1)
+            kept = independent_rows([rows[k][:n] for k in held], mpf(10) ** -25)
+        return len(kept.independent)
+
     def _is_nearer(self, state: State, before: Sequence[mpf]) -> bool:
         """Whether the constraints are less far from 0 than they were."""
         try:

@@ -265,6 +265,38 @@ constraints: {{blade: "{constraint}"}}
 
 
 @pytest.mark.parametrize("seed", SEEDS)
+def test_integrals_are_all_only_where_they_determine_the_state(seed):
+    """z = 0 twice leaves four numbers x, y, x', y'; of y'' = -4 k y³ no fourth integral is known."""
+    source = random.Random(seed)
+    twice = [f"{source.choice([2, 3, -1])}*z = 0", "z = 0", f"{source.choice([2, 5])}*z' = 0"]
+    source.shuffle(twice)
+    rows = ", ".join(f'c{k}: "{row}"' for k, row in enumerate(twice))
+    for V, complete in (("k*y^4", False), ("k*y", True)):
+        text = f"""
+coordinates: [x, y, z]
+parameters: {{m: {{assume: positive}}, k: {{assume: positive}}}}
+T: m*(x'^2 + y'^2 + z'^2)/2
+V: {V}
+constraints: {{{rows}}}
+"""
+        sentences = said(text, "Discovered symmetries", "discovered")
+        assert ("all others are functions of these" in sentences) is complete, V
+
+
+def test_no_integrals_are_functions_of_none():
+    text = """
+coordinates: [x, y]
+parameters: {m: {assume: positive}, g: {assume: positive}}
+T: m*(x'^2 + y'^2)/2
+V: m*g*y
+constraints: {one: x = y, two: x = -y}
+"""
+    sentences = said(text, "Discovered symmetries", "discovered")
+    assert "within this ansatz there is no symmetry." in sentences
+    assert "functions of these" not in sentences
+
+
+@pytest.mark.parametrize("seed", SEEDS)
 def test_what_constraints_eliminate_is_not_called_cyclic(seed):
     c = random.Random(seed).choice([1, 2, 3])
     text = f"""

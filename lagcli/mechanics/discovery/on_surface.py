@@ -41,9 +41,9 @@ def search_on_surface(
     listing.add(search.new(_values(setting), momenta.conserved))
     setting.words.append(_sentence(times))
     freedom = setting.dynamics.degrees_of_freedom
-    holonomic = sum(e.holonomic for e in setting.dynamics.constraints.equations)
-    states = len(setting.system.q) - holonomic + freedom
-    known = rank_on_surface(setting.dynamics, _values(setting)) == states
+    held = setting.dynamics.states.conditions_on_positions()
+    states = len(setting.system.q) - held + freedom
+    known = states > 0 and rank_on_surface(setting.dynamics, _values(setting)) == states
     if known:
         setting.words.append("all others are functions of these")
     elif freedom > 1 and setting.system.t not in setting.equations_symbols:
