@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from fractions import Fraction
 from functools import cached_property
 
 from lagcli.diagnostics import Span
@@ -59,9 +60,32 @@ class Inference:
         for left, right, span in sorted(self._equations(), key=_unknown_count):
             relations.add(left, right, span)
         self._powers_of_numbers()
-        if not relations.is_known(LAGRANGIAN) and energies is not None:
-            relations.add(LAGRANGIAN, ENERGY, energies.span)
-            self._powers_of_numbers()
+        if not relations.is_known(LAGRANGIAN) and energies is not None and self._dimensional:
+            self._take_for_energy(energies.span)
+
+    def _take_for_energy(self, origin: Span) -> None:
+        """L, unless a quantity is in kg^(1/2) or the like then, as where L is by mass."""
+        known, before = self.relations, self._with_roots_of_mass()
+        self.relations = known.copied()
+        self.relations.add(LAGRANGIAN, ENERGY, origin)
+        self._powers_of_numbers()
+        if not self._with_roots_of_mass() <= before:
+            self.relations = known
+
+    def _with_roots_of_mass(self) -> set[str]:
+        forms = {name: self.form(form) for name, form in self.demands.names.items()}
+        forms |= {name: self.form(unknown("function", name)) for name in self.problem.functions}
+        return {
+            name
+            for name, form in forms.items()
+            if not unknowns(form) and form.get("kg", Fraction(0)).denominator != 1
+        }
+
+    @property
+    def _dimensional(self) -> bool:
+        """Whether a unit of the file has a dimension; angles in rad are as good as numbers."""
+        given = (q for q in quantities(self.problem) if q.unit is not None)
+        return any(self.demands.names[quantity.name] for quantity in given)
 
     def _equations(self) -> Iterator[tuple[Form, Form, Span]]:
         for group in self.demands.groups:

@@ -22,6 +22,14 @@ class FormRelations:
         self._users: dict[Key, set[Key]] = {}  # free quantity -> the solved ones that hold it
         self.origins: dict[Key, Span] = {}
 
+    def copied(self) -> FormRelations:
+        """The same equations, to which others can be added."""
+        found = FormRelations()
+        found._solved = dict(self._solved)
+        found._users = {key: set(users) for key, users in self._users.items()}
+        found.origins = dict(self.origins)
+        return found
+
     def reduced(self, form: Form) -> Form:
         """The form without the quantities that are solved."""
         result = form

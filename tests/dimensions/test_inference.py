@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import lagcli
 from lagcli.diagnostics import render
 from lagcli.mechanics.quantity_units import dimensions_section
 from lagcli.reader import read_problem
@@ -30,6 +31,10 @@ def section(text):
     return dimensions_section(read_problem("a.yaml", text.encode()).checked())
 
 
+def render_explanation(text):
+    return str(lagcli.explain(lagcli.loads(text), also=["dimensions"]))
+
+
 def units(quantities):
     return {name: str(each.unit) if each.unit else None for name, each in quantities.items()}
 
@@ -51,6 +56,35 @@ def test_what_the_file_leaves_out_is_inferred():
     # the force lambda df/dq is N along r; that of a velocity constraint is lambda df/dq'
     assert units(found.multipliers) == {"lambda_rod": "N", "lambda_turn": "N m"}
     assert units(found.charges) == {"time": "J", "turn": "kg m^2/s", "lift": "kg m/s"}
+
+
+@pytest.mark.parametrize("mass", ["m", "1", "m/2", "m*n"])
+@pytest.mark.parametrize("angle", ["rad", "1"])
+def test_from_angles_alone_nothing_is_inferred_of_masses_and_lengths(mass, angle):
+    """L may be an energy, one by mass (of a star), or a squared length."""
+    text = (
+        f"coordinates: {{r: {{}}, phi: {{unit: '{angle}'}}}}\nparameters: [m, n, w, k]\n"
+        f"T: {mass}*(r'^2 + r^2*(phi' + w)^2)/2\nV: k*log(r)\nsymmetries: {{turn: {{phi: 1}}}}\n"
+    )
+    found = section(text)
+    inferred = {*units({**found.coordinates, **found.parameters}).items()}
+    assert {(name, unit) for name, unit in inferred if unit} <= {("phi", angle), ("w", "1/s")}
+    assert found.energy.unit is None
+    told = render_explanation(text)
+    assert "The unit of" not in told
+    assert "of a transformation has" not in told
+    assert "[w] = 1/s" in told
+
+
+@pytest.mark.parametrize(
+    "lagrangian",
+    ["c^2*x'^4/12 + c*x'^2*k - k^2", "c^2*x'^2 - k", "c^4*(x'^2 - k^2)/2", "c*x'^2*k - c^2*x^2"],
+)
+def test_l_is_no_energy_where_that_would_take_the_root_of_a_mass(lagrangian):
+    """L may be the square of an energy, or an energy by mass."""
+    found = section(f"coordinates: {{x: {{unit: m}}}}\nparameters: [c, k]\nL: {lagrangian}\n")
+    assert found.energy.unit is None
+    assert all("kg" not in (unit or "") for unit in units(found.parameters).values())
 
 
 def test_a_multiplier_of_squared_lengths_is_a_force_by_a_length():

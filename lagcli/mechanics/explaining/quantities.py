@@ -8,9 +8,11 @@ from typing import cast
 from lagcli.document import Block, Equations, Items, Label, equations_of
 from lagcli.expression import Name
 from lagcli.mechanics.explaining.explainer import Explainer
-from lagcli.mechanics.explaining.words import names, says
+from lagcli.mechanics.explaining.words import Part, names, says
 from lagcli.statements.answers import DimensionsSection, ModelSection, QuantityUnit, Section
 from lagcli.statements.wording import unit_rows, with_names
+
+_CHANGED = "that of the momentum times the change of the coordinate:"
 
 
 def model(_: Explainer, section: Section) -> Iterator[Block]:
@@ -49,42 +51,49 @@ def dimensions(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says("The file gives no units, so none are checked or inferred.")
         return
     own = {**found.coordinates, **found.parameters}
-    yield says("Given are")
-    yield from _units({name: Label(name, unit=True) for name in own}, own, "given")
+    yield from _units("Given are", {name: Label(name, unit=True) for name in own}, own, "given")
     derived = {**own, **found.functions, **found.definitions}
-    inferred = {name: each for name, each in derived.items() if each.source == "inferred"}
     yield says(
         "All terms of a sum must have the same unit, and the argument of a sine or an exponential "
         "must have none. Every sum and every function in the file was checked: all are consistent."
     )
-    if any(each.unit for each in inferred.values()):
-        yield says("This determines")
-        yield from _units({n: Label(n, unit=True) for n in inferred}, inferred)
+    labels = {name: Label(name, unit=True) for name in derived}
+    yield from _units("This determines", labels, derived, "inferred")
     L = explainer.letters.L
-    yield says("The unit of ", L, " is")
-    yield from _units({"L": Label(L.name, unit=True)}, {"L": found.energy})
-    yield says("A momentum has the unit of ", L, " divided by that of the velocity:")
-    yield from _units({n: Label(f"p_{n}", unit=True) for n in found.momenta}, found.momenta)
-    yield says("A generalized force has that of ", L, " divided by that of its coordinate:")
-    yield from _units({n: Label("Q", (n,), unit=True) for n in found.forces}, found.forces)
-    if found.multipliers:
-        quick = any(not e.holonomic for e in explainer.dynamics.constraints.equations)
-        also = ", of one on velocities also by that of the time" if quick else ""
-        yield says("A multiplier has that of ", L, f" divided by that of its constraint{also}:")
-        yield from _units({n: Label(n, unit=True) for n in found.multipliers}, found.multipliers)
-    if found.charges:
-        yield says(
-            "A conserved quantity has that of the momentum times the change of the coordinate:"
-        )
-        yield from _units({n: Label("Q", (n,), unit=True) for n in found.charges}, found.charges)
+    yield from _units(("The unit of ", L, " is"), {"L": Label(L.name, unit=True)},
+                      {"L": found.energy})  # fmt: skip
+    yield from _units(
+        ("A momentum has the unit of ", L, " divided by that of the velocity:"),
+        {n: Label(f"p_{n}", unit=True) for n in found.momenta},
+        found.momenta,
+    )
+    yield from _units(
+        ("A generalized force has that of ", L, " divided by that of its coordinate:"),
+        {n: Label("Q", (n,), unit=True) for n in found.forces},
+        found.forces,
+    )
+    yield from _units(
+        ("A multiplier has that of ", L, " divided by that of its constraint:"),
+        {n: Label(n, unit=True) for n in found.multipliers},
+        found.multipliers,
+    )
+    yield from _units(
+        ("The ", explainer.letters.Q, f" of a transformation has {_CHANGED}"),
+        {n: Label("Q", (n,), unit=True) for n in found.charges},
+        found.charges,
+    )  # fmt: skip
     left = [name for name, each in derived.items() if each.unit is None]
     if left:
         yield says("Not determined by the units of the file: ", names(left), ".")
 
 
 def _units(
-    labels: Mapping[str, Label], quantities: Mapping[str, QuantityUnit], source: str = ""
+    lead: str | tuple[Part, ...],
+    labels: Mapping[str, Label],
+    quantities: Mapping[str, QuantityUnit],
+    source: str = "",
 ) -> Iterator[Block]:
-    rows = unit_rows(labels, quantities, source)
-    if rows:
+    """The units that are known, below a sentence; nothing where none is."""
+    if rows := unit_rows(labels, quantities, source):
+        yield says(lead)
         yield Equations(rows)
