@@ -168,7 +168,24 @@ class Constraints:
             kinds[equation.name] = "integrable" if within else "nonholonomic"
         return kinds
 
+    def is_integrable_alone(self, equation: ConstraintEquation) -> bool:
+        """Whether a relation between the coordinates follows from this one without the others."""
+        return bool(self._last_derived([[*equation.row, equation.drift]]))
+
+    @cached_property
+    def relations_of_several(self) -> int:
+        """How many relations between the coordinates only combinations of constraints give."""
+        kinds = self.kinds
+        if "nonholonomic" not in kinds.values():
+            return 0
+        own = [[*e.row, e.drift] for e in self.equations if kinds[e.name] != "nonholonomic"]
+        return len(self.integrable_forms()) - (rank(own) if own else 0)
+
     def integrable_forms(self) -> list[list[Expr]]:
+        """The last derived system of all constraints."""
+        return self._last_derived([[*e.row, e.drift] for e in self.equations])
+
+    def _last_derived(self, rows: Sequence[Sequence[Expr]]) -> list[list[Expr]]:
         """The last derived system of the Pfaffian system {a dq + b dt}: its integrable part.
 
         The derived system I' of I holds the forms w in I with dw = 0 mod I, which is a
@@ -177,7 +194,7 @@ class Constraints:
         subsystem (Frobenius).
         """
         variables = [*self.system.q, self.system.t]
-        forms = _independent([[*e.row, e.drift] for e in self.equations])
+        forms = _independent(rows)
         while forms:
             kernel = [list(v) for v in nullspace(forms)]
             columns = [

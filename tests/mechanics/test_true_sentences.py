@@ -297,6 +297,45 @@ constraints: {one: x = y, two: x = -y}
 
 
 @pytest.mark.parametrize("seed", SEEDS)
+def test_a_relation_that_several_constraints_give_together_is_told(seed):
+    """a z' - b y x' = 0 twice, with c u' added to one: their difference u' = 0 is a relation."""
+    source = random.Random(seed)
+    a, b, c = (source.choice([-3, -2, 2, 3]) for _ in range(3))
+    contact = f"({a})*z' - ({b})*y*x'"
+    files = {
+        f'{{one: "{contact} + ({c})*u\'", two: "{contact}"}}': True,
+        f'{{one: "{contact} + ({c})*u\'"}}': False,
+        f'{{one: "{contact}", two: "u\' = ({c})*y\'"}}': False,
+    }
+    for constraints, together in files.items():
+        text = f"""
+coordinates: [x, y, z, u]
+parameters: {{m: {{assume: positive}}}}
+T: m*(x'^2 + y'^2 + z'^2 + u'^2)/2
+constraints: {constraints}
+"""
+        sentences = said(text, "The system")
+        told = "can be integrated to one relation between the coordinates, so that together"
+        assert (told in sentences) is together, constraints
+        assert "together with the others" not in sentences
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_only_what_needs_the_others_is_integrable_together_with_them(seed):
+    """z' = y x' is a relation where y' = 0, which is one alone, as u' = c x' is."""
+    c = random.Random(seed).choice([2, 3, 5])
+    text = f"""
+coordinates: [x, y, z, u]
+parameters: {{m: {{assume: positive}}}}
+T: m*(x'^2 + y'^2 + z'^2 + u'^2)/2
+constraints: {{one: "z' = {c}*y*x'", two: "y' = 0", three: "u' = {c}*x'"}}
+"""
+    sentences = said(text, "The system")
+    assert sentences.count("together with the others it can be integrated") == 1
+    assert "'one' is written with velocities, yet together with the others" in sentences
+
+
+@pytest.mark.parametrize("seed", SEEDS)
 def test_what_constraints_eliminate_is_not_called_cyclic(seed):
     c = random.Random(seed).choice([1, 2, 3])
     text = f"""

@@ -40,6 +40,7 @@ def scene(explainer: Explainer) -> Iterator[Block]:
         (explainer.letters.f(e.name), explainer.readable.as_written(e.f)) for e in equations
     )
     yield Items(tuple(tuple(_kind(explainer, equation)) for equation in equations))
+    yield from _relations_of_several(explainer)
     yield from _contacts(explainer)
     yield from _freedom(explainer)
     yield from _gaps(explainer)
@@ -55,13 +56,13 @@ def _constants(parameters: list[str]) -> list[Part]:
 
 def _kind(explainer: Explainer, equation: ConstraintEquation) -> list[Part]:
     constraints = explainer.dynamics.constraints
-    several = sum(not e.holonomic for e in constraints.equations) > 1
     kind = constraints.kinds[equation.name]
     parts: list[Part] = [f"'{equation.name}' "]
     if kind == "holonomic":
         parts.append("contains no velocity, it is holonomic: it restricts the positions.")
     elif kind == "integrable":
-        together = "together with the other velocity constraints " if several else ""
+        alone = constraints.is_integrable_alone(equation)
+        together = "" if alone else "together with the others "
         t = explainer.system.t
         moving = any(e.drift != 0 or any(a.has(t) for a in e.row) for e in constraints.equations)
         timed = " and the time" if moving else ""
@@ -82,6 +83,17 @@ def _kind(explainer: Explainer, equation: ConstraintEquation) -> list[Part]:
             else " It has a term without velocities, so its force can do work."
         )
     return parts
+
+
+def _relations_of_several(explainer: Explainer) -> Iterator[Block]:
+    """What combinations of constraints that are nonholonomic one by one leave of the positions."""
+    count = explainer.dynamics.constraints.relations_of_several
+    if count:
+        what = "one relation" if count == 1 else f"{count} relations"
+        yield says(
+            f"Combinations of the constraints can be integrated to {what} between the "
+            "coordinates, so that together they do restrict the positions."
+        )
 
 
 def _contacts(explainer: Explainer) -> Iterator[Block]:
