@@ -335,6 +335,15 @@ constraints: {{one: "z' = {c}*y*x'", two: "y' = 0", three: "u' = {c}*x'"}}
     assert "'one' is written with velocities, yet together with the others" in sentences
 
 
+@pytest.mark.parametrize("names", [["x"], ["x", "y"]])
+def test_where_all_is_cyclic_no_others_are_told_of(names):
+    T = " + ".join(f"m*{name}'^2/2" for name in names)
+    text = f"coordinates: [{', '.join(names)}]\nparameters: [m]\nT: {T}\n"
+    sentences = said(text, "The model of a numerical run", "model")
+    assert "cyclic: the equations of motion do not depend on" in sentences
+    assert "the others does not" not in sentences
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 def test_what_constraints_eliminate_is_not_called_cyclic(seed):
     c = random.Random(seed).choice([1, 2, 3])

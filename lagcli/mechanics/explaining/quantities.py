@@ -32,9 +32,9 @@ def model(_: Explainer, section: Section) -> Iterator[Block]:
     if found.ignorable:
         yield says(
             names(found.ignorable),
-            " is cyclic: the motion of the others does not depend on its value."
+            " is cyclic: the equations of motion do not depend on its value."
             if len(found.ignorable) == 1
-            else " are cyclic: the motion of the others does not depend on their values.",
+            else " are cyclic: the equations of motion do not depend on their values.",
         )
     if found.dropped:
         yield says("The motion does not depend on ", names(found.dropped), ".")
