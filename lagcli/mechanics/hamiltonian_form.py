@@ -22,7 +22,10 @@ from lagcli.algebra.writing import Writer
 from lagcli.expression import (
     Expression,
     Name,
+    Power,
+    Quotient,
     Sum,
+    factors_of,
     has_nested_fraction,
     length,
     operation_count,
@@ -66,7 +69,10 @@ def hamiltonian_form(
         return whole
     least = min(
         _apart(hamiltonian, readable),
-        key=lambda form: (has_nested_fraction(form), length(form) + _spread(form, hamiltonian)),
+        key=lambda form: (
+            has_nested_fraction(form),
+            length(form) + _spread(form, hamiltonian) + _above_and_below(form, hamiltonian),
+        ),
         default=whole,
     )
     return least if operation_count(least) <= _APART * operation_count(whole) else whole
@@ -125,6 +131,25 @@ def _spread(form: Expression, hamiltonian: Hamiltonian) -> int:
     found = [{n.name for n in walk(t) if isinstance(n, Name)} for t in terms_of(form)]
     counts = (sum(p.name in names for names in found) for p in hamiltonian.system.momenta)
     return _SEVERAL * any(count > 1 for count in counts)
+
+
+def _above_and_below(form: Expression, hamiltonian: Hamiltonian) -> int:
+    """What (r² p_r² + (p_phi - b)²)/(2 m r²) costs, where each momentum has a mass of its own."""
+    coordinates = {q.name for q in hamiltonian.system.q}
+    momenta = {p.name for p in hamiltonian.system.momenta}
+    for part in walk(form):
+        if not isinstance(part, Quotient):
+            continue
+        below = {f.base if isinstance(f, Power) else f for f in factors_of(part.denominator)}
+        letters = {f for f in below if isinstance(f, Name) and f.name in coordinates}
+        monomial = not any(isinstance(f, Sum) for f in below)
+        for term in terms_of(part.numerator) if monomial else ():
+            factors = {f.base if isinstance(f, Power) else f for f in factors_of(term)}
+            if letters & factors and any(
+                isinstance(f, Name) and f.name in momenta for f in factors
+            ):
+                return _SEVERAL + 1
+    return 0
 
 
 def _over_one(kinetic: Expr, momenta: Sequence[Symbol], order: Sequence[str]) -> Expression:

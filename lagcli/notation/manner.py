@@ -45,6 +45,7 @@ from lagcli.notation.factors import (
     multiplied,
     odd_base,
     parts_of,
+    power_product,
     product_of_powers,
     whole_power,
     with_base,
@@ -90,10 +91,14 @@ class Manner:
         self._beside: dict[frozenset[tuple[Monomial, Fraction]], Expression] = {}  # roots
         quantities = (*problem.parameters, *problem.coordinates)
         self._positive = frozenset(q.name for q in quantities if q.assume == "positive")
+        self._given: set[Key] = set()  # all sums of the file
         for node in given(problem):
             for part in walk(node):
-                if isinstance(part, Sum) and not _all_negative(part):
+                if isinstance(part, Sum):
                     sign, key = signed_key(part)
+                    self._given.add(key)
+                    if _all_negative(part):
+                        continue
                     self._signs[key] = sign if self._signs.get(key, sign) == sign else 0
         self._ordering = Ordering(order_of_names(problem))
         self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
@@ -120,7 +125,13 @@ class Manner:
         return squares_as_brackets(self._potential(node), self._squares)
 
     def _without_minus(self, node: Expression) -> Expression:
-        """(p − a − b)/d for −(a + b − p)/d, (b + c − a)/d for −(a − b − c)/d."""
+        """(p − a − b)/d for −(a + b − p)/d, (b + c − a)/d for −(a − b − c)/d.
+
+        Of a whole answer also b − a for −(a − b).
+        """
+        if isinstance(node, Negative) and isinstance(node.operand, Sum):
+            turned = negative_of(node.operand)
+            return node if isinstance(turned.terms[0], Negative) else turned
         minus, above, below = parts_of(node)
         for place, factor in enumerate(above if minus else ()):
             base, odd = odd_base(factor)
@@ -347,6 +358,42 @@ class Manner:
                 return Power(negative_of(base), node.exponent)
         return with_whole_powers(node)
 
+    def _with_common(self, node: Expression) -> Expression:
+        """m l (cos x + cos y) for m (l cos x + l cos y), but for a bracket of the file."""
+        minus, above, below = parts_of(node)
+        found, changed = list[Expression](), False
+        for factor in above:
+            common = self._common(factor) if isinstance(factor, Sum) else None
+            changed |= common is not None
+            found += common or [factor]
+        if not changed:
+            return node
+        whole = quotient_of([power_product(found, self._ordering)], below)
+        return Negative(whole) if minus else whole
+
+    def _common(self, node: Sum) -> list[Expression] | None:
+        """The parameters that all terms have, and what is left of the sum; None without any."""
+        terms = [parts_of(term) for term in node.terms]
+        powers = [dict(map(whole_power, above)) for _, above, _ in terms]
+        letters = (b for b in powers[0] if isinstance(b, Name) and self._ordering.is_parameter(b))
+        least = ((base, min(each.get(base, 0) for each in powers)) for base in letters)
+        shared = dict[Expression, int]((base, e) for base, e in least if e > 0)
+        fractions = any(below for _, _, below in terms)  # (g² cos θ − g/R) sin θ
+        if not shared or fractions or signed_key(node)[1] in self._given:
+            return None
+        left = []
+        for (minus, above, below), each in zip(terms, powers, strict=True):
+            if len(each) < len(above):
+                return None  # a factor twice
+            exponents = {b: e - shared.get(b, 0) for b, e in each.items()}
+            kept = [
+                Power(b, Number(Fraction(e))) if e != 1 else b for b, e in exponents.items() if e
+            ]
+            whole = quotient_of(kept or [ONE], below)
+            left.append(Negative(whole) if minus else whole)
+        outside = (Power(b, Number(Fraction(e))) if e > 1 else b for b, e in shared.items())
+        return [*outside, Sum(tuple(left))]
+
     def _late(self, node: Sum) -> bool:
         """Whether it is a difference of letters, the first of which comes second in the file."""
         match node.terms:
@@ -357,7 +404,7 @@ class Manner:
 
     def _signed(self, node: Expression, *, inside: bool) -> Expression:
         """A product or quotient with every sum in its right sign, the sign of all before it."""
-        minus, above, below = self._sums.in_product(*parts_of(node))
+        minus, above, below = self._sums.in_product(*parts_of(self._with_common(node)))
         above, below = map(with_conjugates, cancelled(above, below))
         above = without_tangents(above)
         free: list[tuple[list[Expression], int]] = []  # sums that may stand either way

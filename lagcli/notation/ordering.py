@@ -173,7 +173,8 @@ class Ordering:
         accelerations, rates, momenta = _degrees(node)
         velocities = rates + momenta
         roots = (p for p in walk(node) if isinstance(p, Call) and p.function == "sqrt")
-        velocities = velocities or any(is_rate(p) for root in roots for p in walk(root))
+        inside = [p for root in roots for p in walk(root) if isinstance(p, Name)]
+        velocities = velocities or any(p.primes or p.name.startswith("p_") for p in inside)
         variables = tuple(sorted(self._variables(node))) or (len(self._index),)
         number, letters = _is_number(node), _flat(self._letters(node))
         timed = any(part == Name("t") for part in _factor_names(node))

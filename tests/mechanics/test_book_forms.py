@@ -120,6 +120,32 @@ BOOK = [
         },
     ),
     (
+        "{r: {assume: positive}, phi: }", "m e B U R0",  # as in Goldstein, exercise 8.23
+        "L: m*(r'^2 + r^2*phi'^2)/2 - e*B*r^2*phi'/2 + e*U*log(r/R0)",
+        {"hamiltonian": "p_r^2/(2*m) + (p_phi + e*B*r^2/2)^2/(2*m*r^2) - e*U*log(r/R0)"},
+    ),
+    (
+        "[x]", "m k c",  # Goldstein, section 7.9; kinetic energy first
+        "L: -m*c^2*sqrt(1 - x'^2/c^2) - k*x^2/2",
+        {"hamiltonian": "c*sqrt(p_x^2 + m^2*c^2) + k*x^2/2"},
+    ),
+    (
+        "[x, y]", "M m k K r0 w",  # Goldstein, exercise 2.21
+        (
+            "T: M*(x'^2 + w^2*x^2)/2 + m*((x' - w*y)^2 + (y' + w*x)^2)/2\n"
+            "V: K*(x - r0)^2/2 + k*y^2/2"
+        ),
+        {
+            "hamiltonian": "(p_y - m*w*x)^2/(2*m) + (p_x + m*w*y)^2/(2*(M + m)) - M*w^2*x^2/2 "
+            "+ K*(x - r0)^2/2 + k*y^2/2 - m*w^2*(x^2 + y^2)/2",
+        },
+    ),
+    (
+        "[a, b]", "m l g",
+        "definitions: {x: -l*cos(a), y: -l*cos(b)}\nT: m*l^2*(a'^2 + b'^2)/2\nV: m*g*(x + y)",
+        {"energy": "m*l^2*(a'^2 + b'^2)/2 - m*g*l*(cos(a) + cos(b))"},
+    ),
+    (
         "[a, b]", "m l g",  # the heights of two bobs as the file has them
         "T: m*l^2*(a'^2 + b'^2)/2\nV: m*g*(-l*cos(a) - l*cos(b))",
         {"energy": "m*l^2*(a'^2 + b'^2)/2 - m*g*(l*cos(a) + l*cos(b))"},

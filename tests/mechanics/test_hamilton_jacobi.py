@@ -277,3 +277,11 @@ def test_a_pendulum_stays_an_integral():
     found, _ = section("{coordinates: [x], parameters: {g: POSITIVE}, L: x'^2/2 + g*cos(x)}")
     assert not found.functions
     assert not found.cases
+
+
+@pytest.mark.parametrize("V", ["-k/r + k*m/r^2", "-2*k*(1/r - m/(2*r^2))", "k*(r - m)^2/2"])
+def test_the_equation_of_one_coordinate_is_the_equation_itself(V):
+    found, _ = section(KEPLER.replace("-k/r", V))
+    assert list(found.equations) == ["r"]
+    shown = to_grammar(found.equations["r"])
+    assert shown == to_grammar(found.hamiltonian) + " - E"

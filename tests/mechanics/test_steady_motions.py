@@ -541,3 +541,36 @@ L: -sqrt(1 - r'^2 - r^2*phi'^2) + {k}*r^2*phi'
     answers = solve(problem, ["steady_motions"])
     assert not answers.warnings
     assert len(answers.sections["steady_motions"].motions) == 2
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "physics", "momentum", "rest"),
+    [
+        ("{r: POSITIVE, phi: }", "L: m*(r'^2 + r^2*phi'^2)/2 + q*b*r^2*phi'/2 - k*log(r)",
+         "m*r^2", "k/(m*r^2)"),
+        ("{r: POSITIVE, phi: }", "L: m*(r'^2 + r^2*phi'^2)/2 + q*b*r^2*phi'/2 - k*r^4/4",
+         "m*r^2", "k*r^2/m"),
+        ("{theta: , phi: }", "L: m*(theta'^2 + phi'^2*sin(theta)^2)/2 + q*b*phi'*sin(theta)^2/2 "
+         "+ k*cos(theta)", "m*sin(theta)^2", "k/(m*cos(theta))"),
+    ],
+)  # fmt: skip
+def test_two_rates_in_a_magnetic_field_have_one_root(coordinates, physics, momentum, rest):
+    """Landau and Lifshitz, The Classical Theory of Fields, section 21: -q b/2 m ± sqrt(...)."""
+    found = motions(
+        f"coordinates: {coordinates}\nparameters: {{m: POSITIVE, q: POSITIVE, b: POSITIVE, "
+        f"k: POSITIVE}}\n{physics}\n"
+    )[:2]
+    root = f"sqrt(q^2*b^2/(4*m^2) + {rest})"
+    assert {to_grammar(m.rates["phi"]) for m in found} == {
+        f"{root} - q*b/(2*m)",
+        f"-{root} - q*b/(2*m)",
+    }
+    PHI = Symbol("PHI", positive=True)
+    for motion in found:
+        p = formula(to_grammar(motion.momenta["phi"]))
+        rate = formula(to_grammar(motion.rates["phi"]))
+        expected = formula(f"({momentum})*(PHI + q*b/(2*m))")
+        difference = (p - expected.subs(PHI, rate)).subs(
+            {s: 0.3 + 0.1 * k for k, s in enumerate(sorted(p.free_symbols, key=str))}
+        )
+        assert abs(difference.evalf()) < 1e-12

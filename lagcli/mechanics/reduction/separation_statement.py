@@ -5,9 +5,17 @@ from __future__ import annotations
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import shape, terms
+from lagcli.algebra import is_zero, shape, terms
 from lagcli.algebra.writing import Writer
-from lagcli.expression import Call, Expression, Name, operation_count
+from lagcli.expression import (
+    Call,
+    Expression,
+    Name,
+    Negative,
+    operation_count,
+    sum_of,
+    terms_of,
+)
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.hamiltonian_form import hamiltonian_form
@@ -37,9 +45,10 @@ def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Miss
     writer = _Writing(separation)
     obstacle = separation.obstacle
     closed = _functions(separation)
+    form = None if H is None else _hamiltonian(separation)
     return (
         HamiltonJacobiSection(
-            hamiltonian=None if H is None else _hamiltonian(separation),
+            hamiltonian=form,
             energy=separation.E.name,
             separable=separation.separable,
             obstacle=() if obstacle is None else tuple(system.names[j] for j in obstacle),
@@ -48,7 +57,10 @@ def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Miss
             else tuple(constant.name for constant in separated.constants),
             equations={}
             if separated is None
-            else {system.names[j]: writer.sum(e) for j, e in sorted(separated.equations.items())},
+            else {
+                system.names[j]: writer.equation(e, form, H)
+                for j, e in sorted(separated.equations.items())
+            },
             derivatives=None
             if separated is None
             else {
@@ -117,10 +129,17 @@ class _Writing:
 
     def __init__(self, separation: Separation) -> None:
         system, found = separation.system, separation.separated
+        self.E = separation.E
         constants = () if found is None else tuple(c.name for c in found.constants)
         moving = {p.name for p in system.momenta}
         self.order = (*(n for n in system.order if n not in constants), *constants)
         self.leading = moving | set(constants)
+
+    def equation(self, expression: Expr, form: Expression | None, H: Expr | None) -> Expression:
+        """H = E itself where it is the equation of one coordinate."""
+        if form is None or H is None or is_zero(expression - H + self.E) is not True:
+            return self.sum(expression)
+        return sum_of((*terms_of(form), Negative(Name(self.E.name))))
 
     def sum(self, expression: Expr) -> Expression:
         """The shorter of the terms by constants and the whole."""

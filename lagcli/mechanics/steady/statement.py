@@ -40,6 +40,7 @@ from lagcli.mechanics.stability.verdict import Stability, undecided
 from lagcli.mechanics.steady.moving_frames import moving_frames, plane_of_rotation
 from lagcli.mechanics.steady.rolling import RollingMotions
 from lagcli.mechanics.steady.rolling_statement import applies, rolling_section
+from lagcli.mechanics.steady.two_rates import Turning, with_roots_alike
 from lagcli.notation.manner import Manner
 from lagcli.problem_data import Problem
 from lagcli.record import replace
@@ -110,7 +111,12 @@ class _SteadyStatement:
         return (
             SteadySection(
                 conditions=conditions,
-                motions=tuple(map(self._motion, found)),
+                motions=with_roots_alike(
+                    tuple(map(self._motion, found)),
+                    tuple(map(self._turning, found)),
+                    self.steady.full.parameters,
+                    self._shape,
+                ),
                 # those along a closed contact are not sought
                 complete=steady.complete and not (found and steady.full.problem.contacts),
                 singular_where=()
@@ -203,6 +209,17 @@ class _SteadyStatement:
             and any(x != 0 for row in (matrices[1] if matrices else ()) for x in row)
             and any(_may_be_complex(square, motion.known_positive) for square in squares),
         )
+
+    def _turning(self, motion: Steady) -> Turning | None:
+        """The rates and momenta of the cyclic coordinates; None without rates."""
+        if motion.rates is None:
+            return None
+        names, cyclic = self.steady.full.names, self.routh.cyclic
+        pairs = zip(cyclic, self.routh.momenta, strict=True)
+        return {
+            "rates": {names[j]: self._whole(rate, motion) for j, rate in motion.rates.items()},
+            "momenta": {names[j]: self._whole(motion.values.get(p, p), motion) for j, p in pairs},
+        }
 
     def _at_rest(self, motion: Steady) -> Stability | None:
         """The verdict on the equilibrium that it is, where the cyclic coordinates do not move."""
