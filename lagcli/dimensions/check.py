@@ -15,6 +15,7 @@ from lagcli.dimensions.system import Incoherent, dimension_of
 from lagcli.dimensions.terms import Group, Reader, Term, representative
 from lagcli.expression import Expression, Name, Negative, walk
 from lagcli.problem_data import JACOBI_FUNCTION, Problem, Quantity
+from lagcli.record import replace
 from lagcli.units import read_unit
 
 #: What T may be: an energy, or one by mass or by moment of inertia, which then are 1.
@@ -33,6 +34,44 @@ def check_dimensions(problem: Problem, limit: int) -> list[Diagnostic]:
     if any(quantity.unit and form for quantity, form in checker.given()):
         found = chain(found, checker.odd_terms(), checker.no_energy())
     return list(dict.fromkeys(islice(found, limit)))
+
+
+def one_wrong_unit(problem: Problem, first: Diagnostic) -> Diagnostic | None:
+    """The only unit without which every term fits, with the one that then follows for it.
+
+    Parameters
+    ----------
+    problem
+        A problem with terms that do not fit.
+    first
+        The first of its mistakes.
+    """
+    found = []
+    for place, quantity in enumerate(quantities(problem)):
+        if quantity.unit is None:
+            continue
+        number = len(problem.coordinates)
+        bare = replace(quantity, unit=None)
+        if place < number:
+            kept = (*problem.coordinates[:place], bare, *problem.coordinates[place + 1 :])
+            changed = replace(problem, coordinates=kept)
+        else:
+            rest = problem.parameters
+            kept = (*rest[: place - number], bare, *rest[place - number + 1 :])
+            changed = replace(problem, parameters=kept)
+        inference = Inference(changed)
+        checker = _Checker(inference)
+        if any(chain(checker.incoherent(), checker.odd_terms(), checker.no_energy())):
+            continue
+        unit = inference.unit(inference.demands.names[quantity.name])
+        if unit is not None:
+            found.append((quantity, unit))
+    if len(found) != 1:
+        return None
+    [(quantity, unit)] = found
+    message = f"the unit of '{quantity.name}' does not fit the terms of the file"
+    related = ((first.span, first.message),)
+    return Diagnostic(message, quantity.unit_span, f"write {unit}", related=related)
 
 
 def check_formula(

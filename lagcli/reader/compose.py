@@ -19,6 +19,12 @@ from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.text import Mistake, SourceText
 from lagcli.reader.yaml_errors import explain
 
+#: An entry of a map in braces that YAML reads as a key: `t; 1`, `mass= m`, `t :1`, `x 1`, `y x`.
+_WITHOUT_COLON = re.compile(
+    r"(?P<key>[^\W\d]\w*'*)(?:\s*[;=](?!>)\s*|\s*:(?=\S)|\s+(?=[.\d])|\s+(?=[-\w.+*/^'()]+$))"
+    r"(?P<value>[^:;]+)"
+)
+_PROSE = frozenset({"title", "source", "description", "symbol"})
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
@@ -129,7 +135,7 @@ class _Composer:
             self._stop(done.start, done.start + 1, message)
         anchored = done.anchor is not None
         if done.is_map:
-            entries = self._entries(done.children)
+            entries = self._entries(self._with_colons(done.children))
             node = Mapping(self.text, done.start, end, entries, size=size, anchored=anchored)
         else:
             items = done.children
@@ -138,8 +144,42 @@ class _Composer:
             self.diagnostics += mend_commas(node)
         self._add(node, done.anchor)
 
+    def _split(self, children: list[DocumentNode], place: int) -> re.Match[str] | None:
+        """The key and the value in a key of a map in braces that has none; None for others."""
+        key, value = children[place], children[place + 1]
+        if not (isinstance(key, Scalar) and key.in_flow and not key.style and value.is_empty):
+            return None
+        found = _WITHOUT_COLON.fullmatch(key.value)
+        if found is None or not re.match(r"\s+[^\d.;:=\s]", key.value[found.end("key") :]):
+            return found
+        others = [*children[:place], *children[place + 2 :]]
+        written = [self.text.source.text[one.start : one.end] for one in others]
+        words = re.findall(r"\w+", " ".join(written))
+        return found if {*words} & {*re.findall(r"\w+", key.value)} else None  # not: at rest
+
+    def _with_colons(self, children: list[DocumentNode]) -> list[DocumentNode]:
+        """Keys and values, with `t; 1` and `mass:m` as what they are meant to be; a mistake."""
+        keys, values = children[::2], children[1::2]
+        found = [self._split(children, place) for place in range(0, len(children), 2)]
+        is_text = any(isinstance(key, Scalar) and key.value in _PROSE for key in keys)
+        others = any(not value.is_empty for value in values)
+        if is_text or not any(found) or not (others or len(keys) == 1):
+            return children  # all alike are told where names are declared
+        mended: list[DocumentNode] = []
+        for key, value, split in zip(keys, values, found, strict=True):
+            if split is None or not isinstance(key, Scalar):
+                mended += [key, value]
+                continue
+            hint = f"write {split['key']}: {split['value']}"
+            self._report(key.start, key.end, f"': ' is missing behind '{split['key']}'", hint)
+            at = key.start + split.start("value")
+            value = Scalar(self.text, at, key.end, split["value"], "", True, broken=True)
+            mended += [Scalar(self.text, key.start, at, split["key"], "", True), value]
+        return mended
+
     def _entries(self, children: list[DocumentNode]) -> list[tuple[Scalar, DocumentNode]]:
         entries: dict[str, tuple[Scalar, DocumentNode]] = {}
+        twice = 0
         for key, value in zip(children[::2], children[1::2], strict=True):
             if not isinstance(key, Scalar):
                 hint = "a map has one pair of braces, a placeholder is no value: write key: value"
@@ -152,12 +192,14 @@ class _Composer:
                     "write what it stands for",
                 )
             elif key.label in entries:
+                twice += 1
+                if twice > 1:  # a second group of the same keys
+                    continue
                 first = entries[key.label][0]
                 related = ((first.span, "first given here"),)
                 message = f"the key '{key.label}' is given twice"
-                self._report(
-                    key.start, key.end, message, _one_of(*entries[key.label], value), related
-                )
+                hint = _one_of(*entries[key.label], value)
+                self._report(key.start, key.end, message, hint, related)
             else:
                 entries[key.label] = (key, value)
         return list(entries.values())

@@ -125,10 +125,10 @@ def _gap(file: FileReader, node: DocumentNode, what: str) -> Equation:
         return Equation(ZERO, ZERO, span=node.span)
     else:
         gap = Equation(file.expression(node, what, POSITION), ZERO, span=node.span)
-    if len(file.diagnostics) == before:
+    if len(file.diagnostics) == before and not file.scope.refused:
         orders = [derivative_order(side, file.scope) for side in (gap.left, gap.right)]
         if max(orders) < 0:
-            file.error(f"{what} contains no coordinate", node.span)
+            file.error(f"{what} contains no coordinate", node.span, "as in floor: y >= 0")
     return gap
 
 

@@ -51,16 +51,17 @@ def check_energies(file: FileReader, given: dict[str, Scalar]) -> None:
 def check_masses(file: FileReader, problem: Problem, span: Span) -> None:
     """Without T and L, the points give the kinetic energy, and every one needs a mass."""
     given = problem.kinetic, problem.lagrangian, problem.hamiltonian
-    if any(formula is not None for formula in given):
+    if any(formula is not None for formula in given) or file.scope.refused:
         return
-    if not (problem.points or "points" in file.scope.refused):
+    if not problem.points:
         hint = "give T, or points with masses, or L, or H"
         file.error("there is no kinetic energy", span, hint)
     for point in problem.points:
         if point.mass is None:
             message = f"the point '{point.name}' has no mass, and there is no T"
             hint = "give its mass, or T, or L"
-            if max(derivative_order(axis, file.scope) for axis in point.position) < 0:
+            orders = [derivative_order(axis, file.scope) for axis in point.position]
+            if orders and max(orders) < 0:
                 written = [file.scope.components[f"{point.name}.{axis}"]
                            for axis, _ in zip("xyz", point.position, strict=False)]  # fmt: skip
                 axes = ", ".join(written)
@@ -93,7 +94,8 @@ def declare_definitions(file: FileReader, node: DocumentNode) -> list[tuple[Scal
         file.error(f"'{found[0].label}' in definitions is not a formula", found[0].span, found[1])
         file.scope.refused.append("")
         return []
-    for key, value in file.entries(node, "definitions", hint):
+    entries = file.entries(node, "definitions", hint)
+    for key, value in file.of_section(entries, "definitions", ()):
         if file.declare(key.label, "definition", key.span):
             file.scope.definitions[key.label] = Definition(place=len(declared))
             declared.append((key, value))
@@ -124,7 +126,8 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
     points = []
     hint = "write name: {position: [x, y], mass: m}"
     file.scope.refused += [] if isinstance(node, Mapping) else ["points"]
-    entries = [*file.named(node, "points", _POINT_ATTRIBUTES, hint)]
+    named = file.named(node, "points", _POINT_ATTRIBUTES, hint)
+    entries = file.of_section(named, "points", _POINT_ATTRIBUTES)
     for place, (key, value) in enumerate(entries):
         what = f"the point '{key.label}'"
         rest = [k.label for k, v in entries[place + 1 :] if isinstance(v, Scalar) and v.is_empty]

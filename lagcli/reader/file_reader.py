@@ -23,6 +23,7 @@ from lagcli.reader.habits import (
     unit_at_end,
     unit_behind,
 )
+from lagcli.reader.headings import section_meant
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.misshapen import (
     WITHOUT_HYPHENS,
@@ -91,6 +92,8 @@ class FileReader:
 
     scope: Scope = field(default_factory=Scope)
     diagnostics: list[Diagnostic] = field(default_factory=list)
+    #: the keys of the problem that the file has
+    sections: frozenset[str] = frozenset()
 
     def error(
         self, message: str, span: Span, hint: str = "", related: tuple[tuple[Span, str], ...] = ()
@@ -117,6 +120,25 @@ class FileReader:
 
     # Shapes.
 
+    def of_section(
+        self,
+        entries: Iterable[tuple[Scalar, DocumentNode]],
+        section: str,
+        attributes: tuple[str, ...],
+    ) -> list[tuple[Scalar, DocumentNode]]:
+        """The entries up to the first of another section, whose line is missing: a mistake."""
+        kept: list[tuple[Scalar, DocumentNode]] = []
+        coordinates = [*self.scope.of_kind("coordinate")]
+        for key, value in entries:
+            other = section_meant(value, attributes, coordinates)
+            if kept and other and other not in {section, *self.sections} and not key.in_flow:
+                message = f"'{key.label}' does not belong to {section}"
+                self.error(message, key.span, f"a line '{other}:' is missing above it")
+                self.scope.refused.append("")
+                break
+            kept.append((key, value))
+        return kept
+
     def entries(
         self, node: DocumentNode, what: str, hint: str = ""
     ) -> Iterator[tuple[Scalar, DocumentNode]]:
@@ -139,6 +161,8 @@ class FileReader:
             # behind its key a map has braces: forces: {x: -c*x'}
             hint = re.sub(r"^write ([^{}]+: [^{}]+)$", r"write {\1}", hint)
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
+            if what in MAPS:
+                self.scope.refused.append("")  # whatever was to be declared
 
     def named(
         self, node: DocumentNode, what: str, attributes: tuple[str, ...], hint: str
@@ -368,6 +392,13 @@ class FileReader:
         if not advice and part and part[0] in parts and what == "the problem":  # V2, V_spring
             hint = f"it is one sum: write {part[0]}: {parts[part[0]].value.strip()} + {written}"
         hint = hint or f"known are {', '.join(names)}"
+        if broken := re.fullmatch(r"(\w+)\s*([\[{].*)", key.label):
+            self.error(
+                f"a ':' is missing behind '{broken[1]}'",
+                key.span,
+                f"write {broken[1]}: {broken[2]}: {source_of(value)}",
+            )
+            return None
         if "=" in key.label:
             hint = f"write {name_meant(key.label)}"
         elif key.in_flow and value.is_empty:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.reader.habits import unit_behind
@@ -21,6 +21,32 @@ SYSTEMS = {
     "cylindrical": "[r, phi, z]",
     "generalized": "[q_1, q_2]",
 }
+
+
+#: The section that an attribute belongs to.
+SECTIONS = {
+    **dict.fromkeys(("value", "integer"), "parameters"),
+    **dict.fromkeys(("position", "mass", "force"), "points"),
+    **dict.fromkeys(("equation", "holds_while", "on_loss", "acts_as"), "constraints"),
+    **dict.fromkeys(("gap",), "contacts"),
+    **dict.fromkeys(("where", "for", "in_terms_of", "always", "reaches"), "find"),
+}
+
+
+def section_meant(
+    value: DocumentNode, attributes: tuple[str, ...], coordinates: Collection[str]
+) -> str:
+    """The section that an entry belongs to by its attributes, where these are not its own."""
+    if isinstance(value, Scalar):
+        is_relation = re.search(r"[^<>]=", value.value) and not re.search(r"[:{]", value.value)
+        return "constraints" if is_relation else ""
+    labels = [key.label for key, _ in value.entries] if isinstance(value, Mapping) else []
+    if labels and {*labels} <= {*coordinates, "t", "gauge"}:
+        return "symmetries"
+    sections = {SECTIONS.get(each, "") for each in labels if each not in attributes}
+    if "find" in sections:  # whose attribute value parameters have, too
+        return "find"
+    return sections.pop() if len(sections) == 1 else ""
 
 
 def system_meant(word: str) -> str:
@@ -59,10 +85,11 @@ def without_headings(node: DocumentNode, attributes: tuple[str, ...]) -> tuple[S
 
 def _is_heading(node: DocumentNode, attributes: tuple[str, ...]) -> bool:
     if isinstance(node, Mapping):
-        labels = {key.label for key, _ in node.entries}
+        labels = {key.label.casefold() for key, _ in node.entries}
         inner = [value for _, value in node.entries]
         are_names = bool(labels) and all(map(str.isidentifier, labels))
-        return are_names and not labels & {*attributes} and not _mean(labels, inner)
+        of_others = labels & {*attributes, *SECTIONS}
+        return are_names and not of_others and not _mean(labels, inner)
     items = node.items if isinstance(node, Sequence) else []
     names = [each.value for each in items if isinstance(each, Scalar)]
     are_names = len(names) == len(items) and all(map(str.isidentifier, names))

@@ -209,6 +209,8 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return "momenta are named p_" + ", p_".join(coordinates)
     if name in {"p", "P"} and role.order > 0:
         return _MOMENTA
+    if role.momenta and name.startswith("p_") and not closest(name, scope.usable(role), 0.8):
+        return f"declare {name[2:]} under 'coordinates'"
     if name.casefold() in {"inf", "infinity", "oo"}:
         return "there is no infinity"
     if not role.parameters and not role.definitions and role.order < 0:
@@ -267,7 +269,7 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         elif count != FUNCTIONS[name]:
             yield _wrong_count(name, FUNCTIONS[name], count, node)
     elif scope.kinds.get(name) == "function":
-        arity = scope.arity[name]
+        arity = scope.arity.get(name, count)
         if node.primes and arity != 1:
             hint = f"write diff({name}, 1)(…) for the derivative by the first"
             message = f"a prime needs a function of one argument, '{name}' has {arity}"
@@ -320,7 +322,7 @@ def _partial_call(node: PartialCall, scope: Scope) -> Iterator[Diagnostic]:
         hint = did_you_mean(name, functions) or "declare it under 'functions'"
         yield Diagnostic(f"'{name}' is not a function of this problem", node.span, hint)
         return
-    arity = scope.arity[name]
+    arity = scope.arity.get(name, len(node.arguments))
     if len(node.arguments) != arity:
         yield _wrong_count(name, arity, len(node.arguments), node)
     for index in node.indices:

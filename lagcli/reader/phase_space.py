@@ -176,11 +176,14 @@ def _check_complete(
     entries: list[tuple[Scalar, DocumentNode]],
 ) -> None:
     spans = {name.label: name.span for name, _ in entries}
-    for name in coordinates.keys() - momenta.keys():
-        if not name.startswith("p_"):
+    for name in coordinates:
+        if name not in momenta and not name.startswith("p_"):
             message = f"the momentum 'p_{name}' of '{name}' is missing in {what}"
             file.error(message, spans[name], _WRITE)
+            return
     number = sum(1 for _ in file.scope.of_kind("coordinate"))
+    if file.scope.refused:
+        return
     if len(coordinates) != number and not any(name.startswith("p_") for name in coordinates):
         plural = "" if len(coordinates) == 1 else "s"
         message = (

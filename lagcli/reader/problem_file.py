@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -41,6 +42,10 @@ from lagcli.record import record, replace
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
+
+
+#: Places of a file at which a prime is tried; each takes a reading of the file.
+_TRIALS = 100
 
 
 @record
@@ -99,13 +104,16 @@ def _mistakes(source: Source) -> tuple[bool, tuple[Diagnostic, ...]]:
         return False, error.diagnostics
 
 
-def _read_source(source: Source) -> ProblemReading:
-    """The problem that a text writes; `Mistake` where it is not YAML."""
+def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
+    """The problem that a text writes; `Mistake` where it is not YAML.
+
+    With `alone` several terms that do not fit are told as their one cause, where there is one.
+    """
     root, diagnostics = compose(SourceText.of(source))
     file = FileReader(diagnostics=diagnostics)
     problem = _read(file, source, root)
     if problem is not None and not file.diagnostics:
-        file.diagnostics += _dimension_mistakes(problem) or slips(problem)
+        file.diagnostics += _dimension_mistakes(problem, alone=alone) or slips(problem)
     by_place = one_for_alike(sorted(file.diagnostics, key=lambda each: each.span))
     found = one_for_undeclared(by_place, together=not _declares(root))
     has_errors = any(diagnostic.is_error for diagnostic in found)
@@ -136,6 +144,7 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
         message = f"the problem stands under '{key.label}'"
         file.error(message, key.span, "its keys begin the lines; the name is title: …")
         return None
+    file.sections = frozenset(key.label for key, _ in root.entries)
     given = file.attributes(root, "the problem", KEYS)
 
     def section(key: str) -> DocumentNode:
@@ -208,12 +217,48 @@ def _is_problem(node: Mapping) -> bool:
     return "coordinates" in {key.label for key, _ in node.entries}
 
 
-def _dimension_mistakes(problem: Problem) -> list[Diagnostic]:
+def _dimension_mistakes(problem: Problem, *, alone: bool) -> list[Diagnostic]:
+    """The terms that do not fit, or `alone` the one place that explains several of them."""
     if all(quantity.unit is None for quantity in (*problem.coordinates, *problem.parameters)):
         return []
-    from lagcli.dimensions.check import check_dimensions
+    from lagcli.dimensions.check import check_dimensions, one_wrong_unit
 
-    return check_dimensions(problem, MISTAKES)
+    found = check_dimensions(problem, MISTAKES)
+    if len(found) < 2 or not alone:
+        return found
+    causes = [_one_prime(problem, found), one_wrong_unit(problem, found[0])]
+    known = [each for each in causes if each is not None]
+    return known if len(known) == 1 else found
+
+
+def _one_prime(problem: Problem, mistakes: list[Diagnostic]) -> Diagnostic | None:
+    """The only place where a prime more or less lets every term fit; None for none or several."""
+    text = SourceText.of(problem.source)
+    written = problem.source.text
+    names = "|".join(re.escape(each.name) for each in problem.coordinates)
+    found: list[tuple[Span, str]] = []
+    near = {each.span.line: None for each in mistakes} | dict.fromkeys(
+        range(1, written.count("\n") + 1)
+    )
+    trials = _TRIALS
+    for line in near:
+        begin = text.line_starts[line - 1]
+        end = (written + "\n").index("\n", begin)
+        for name in re.finditer(rf"(?<![\w.'])(?:{names})(?![\w(])('?)", written[begin:end]):
+            at = begin + name.end()
+            changed = written[: at - 1] if name[1] else f"{written[:at]}'"
+            whole = Source(problem.source.name, changed + written[at:])
+            trials -= 1
+            if trials > 0 and len(found) < 2 and not _read_source(whole, alone=False).diagnostics:
+                found.append((text.span(begin + name.start(), at), name[0]))
+    if len(found) != 1 or trials < 0:
+        return None
+    [(span, name_)] = found
+    better = name_[:-1] if name_.endswith("'") else f"{name_}'"
+    related = ((mistakes[0].span, mistakes[0].message),)
+    return Diagnostic(
+        f"{name_} stands where {better} fits", span, f"write {better}", related=related
+    )
 
 
 def _stem(name: str) -> str:

@@ -152,7 +152,8 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
         if not arguments and isinstance(value, Sequence):
             file.error(f"'{key.label}' has no argument", value.span, "declare a parameter")
         functions[key.label] = tuple(argument.label for argument in arguments if argument)
-        file.scope.arity[key.label] = len(arguments)
+        if arguments:
+            file.scope.arity[key.label] = len(arguments)
     return functions
 
 
@@ -177,7 +178,7 @@ def _declared(
         file.scope.refused.append("")
         return
     if isinstance(node, Mapping):
-        entries = _within(file, node.entries, attributes)
+        entries = _within(file, file.of_section(node.entries, section, attributes), attributes)
     elif isinstance(node, Sequence):
         names = [file.scalar(item, "a name") for item in node.items]
         entries = [(name, None) for name in names if name is not None]
@@ -200,6 +201,10 @@ def _declared(
         if is_decimal_part(key, value):
             message = f"'{key.label}' is not a name"
             file.error(message, key.span, "a decimal point is written '.'")
+        elif broken := re.fullmatch(r"(\w+)\s*=?\s*(\{.*)", key.label):
+            whole = f"{broken[1]}: {broken[2]}: {'' if value is None else source_of(value)}"
+            file.error(f"a ':' is missing behind '{broken[1]}'", key.span, f"write {whole}")
+            file.scope.refused.append(broken[1])
         elif with_unit := _with_unit(key, value):
             file.error(f"the unit in '{key.label}' is not a part of its name", key.span, with_unit)
             file.scope.refused.append(key.label)

@@ -178,8 +178,13 @@ def _where(
     name = file.name(unknown, "'for'", _UNKNOWN)
     if name is None:
         return []
-    if file.scope.kinds.get(name.name) not in {"coordinate", "parameter"}:
-        file.error(f"'{name}' is not a coordinate, a velocity or a parameter", name.span)
+    if (
+        file.scope.kinds.get(name.name) not in {"coordinate", "parameter"}
+        and not file.scope.refused
+    ):
+        known = ", ".join(file.scope.of_kind("coordinate"))
+        message = f"'{name}' is not a coordinate, a velocity or a parameter"
+        file.error(message, name.span, f"coordinates are {known}")
     return [Where(name=key.label, equation=equation, unknown=name, span=key.span)]
 
 

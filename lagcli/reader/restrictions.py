@@ -39,7 +39,8 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     lines = node.items if isinstance(node, Sequence) else [node]
     first = [each.value for each in lines if isinstance(each, Scalar) and "=" in each.value]
     written = first[0] if first else "equation, as in rolling: x' = R*theta'"
-    entries = file.named(node, "constraints", _CONSTRAINT_ATTRIBUTES, f"write name: {written}")
+    named = file.named(node, "constraints", _CONSTRAINT_ATTRIBUTES, f"write name: {written}")
+    entries = file.of_section(named, "constraints", _CONSTRAINT_ATTRIBUTES)
     given = (declared(file, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
     return [one for one in given if one is not None]
 
@@ -54,7 +55,7 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
         name = one.key.label
         mistakes = len(file.diagnostics)
         equation = file.equation(node, f"the constraint '{name}'", STATE)
-        if len(file.diagnostics) == mistakes:
+        if len(file.diagnostics) == mistakes and not file.scope.refused:
             sides = (equation.left, equation.right)
             if max(derivative_order(side, file.scope) for side in sides) < 0:
                 message = f"the constraint '{name}' contains no coordinate"
@@ -95,7 +96,7 @@ def _on_loss(file: FileReader, one: Declared) -> OnLoss:
         case other:
             hint = did_you_mean(other, _ON_LOSS) or "write stop or release"
             file.error(f"'{other}' is nothing that a run does", text.span, hint)
-            return "stop"
+            return "release"  # with which all other keys go
 
 
 def _acts_as(file: FileReader, one: Declared) -> ForceKind | None:
@@ -168,6 +169,7 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
     moves = [key.label for key, value in entries if key.in_flow and _MOVED.search(key.label)]
     for key, value in ((k, v) for k, v in entries if k.label not in moves):
         what = f"the symmetry '{key.label}'"
+        before = len(file.diagnostics)
         changes = {}
         if isinstance(value, Mapping) and not value.entries:
             file.error(f"{what} changes nothing", value.span, hint)
@@ -188,6 +190,8 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
             if name.label in coordinates or name.label in {"t", "gauge"}:
                 changes[name.label] = file.expression(change, what, STATE)
                 continue
+            if file.scope.refused:  # it may be one of those that could not be declared
+                continue
             message = f"'{name.label}' in {what} is not a coordinate"
             if isinstance(change, Mapping):
                 written = change.text.source.text[change.start : change.end].strip()
@@ -201,8 +205,10 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
             known = f"known are {', '.join(coordinates)}, t and gauge"
             file.error(message, name.span, hint or known)
         time, gauge = changes.pop("t", None), changes.pop("gauge", None)
-        if gauge is not None and time is None and not changes:
-            file.error(f"{what} changes neither a coordinate nor t", key.span)
+        is_said = len(file.diagnostics) > before or file.scope.refused
+        if gauge is not None and time is None and not changes and not is_said:
+            message = f"{what} changes neither a coordinate nor t"
+            file.error(message, key.span, f"write {key.label}: {usual}")
         symmetries.append(
             Symmetry(name=key.label, changes=changes, time=time, gauge=gauge, span=key.span)
         )

@@ -13,9 +13,24 @@ UNDECLARED = "declare it under 'parameters'"
 #: What it says of one with a prime.
 COORDINATE = "declare it under 'coordinates'"
 _KEY = re.compile(r"unknown keys? (?P<keys>'.*') in (?P<place>(?:the |[^']).*)")
-_ORDER = re.compile(r"^(the (?:velocity|acceleration|momentum)) (\S+) (cannot stand in .*)$")
+_ORDER = re.compile(
+    r"^(the (?:coordinate|velocity|acceleration|momentum)) (\S+) (cannot stand in .*)$"
+)
+_NO_COORDINATE = re.compile(r"'(\w+)'*' (?:in (?:initial|the symmetry)|is not a parameter)")
 _SHAPE = re.compile(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
 _NAME = re.compile(r"unknown name '(\w+)' in (.*)")
+
+
+def _once_by_name(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
+    """Without what a state or a symmetry has to say of a name that is unknown elsewhere."""
+    names = (_NAME.fullmatch(each.message) for each in diagnostics)
+    unknown = {part for found in names if found for part in (found[1], found[1].removeprefix("p_"))}
+    kept = []
+    for each in diagnostics:
+        found = _NO_COORDINATE.match(each.message)
+        if found is None or found[1] not in unknown:
+            kept.append(each)
+    return kept
 
 
 def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
@@ -73,6 +88,7 @@ def one_for_undeclared(
     together
         Whether one is enough for all names to be declared: the file declares no parameter.
     """
+    diagnostics = _once_by_name(diagnostics)
     moving = {each.message.split("'")[1] for each in diagnostics if each.hint == COORDINATE}
     diagnostics = [
         replace(each, hint=COORDINATE)
@@ -87,10 +103,11 @@ def one_for_undeclared(
     undeclared: dict[str, Diagnostic] = {}
     for each in diagnostics:
         found = _NAME.fullmatch(each.message)
-        if found is None or (found[1], each.hint) not in reported:
+        hint = UNDECLARED if UNDECLARED in each.hint else each.hint
+        if found is None or (found[1], hint) not in reported:
             kept.append(each)
         if found is not None:
-            reported.add((found[1], each.hint))
+            reported.add((found[1], hint))
             if UNDECLARED in each.hint:
                 undeclared.setdefault(found[1], each)
     if not (together and len(undeclared) > 1):

@@ -131,7 +131,8 @@ def check_values(file: FileReader, problem: Problem) -> None:
             continue
         mistake = parameter.mistake_of(value)
         if mistake is not None:
-            file.error(mistake, parameter.value.span)
+            hint = "correct the value, or what is assumed"
+            file.error(mistake, parameter.value.span, hint)
     _check_masses(file, problem, known)
     striking = {one.name: one.restitution for one in problem.constraints}
     striking |= {one.name: one.restitution for one in problem.contacts}

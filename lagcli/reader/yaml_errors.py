@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import re
 from typing import TYPE_CHECKING, Any
 
@@ -9,12 +10,15 @@ from lagcli.diagnostics import Diagnostic
 from lagcli.reader.habits import (
     CASE,
     COMMENT,
+    KEYS,
     MAPS,
     SIGNS,
     colon_advice,
     habits,
+    key_meant,
     meanings,
 )
+from lagcli.reader.headings import SECTIONS
 
 if TYPE_CHECKING:
     from lagcli.reader.text import SourceText
@@ -75,6 +79,12 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
     if quoted := _QUOTED.fullmatch(line):
         hint = f"leave out the outer quotes: {quoted[1]}: {quoted[3].strip(quoted[2])}"
         return Diagnostic("this quote ends before the text does", span, hint)
+    if section := _missing_section(lines, number):
+        begin = text.line_starts[number] + len(line) - len(line.lstrip())
+        key = line.partition(":")[0].strip()
+        message = f"'{key}' is indented, and no line above it has a section for it"
+        span = text.span(begin, begin + len(key))
+        return Diagnostic(message, span, f"a line '{section}:' is missing above it")
     if "mapping values are not allowed" in said:
         return _second_colon(offset, text)
     if latex := re.search(r"\\[A-Za-z]+\{", line):
@@ -162,6 +172,30 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
     if word and word[1] in meanings("keys").values():
         return Diagnostic("two keys on one line", span, f"begin a new line with '{word[1]}:'")
     return Diagnostic("a second ':' in one value", span, "put the whole value in quotes")
+
+
+def _missing_section(lines: list[str], here: int) -> str:
+    """The section whose line is missing above an indented entry; empty where none is."""
+    entry = re.match(r"(\s+)(\w+):(?:\s+(\S.*)|\s*$)", lines[here])
+    above = next((k for k in range(here - 1, -1, -1) if re.match(r"\s*[^\s#]", lines[k])), None)
+    if entry is None or above is None or key_meant(entry[2], KEYS) is not None:
+        return ""
+    begun = re.match(r"(\w+):\s+[^\s#|>]", lines[above])
+    if begun is None or begun[1] not in KEYS:
+        return ""
+    deeper = itertools.takewhile(lambda each: each.startswith(f"{entry[1]} "), lines[here + 1 :])
+    value, text = entry[3] or " ".join(deeper), "\n".join(lines)
+    given = set(re.findall(r"^(\w+):", text, re.MULTILINE))
+    keys = re.findall(r"(\w+):", value)
+    found = [SECTIONS[key] for key in keys if key in SECTIONS]
+    if not keys and re.search(r"[<>]=?", value):
+        found.append("contacts")
+    elif not keys and "=" in value:
+        found.append("constraints")
+    usual = ["parameters", "definitions", "points", "constraints", "symmetries"]
+    return next(
+        each for each in (*found, *usual, "initial") if each not in given or each == "initial"
+    )
 
 
 def _explain_character(error: Exception, text: SourceText) -> Diagnostic:

@@ -171,6 +171,8 @@ class _Translation(Functions):
         opening, inside = self.peek(), self.peek(1)
         if self.sign() != "(" or opening is None or opening.apart or inside is None:
             return
+        if word not in self.names.known and len(word) > 2:
+            raise Unclear
         alone = self.sign(2) == ")"
         if alone != (inside.text == "t") and (alone or word in self.names.coordinates):
             raise Unclear

@@ -1,0 +1,114 @@
+"""One slip in a good file is one mistake, at its line, with a hint: no cascade."""
+
+from __future__ import annotations
+
+import random
+import re
+from functools import cache
+
+import pytest
+
+from lagcli.library import entries
+from lagcli.reader import read_problem
+
+
+@cache
+def good_files():
+    """The library without its known answers."""
+    found = {}
+    for entry in entries():
+        text = entry.path.read_text("utf-8").partition("\nexpect:")[0] + "\n"
+        if not read_problem(entry.name, text.encode()).diagnostics:
+            found[entry.name] = text
+    return found
+
+
+def errors(text):
+    return [each for each in read_problem("p", text.encode()).diagnostics if each.is_error]
+
+
+def drawn(draw, pattern):
+    """A file and a place of the pattern in it."""
+    while True:
+        text = good_files()[draw.choice([*good_files()])]
+        found = [*re.finditer(pattern, text, re.MULTILINE)]
+        if found:
+            return text, draw.choice(found)
+
+
+@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("section", ["points", "constraints", "find"])
+def test_a_missing_line_of_a_section_is_named(seed, section):
+    draw = random.Random(seed)
+    text, line = drawn(draw, rf"^{section}:\n(?=  \w+:)")
+    found = errors(text[: line.start()] + text[line.end() :])
+    assert found
+    if section != "find" or ": {where" in text or ": {value" in text:
+        assert len(found) == 1, [each.message for each in found]
+        assert found[0].hint == f"a line '{section}:' is missing above it"
+        assert found[0].span.line == text[: line.start()].count("\n") + 1
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_a_colon_of_a_map_in_braces(seed):
+    draw = random.Random(seed)
+    text, place = drawn(draw, r"(?<=\{)(\w+'*): (?=[\w.-]+[,}])|(?<=, )(\w+'*): (?=[\w.-]+[,}])")
+    wrong = draw.choice([";", "=", " :", ":"])
+    changed = text[: place.end() - 2] + wrong + text[place.end() :]
+    found = errors(changed)
+    assert len(found) == 1, [each.message for each in found]
+    assert found[0].span.line == text[: place.start()].count("\n") + 1
+    assert f"write {place[1] or place[2]}: " in found[0].hint
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_a_coordinate_with_another_name_is_one_mistake_for_each_place_of_its_use(seed):
+    draw = random.Random(seed)
+    text, place = drawn(draw, r"^  (\w+): \{unit: \w+")
+    name = place[1]
+    renamed = f"{name}{draw.choice(['x', 'qq', 'zz'])}"
+    changed = text[: place.start(1)] + renamed + text[place.end(1) :]
+    used = [each for each in errors(changed) if f"'{name}'" in each.message]
+    assert len(used) <= 1 or all(f"'{renamed}'" in each.hint for each in used)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_wrong_unit_that_alone_explains_all_is_named(seed):
+    draw = random.Random(seed)
+    while True:
+        text, place = drawn(draw, r"^  (\w+): \{unit: (m|kg|rad)\}$")
+        unit = {"m": "kg", "kg": "s", "rad": "A"}[place[2]]
+        found = errors(text[: place.start(2)] + unit + text[place.end(2) :])
+        if found and "does not fit the terms" in found[0].message:
+            break
+    [only] = found
+    assert only.message == f"the unit of '{place[1]}' does not fit the terms of the file"
+    put_in = text[: place.start(2)] + only.hint.removeprefix("write ") + text[place.end(2) :]
+    assert errors(put_in) == []
+    assert only.span.line == text[: place.start()].count("\n") + 1
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_prime_that_alone_explains_all_is_named(seed):
+    draw = random.Random(seed)
+    while True:
+        text, place = drawn(draw, r"^(?:T|L|  \w+): .*?\b(\w+)'(?!')")
+        changed = text[: place.end() - 1] + text[place.end() :]
+        found = errors(changed)
+        if found and " stands where " in found[0].message:
+            break
+    [only] = found
+    line, column = only.span.line, only.span.column
+    lines = changed.split("\n")
+    better = only.hint.removeprefix("write ")
+    end = only.span.end_column - 1
+    lines[line - 1] = lines[line - 1][: column - 1] + better + lines[line - 1][end:]
+    assert errors("\n".join(lines)) == []
+
+
+def test_the_same_keys_twice_in_a_map_are_one_mistake():
+    text = (
+        "coordinates: [x]\nH: p_x^2/2\ncanonical_transformations:\n"
+        "  a:\n    Q: p_x\n    p_Q: -x\n    Q: x\n    p_Q: p_x\n"
+    )
+    assert len(errors(text)) == 1
