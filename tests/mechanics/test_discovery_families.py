@@ -188,6 +188,18 @@ def test_special_values_are_those_of_the_family(parameters, coordinates, L, valu
     assert set(values.split()) <= {f"{c.parameter}={c.value}" for c in cases}
 
 
+@pytest.mark.parametrize(("field", "E"), [("B", "E"), ("2*B", "E/3"), ("B^2", "E")])
+def test_a_value_by_which_charges_are_divided_is_special_too(field, E):
+    """The drift E/B has no value without a field: falling then, with the projectile's charges."""
+    head = f"parameters: {{m: {POS}, B: {{}}, E: {POS}}}\ncoordinates: [x, y]\n"
+    text = f"{head}L: m*(x'^2 + y'^2)/2 - ({field})*y*x' + ({E})*y\n"
+    [case] = [c for c in derive(text).special_cases if str(c.parameter) == "B"]
+    falling = derive(f"{head}L: m*(x'^2 + y'^2)/2 + ({E})*y\n")
+    assert case.value == 0
+    assert case.number == len(falling.discovery.charges)
+    assert {"boost_x", "conformal", "dilation"} <= {c.name for c in case.charges}
+
+
 CHANGING = {
     "m*t^2*x'^2/2": "a growing mass",
     "t^2*(x'^2 - k*x^2)/2": "Lane and Emden, index 1",

@@ -9,6 +9,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra.build import free_of
+from lagcli.algebra.place import NO_VALUE
 from lagcli.diagnostics import ProblemError
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unknowns
 from lagcli.mechanics.discovery.discovery import Discovery
@@ -79,6 +80,7 @@ def special_cases(
                 for part in _real_parts(
                     _at_value(c.charge, (parameter, value), variables), c.charge
                 )
+                if not part.has(*NO_VALUE)  # divided by what is 0 there
             ]  # fmt: skip
             charges = new_charges(known, there.charges, there.dynamics, allowed)
             charges = _named_apart(charges, [c.name for c in discovery.charges])
