@@ -627,3 +627,17 @@ def test_a_rapid_drive_without_equilibria_has_those_of_the_average(drive, rate):
     system = derive("{coordinates: [q], parameters: [g, l, a, W], L: q'^2}").system
     cosine = sympy.cos(system.build(inclined.operand))
     assert is_zero(cosine - system.build(parse_text(bound))) is True
+
+
+@pytest.mark.parametrize("factor", ["1", "m", "3"])
+def test_special_values_are_said_with_what_the_same_search_finds(factor):
+    """V = k x^n: linear equations have five (Lutzky), k/x^2 three (de Alfaro, Fubini, Furlan)."""
+    text = (
+        "coordinates: {x: {assume: positive}}\n"
+        "parameters: {m: {assume: positive}, k: {assume: positive}, n: {}}\n"
+        f"L: m*x'^2/2 - {factor}*k*x^n\n"
+    )
+    told = said(text, "The algebra of the symmetries", "algebra")
+    numbers = [part.split()[0] for part in told.split("the same search finds ")[1:]]
+    assert sorted(set(numbers)) == ["3", "5"]
+    assert told.count("symmetries, of which these are no linear combinations") == len(numbers)

@@ -17,7 +17,7 @@ from lagcli.mechanics.discovery.lie_algebra import MODULO_CONSTANTS
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.explainer import Explainer
-from lagcli.mechanics.explaining.words import Part, says, shows
+from lagcli.mechanics.explaining.words import Part, says
 from lagcli.statements.answers import AlgebraSection, Charge, ChargesSection, Section
 from lagcli.statements.wording import conditions
 
@@ -143,14 +143,14 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says(*_integrability(found, n))
     if any("special values" in note for note in explainer.derivation.discovery.words):
         yield says("Not all special values of the parameters were tried.")
+    if found.special:
+        yield Heading("More symmetries for special values of the parameters", 2)
     for case in found.special:
-        yield Heading("More symmetries for one value of", 2, Name(case.parameter))
-        yield says("The linear equations have a smaller rank, and more solutions, for")
-        yield shows(Name(case.parameter), case.value)
         one = len(case.charges) == 1
+        many = f"{case.number} {'symmetry' if case.number == 1 else 'symmetries'}"
         new = "this is no linear combination" if one else "these are no linear combinations"
-        yield says(f"The number of symmetries is then {case.number}, and {new} "
-                   "of those above:")  # fmt: skip
+        lead: list[Part] = ["For ", Name(case.parameter), " = ", case.value]
+        yield says(lead, f" the same search finds {many}, of which {new} of those above:")
         yield equations_of((Name(name), value) for name, value in case.charges.items())
 
 
