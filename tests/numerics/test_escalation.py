@@ -37,3 +37,10 @@ def test_a_collision_stays_one():
     assert not result.certificate.reached
     assert "grows without bound" in result.refusal
     assert result.events[-1].t == pytest.approx(float(mpmath.pi / mpmath.sqrt(8)), abs=1e-9)
+
+
+@pytest.mark.skipif(not engine().quadruple, reason="no numbers of 128 bits")
+def test_a_motion_that_loses_no_bit_of_doubles_has_the_whole_span_as_its_horizon():
+    """Two runs of it in doubles agree in every bit; 1e-17 is for more of them."""
+    text = "{coordinates: [x], T: x'^2/2, V: exp(-x^2), initial: {x: -3, x': 1.414121289559}}"
+    assert last(simulated(text, 18, 1e-17, samples=9), "t") == 18

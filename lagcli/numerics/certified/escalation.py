@@ -70,7 +70,9 @@ def is_marginal(outcome: Outcome) -> bool:
     """Whether runs at the rounding of their numbers are within the accuracy by chance."""
     controller = outcome.controller
     at_rounding = controller.factor(outcome.tolerances[1], outcome.run) > USUAL
-    return at_rounding and _CHANCE * max(outcome.errors) > controller.accuracy
+    if not (at_rounding or controller.is_unstable):
+        return False
+    return _CHANCE * max(*outcome.errors, *outcome.held) > controller.accuracy
 
 
 def horizon_of(outcome: Outcome) -> float:
@@ -81,8 +83,8 @@ def horizon_of(outcome: Outcome) -> float:
     span, stop = outcome.controller.span, outcome.run.stop
     if stop is not None:
         return float(stop.t) or span
-    left = max(BITS[_LARGEST] + math.log2(outcome.controller.accuracy), 1.0)
-    return min(span, span * left / lost_bits(outcome)) or span
+    left, lost = BITS[_LARGEST] + math.log2(outcome.controller.accuracy), lost_bits(outcome)
+    return min(span, span * max(left, 1.0) / lost) or span if lost > 0 else span
 
 
 def with_rounding(found: Outcome, doubles: Outcome) -> Outcome:
