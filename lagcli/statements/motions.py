@@ -87,8 +87,10 @@ class OneFreedom:
     that are real count, where the coordinate is `positive` those that are positive.  All of
     them are real for E between the bounds of each of `turning_energies`.  Where the kinetic energy
     is `regular`, positive at every position, nothing else turns it back.  One-sided contacts hold
-    at each of them under the conditions of `turning_where`.  Where nothing `oscillates`, the motion
-    comes back from one of them only.  `when` says when E is constant, where an impact changes it.
+    at each of them under the conditions of `turning_where`, as do the signs that are assumed of the
+    `signed` coordinates that are eliminated; these alone where nothing is `one_sided`.  Where
+    nothing `oscillates`, the motion comes back from one of them only.  `when` says when E is
+    constant, where an impact changes it.
     """
 
     coordinate: str
@@ -100,6 +102,8 @@ class OneFreedom:
     positive: bool = False
     turning_energies: tuple[tuple[Expression, Expression], ...] = ()
     turning_where: tuple[tuple[Above, ...], ...] = ()
+    one_sided: bool = True
+    signed: tuple[str, ...] = ()
     regular: bool = True
     oscillates: bool = True
     when: str = ""

@@ -135,22 +135,30 @@ def only_along_its_path(point: str, fixed: Sequence[str]) -> Iterator[Paragraph]
 def turning_contacts(motion: OneFreedom) -> Iterator[Paragraph]:
     """For which energies one-sided contacts hold at the turning points."""
     different = {*motion.turning_where}
+    demands, hold = _demands(motion)
     sides = [side for where in different for each in where for side in (each.left, each.right)]
     if any(length(side) > _MOST_TO_READ for side in sides):
         E = Name(motion.constant)
-        yield Paragraph(("It depends on ", E, " whether the one-sided constraints hold there."))
+        yield Paragraph(("It depends on ", E, " whether t", *demands, f"{hold} there."))
         return
     if len(different) == 1 and different != {()}:
         where = motion.turning_where[0]
-        yield Paragraph(("The one-sided constraints hold there for ", *conditions(where), "."))
+        yield Paragraph(("T", *demands, f"{hold} there for ", *conditions(where), "."))
     if len(different) < 2:
         return
     for root, where in zip(motion.turning_points or (), motion.turning_where, strict=True):
         if where:
             place = ("At ", Name(motion.coordinate), " = ", root)
-            yield Paragraph(
-                (*place, " the one-sided constraints hold for ", *conditions(where), ".")
-            )
+            yield Paragraph((*place, " t", *demands, f"{hold} for ", *conditions(where), "."))
+
+
+def _demands(motion: OneFreedom) -> tuple[list[Part], str]:
+    """What must hold at a turning point, without its first letter, and the verb."""
+    signs = "signs" if len(motion.signed) > 1 else "sign"
+    signed: list[Part] = [f"he assumed {signs} of ", *listed(motion.signed)]
+    if motion.one_sided:
+        return ["he one-sided constraints", *([" and t", *signed] * bool(motion.signed))], " hold"
+    return signed, " hold" if len(motion.signed) > 1 else " holds"
 
 
 def joined(where: Sequence[Above], word: str) -> list[Part]:

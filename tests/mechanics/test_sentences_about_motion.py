@@ -350,3 +350,19 @@ def test_what_rests_on_a_moving_wire_is_not_called_an_equilibrium(V, motor):
     told = words(found, "Steady motions")
     assert "equilibria" not in told
     assert "in a steady motion the coordinates that are left rest" in told
+
+
+@pytest.mark.parametrize("n", random.Random(29).sample(range(1, 7), 2))
+@pytest.mark.parametrize(("sided", "subject"), [
+    (False, "The assumed sign of y holds there"),
+    (True, "The one-sided constraints and the assumed sign of y hold there"),
+])  # fmt: skip
+def test_an_assumed_sign_is_not_called_a_one_sided_constraint(n, sided, subject):
+    """A rod of length c with one end on a floor, its centre at y = c cos(th) >= 0."""
+    while_ = ", multiplier: N, holds_while: N >= 0" if sided else ""
+    text = (
+        f"coordinates: {{y: {{assume: nonnegative}}, th: {{}}}}\n{_POSITIVE}\n"
+        f"T: m*y'^2/2 + {n}*m*c^2*th'^2/2\nV: k*y\n"
+        f"constraints: {{floor: {{equation: y = c*cos(th){while_}}}}}\n"
+    )
+    assert subject in words(explain(derive(text), ["reduction"]), "The reduction")

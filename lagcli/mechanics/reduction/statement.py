@@ -247,6 +247,8 @@ class _Statement:
             turning_where=tuple(
                 conditions(each, order, motion.bounds) for each in motion.turning_where
             ),
+            one_sided=motion.contacts.any_one_sided,
+            signed=motion.contacts.signed,
             regular=sign(motion.mass) == 1,
             oscillates=not periods.excluded,
             when=self.routh.between_impacts.get("", ""),

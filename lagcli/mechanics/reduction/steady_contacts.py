@@ -34,19 +34,35 @@ class SteadyContacts:
     @cached_property
     def _demands(self) -> tuple[tuple[Expr, bool], ...]:
         """What is not negative on the motion, and what is not 0 either, in q and q' of `full`."""
-        given, constraints = self.routh.given.dynamics, self.routh.given.dynamics.constraints
+        given = self.routh.given.dynamics
         demands: list[tuple[Expr, bool]] = []
         for each in one_sided(given):
             parts = each.demands if each.given else (each.gap,)
             found = [given.on_motion(part) for part in parts if part is not None]
             demands += [(part, not each.given) for part in found if part is not None]
-        solved = {} if constraints.relations is None else dict(constraints.relations.solved)
+        solved = self._solved
         demands += [(q, bool(q.is_positive)) for q in solved if q.is_nonnegative]
         flow = dict(zip(given.system.q, given.system.qdot, strict=True))
         for q, value in reversed([(q, v) for q, v in solved.items() if q in flow]):
             put_in = {q: value, flow[q]: given.system.total_derivative(value)}
             demands = [(part.xreplace(put_in), strict) for part, strict in demands]
         return tuple(demands)
+
+    @property
+    def _solved(self) -> dict[Symbol, Expr]:
+        relations = self.routh.given.dynamics.constraints.relations
+        return {} if relations is None else dict(relations.solved)
+
+    @property
+    def signed(self) -> tuple[str, ...]:
+        """The coordinates that are eliminated and that the file assumes not to be negative."""
+        signs = {q: sign(value) for q, value in self._solved.items() if q.is_nonnegative}
+        return tuple(q.name for q, known in signs.items() if known is None)
+
+    @property
+    def any_one_sided(self) -> bool:
+        """Whether the file has one-sided constraints or contacts."""
+        return bool(one_sided(self.routh.given.dynamics))
 
     def standing(self, motion: Steady) -> Steady | None:
         """The motion where every one-sided contact holds; None where one does not."""
