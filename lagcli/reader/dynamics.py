@@ -212,7 +212,8 @@ def _position(file: FileReader, node: DocumentNode, name: str) -> tuple[Expressi
     before = len(file.diagnostics)
     items = read_components(file, node, what, _CARTESIAN)
     if isinstance(node, Sequence) and not 1 <= len(items) <= 3 and len(file.diagnostics) == before:
-        file.error(f"{what} has {len(items)} components, it may have 1 to 3", node.span)
+        message = f"{what} has {len(items)} components, it may have 1 to 3"
+        file.error(message, node.span, _CARTESIAN)
     for axis, item in zip("xyz", items, strict=False):
         if isinstance(item, Scalar):
             file.scope.components[f"{name}.{axis}"] = item.value

@@ -38,7 +38,7 @@ from lagcli.reader.misshapen import (
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import unit_mistake
-from lagcli.reader.scope import VALUES, Kind, Role, Scope, name_mistake
+from lagcli.reader.scope import INITIAL, VALUES, Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.text import Mistake
 
@@ -55,7 +55,7 @@ _NEAR = 0.7
 #: What stands for an expression that could not be read; the file is refused anyway.
 UNREADABLE = ZERO
 #: Places where a number stands, without its unit.
-_NUMERIC = (VALUES,)
+_NUMERIC = (VALUES, INITIAL)
 #: The words for it, and what they mean.
 YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
 _NAME = re.compile(r"[^\W\d]\w*")
@@ -205,6 +205,9 @@ class FileReader:
         if len(stated) > 1 or (stated and isinstance(node, Sequence)):
             return "write {" + ", ".join(f"{name}: {value}" for name, value in stated) + "}"
         given = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+        if not given:
+            state = [*names, *(f"{name}'" for name in names)]
+            return "write {" + ", ".join(f"{name}: …" for name in state) + "}"
         if isinstance(node, Scalar) and (one := as_list(node.value)) != f"[{node.value.strip()}]":
             given = one[1:-1].split(", ")
         elif isinstance(node, Scalar) and (listed := re.search(r"\(\[(.*)\]\)$", node.value)):

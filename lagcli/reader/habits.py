@@ -36,6 +36,11 @@ SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegat
 _WISHES = {"yes", "true", "True", "on", "all", "find", "?"}
 COMMENT = "a comment begins with '#'"
 CASES = frozenset("if for when where else otherwise piecewise Piecewise".split())
+#: At least three words with one that is no quantity, at the end of a formula.
+REMARK = re.compile(
+    r"[-+*/^)\d'’]\s+(?=.*\b(?:of|the|for|in|with|is|energy|force|der|die|das|des|von|und|de|la|le|du|et)\b)"
+    r"(?:[-–—:]\s+)?[^\W\d]{2,}(?:\s+[^\W\d]+){2,}\.?\s*$"
+)
 CASE = "(1 + sign(x))/2 is 1 for x > 0, else 0"
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
 #: A number with a unit behind it, as in `10 kg` and `9.81 m/s^2`.

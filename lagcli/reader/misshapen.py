@@ -16,6 +16,7 @@ FOUND = frozenset(
     "frequency frequencies period equilibrium equilibria modes energy momentum charges".split()
 )
 
+SEVERAL = "one value each, with a name of its own; several are run by lagcli sweep --vary"
 ALREADY_FOUND = "leave it out: equilibria, frequencies and charges are found"
 WITHOUT_HYPHENS = "leave out the '-' before each key"
 
@@ -43,7 +44,7 @@ def one_sum(node: DocumentNode, what: str) -> str:
     if any(re.search(r"\bif\b|[<>]", term) for term in written):
         return CASE
     if what.startswith("the value of"):
-        return "one value each; several are run by lagcli sweep --vary"
+        return SEVERAL
     if what == "'until'" and written:
         return f"a motion begins at t = 0: write {written[-1].split()[-1]}"
     return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""
@@ -95,7 +96,7 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
             number, unit = unit, number
         if unit and unit_behind(f"1 {unit}"):
             return f"write {{value: {number}, unit: {unit}}}"
-        return "one value each; several are run by lagcli sweep --vary"
+        return SEVERAL
     if isinstance(node, Scalar) and names[0] == "unit" and is_constant("x", written):
         return "a state stands under initial, as in initial: {x: 1}"
     if isinstance(node, Scalar) and names[0] == "unit" and written == "angle":

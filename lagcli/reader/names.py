@@ -63,6 +63,17 @@ def name_mistakes(
                 covered |= {id(above), id(below)}
                 message = f"'{above.name}/dt' is not a velocity in {what}"
                 yield Diagnostic(message, above.span.to(below.span))
+            case Quotient(numerator=Name() as above, denominator=Name() as below) if (
+                above.name[:1] == "d" and below.name[:1] == "d" and above.name[1:]
+                and alike(below.name[1:], scope.of_kind("coordinate"))
+                and not {above.name, below.name} & scope.kinds.keys()
+            ):  # fmt: skip
+                covered |= {id(above), id(below)}
+                energy = above.name[1:] in {"V", "U", "T", "L", "H", "W"}
+                hint = f"write diff({above.name[1:]}, {below.name[1:]})"
+                hint = "leave it out: what an energy contributes is derived" if energy else hint
+                message = f"'{above.name}/{below.name}' is not a derivative in {what}"
+                yield Diagnostic(message, above.span.to(below.span), hint)
             case Name() if id(node) in covered:
                 pass
             case Name():
@@ -252,6 +263,9 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return f"a constant has a name and a value: write it as C, and {UNDECLARED}"
     if not hint and name in {"I", "i", "j"}:
         return f"every quantity is real; {UNDECLARED}"
+    multipliers = list(scope.of_kind("multiplier")) if role.multipliers else []
+    if not hint and len(multipliers) == 1 and re.fullmatch(r"[A-Z]\w?|F_?\w|lam\w*|λ", name):
+        return f"the multiplier of the constraint is {multipliers[0]}; or {UNDECLARED}"
     if rate:
         return f"the velocity of {rate[0]} is {rate[0]}'"
     return hint or UNDECLARED + (", or its formula under 'definitions'" if role.definitions else "")
@@ -282,6 +296,12 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         hint = f"did you mean {written}*(…)?"
         if scope.kinds.get(name) == "coordinate" and node.arguments == (Name("t"),):
             hint = f"a coordinate is a function of t by itself: write {written}"
+        elif scope.kinds.get(name) == "coordinate" and any(
+            isinstance(part, Name) and part.name == "t"
+            for each in node.arguments
+            for part in walk(each)
+        ):
+            hint = f"{written} is taken at the time t; there are no delays"
         yield Diagnostic(message, node.span, hint)
     elif not scope.refused or instead(name) or foreign_function(name):
         functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]

@@ -67,6 +67,10 @@ def read_parameters(
     described: list[tuple[Scalar, Scalar]] = []
     for key, node in declared:
         attributes: dict[str, DocumentNode] = {}
+        if indexed := _indexed(key.label, node):
+            file.error(f"'{key.label}' has several values", key.span, indexed)
+            file.scope.refused += ["", f"{key.label}["]
+            continue
         if isinstance(node, Scalar) and not node.is_empty:
             attributes = {"value": node}
         else:
@@ -104,6 +108,20 @@ def read_parameters(
     return tuple(parameters)
 
 
+def _indexed(name: str, node: DocumentNode | None) -> str:
+    """How `m: [1, 2]` and `m: {1: 3, 2: 4}` are written by names; nothing for other values."""
+    given: list[tuple[str, DocumentNode]] = []
+    if isinstance(node, Mapping):
+        given = [(key.label, value) for key, value in node.entries]
+    elif isinstance(node, Sequence):
+        given = [(str(place), value) for place, value in enumerate(node.items, start=1)]
+    numbers = all(isinstance(value, Scalar) and is_constant("x", value.value) for _, value in given)
+    if len(given) < 2 or not numbers or not all(index.isdigit() for index, _ in given):
+        return ""
+    written = ", ".join(f"{name}_{index}: {source_of(value)}" for index, value in given)
+    return f"write {written}; several are run by lagcli sweep --vary"
+
+
 def is_described(text: str, known: Collection[str]) -> bool:
     """Whether a value is words, such as `mass of the bob`, and no name of the file is in it."""
     words = re.split(r"[ ,.-]+", text.strip())
@@ -123,7 +141,10 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
         file.scope.refused.append("")
     items = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
     called = re.match(r"(\w+)\(([\w, ]+)\)", items[0]) if items else None
-    hint = "write {}: [{}]".format(*(called.groups() if called else ("U", "r")))
+    first = next(iter(file.scope.of_kind("coordinate")), "r")
+    alone = items[0] if items and items[0].isidentifier() else ""
+    usual = (alone, first) if alone else ("U", "r")
+    hint = "write {}: [{}]".format(*(called.groups() if called else usual))
     for key, value in file.entries(node, "functions", hint):
         called = re.fullmatch(r"(\w+)\(\s*\w[\w, ]*\)", key.label)
         if called and isinstance(value, Scalar) and re.search(r"[-+*/^(]|^\d", value.value):

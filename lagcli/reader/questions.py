@@ -22,7 +22,7 @@ from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar
 from lagcli.reader.number_units import run_mistake
 from lagcli.reader.quantities import is_decimal_part
-from lagcli.reader.scope import NUMBERS, POSITION, QUESTION, VALUES, Role
+from lagcli.reader.scope import INITIAL, NUMBERS, POSITION, QUESTION, Role
 from lagcli.reader.suggest import did_you_mean
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]
         name = _state_name(file, key, value, coordinates)
         if name is None:
             continue
-        expression = file.expression(value, what, VALUES)
+        expression = file.expression(value, what, INITIAL)
         if name in initial:
             file.error(f"the initial '{name}' is given twice", key.span)
         initial[name] = expression
@@ -270,6 +270,11 @@ def _number(file: FileReader, node: DocumentNode, what: str) -> Expression:
         stop = f'write a time; lagcli simulate FILE --stop-when "{_gap(*ends.groups())}" ends there'
         only = ends[1].strip() in {"t", "time"}
         file.error("'until' is a time", node.span, f"write {ends[2].strip()}" if only else stop)
+        return ZERO
+    if isinstance(node, Scalar) and re.fullmatch(
+        r"[^\W\d]{3,}(?:\s+[^\W\d]+)+", node.value.strip()
+    ):
+        file.error(f"{what} is a number", node.span, "write it in digits, as in 10")
         return ZERO
     if isinstance(node, Scalar) and (mistake := run_mistake(node.value, what)):
         file.error(mistake[0], node.span, mistake[1])

@@ -74,7 +74,8 @@ def with_whole(
         wrong = [each for side in sides for each in name_mistakes(side, scope, role, what)]
         words = set(re.findall(r"\w+", re.sub(r"_?[\[{](\w+)[\]}]", r"_\1", node.value)))
         if len(whole) > _LONGEST or not all(_is_undeclared(each, role, words) for each in wrong):
-            return found
+            named = [each for each in wrong if each.hint]
+            return found if found[0].hint or not named else [replace(named[0], span=node.span)]
         proposed = re.search(rf"(?:write|mean) {re.escape(whole)}(?:[?;,]|$)", found[0].hint)
         if "".join(whole.split()) == "".join(node.value.split()) or (proposed and not found[1:]):
             return found

@@ -26,6 +26,9 @@ _MOVED = re.compile(
 )
 #: `eps*y`, a change with its small parameter.
 _SCALED = re.compile(r"\s*(eps(?:ilon)?|ε|s|delta|lambda|lam|alpha|a)(?:\s*\*\s*(\S.*?))?\s*")
+#: `x*cos(alpha)`, of a finite rotation.
+_TURNED = re.compile(r"\b(?:cos|sin|cosh|sinh|exp)\(\s*-?([^\W\d]\w*)\s*\)")
+_WORDS = frozenset("yes no true false True False none None null auto".split())
 _ON_LOSS = ("stop", "release")
 _FORCES: dict[str, ForceKind] = {
     "normal": "normal",
@@ -144,6 +147,16 @@ def _usual_change(word: str, coordinates: list[str]) -> str:
     return "{{{0}: -{1}, {1}: {0}}}".format(*coordinates)
 
 
+def _is_finite(file: FileReader, node: DocumentNode) -> bool:
+    """Whether each change has the cosine or sine of a name that is not declared."""
+    entries = node.entries if isinstance(node, Mapping) else []
+    found = [_TURNED.findall(v.value) for _, v in entries if isinstance(v, Scalar)]
+    names = {name for each in found for name in each}
+    return (
+        len(found) > 1 and all(found) and not names & {*file.scope.kinds, "t"} and len(names) == 1
+    )
+
+
 def _without_parameter(file: FileReader, node: DocumentNode) -> str:
     """`{x: x, y: 1}` for `{x: s*x, y: s}` with a parameter s that is not declared; else nothing."""
     entries = node.entries if isinstance(node, Mapping) else []
@@ -186,7 +199,15 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
         if scaled := _without_parameter(file, value):
             file.error(f"{what} contains its small parameter", value.span, f"write {scaled}")
             continue
+        if _is_finite(file, value):
+            usual = _usual_change("rotation", coordinates)
+            hint = f"write the change per unit of a small parameter, as in {usual}"
+            file.error(f"{what} is a finite change", value.span, hint)
+            continue
         for name, change in file.entries(value, what, here):
+            if name.label == "gauge" and isinstance(change, Scalar) and change.value in _WORDS:
+                file.error("'gauge' is a formula", change.span, "leave it out: it is found")
+                continue
             if name.label in coordinates or name.label in {"t", "gauge"}:
                 changes[name.label] = file.expression(change, what, STATE)
                 continue

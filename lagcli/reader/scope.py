@@ -54,6 +54,9 @@ VALUES = Role(
     definitions=False,
     why="only numbers and parameters can stand here; formulas stand under 'definitions'",
 )
+INITIAL = VALUES._replace(
+    why="only numbers and parameters can stand here; leave out what follows from a constraint"
+)
 NUMBERS = Role(
     order=CONSTANT,
     time=False,

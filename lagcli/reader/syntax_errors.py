@@ -11,6 +11,7 @@ from lagcli.reader.habits import (
     CASE,
     CASES,
     COMMENT,
+    REMARK,
     instead,
     meanings,
     superscript,
@@ -96,6 +97,8 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
         return Diagnostic(f"{shown} has no meaning in an expression", span, "leave it out")
     if character in '"“”„' and not (tokens and tokens[-1].type == "NAME"):
         return Diagnostic("quotes are not part of a formula", span, "leave them out")
+    if REMARK.search(excerpt.value):
+        return Diagnostic("a remark is no part of a formula", span, COMMENT)
     if character in "°˚":
         return Diagnostic("angles are in radians", span)
     hint = character_meant(excerpt.value[at:], tokens) or meanings("characters").get(character, "")
@@ -147,6 +150,11 @@ def _missing_product(
     if right.type == "LPAR" and following is not None and following.type == "STAR":
         return Diagnostic("a comment is no part of a formula", span, COMMENT)
     if right.type == "LPAR" and re.match(r"\(\s*[^\W\d]{3,}(?:\s+[^\W\d]+)+\s*\)\s*$", ahead):
+        return Diagnostic("a remark is no part of a formula", span, COMMENT)
+    if "\n" in excerpt.value[left.end_pos : right.start_pos]:
+        hint = "begin the second line with its sign, as in + x"
+        return Diagnostic("two lines without a sign between them", span, hint)
+    if apart and REMARK.search(excerpt.value):
         return Diagnostic("a remark is no part of a formula", span, COMMENT)
     if apart and _PROSE.fullmatch(excerpt.value.strip()):
         hint = (

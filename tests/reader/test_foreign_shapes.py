@@ -470,3 +470,61 @@ OTHERS = [
 def test_what_is_written_in_words_or_by_other_rules(written, hint):
     [only] = messages(written)
     assert hint in only
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_name_with_several_values_is_several_names(seed):
+    draw = random.Random(seed)
+    values = [str(draw.randrange(1, 9)) for _ in range(draw.randrange(2, 5))]
+    written = ", ".join(f"m_{place}: {value}" for place, value in enumerate(values, start=1))
+    by_place = ", ".join(f"{place}: {value}" for place, value in enumerate(values, start=1))
+    for given in (f"[{', '.join(values)}]", f"{{{by_place}}}"):
+        found = only_mistake(text(parameters=f"\n  m: {given}\n  k: 2", T="m[1]*x'^2", V="m_2*x"))
+        assert found.hint.startswith(f"write {written};")
+
+
+@pytest.mark.parametrize(
+    "remark", ["kinetic energy of the block", "energy of the spring", "Energie der Feder"]
+)
+@pytest.mark.parametrize("between", [" ", " - ", " – "])
+def test_a_remark_behind_a_formula_is_one_mistake(remark, between):
+    assert only_mistake(text(V=f"k*x^2/2{between}{remark}")).hint == "a comment begins with '#'"
+
+
+def test_words_that_are_names_are_no_remark():
+    written = text(
+        parameters="{mass: 1, gravity: 2, height: 3}", T="x'^2", V="2 mass gravity height"
+    )
+    assert only_mistake(written).hint == "did you mean 2*mass*gravity*height?"
+
+
+@pytest.mark.parametrize("function", ["cos", "sin", "cosh", "exp"])
+@pytest.mark.parametrize("name", ["alpha", "s", "ε"])
+def test_a_finite_change_is_told_its_small_one(function, name):
+    plane = {"coordinates": "[x, y]", "T": "m*(x'^2 + y'^2)/2"}
+    finite = f"{{turn: {{x: x*{function}({name}), y: y*{function}(-{name})}}}}"
+    assert "as in {x: -y, y: x}" in only_mistake(text(**plane, symmetries=finite)).hint
+    known = text(**plane, parameters=f"[m, k, {name}]", symmetries=finite)
+    assert messages(known) == []
+
+
+FURTHER = [
+    (text(T="p²/2m"), "give H, or write velocities x'"),
+    (text(V="|\n  k*x\n  k*x^2"), "begin the second line with its sign"),
+    (text(initial="[[0, 1], [0, 2]]"), "write {x: …, x': …}"),
+    (text(coordinates="[x, y]", T="m*(x'^2 + y'^2)", initial="{x: 1, y: x}"), "leave out what follows"),
+    (text(simulation="{until: ten seconds}"), "write it in digits"),
+    (text(points="{P: {position: [t, x, x, 0], mass: m}}"), "write [x, y]"),
+    (text(functions="[W]", V="W(x)"), "write {W: [x]}"),
+    (text(forces="{x: -k*x(t - m)}"), "there are no delays"),
+    (text(forces="{x: -dV/dx}"), "what an energy contributes is derived"),
+    (text(forces="{x: -dF/dx}"), "write diff(F, x)"),
+    (text(symmetries="{boost: {x: t, gauge: yes}}"), "leave it out: it is found"),
+    (text(constraints="{c: x = 1}", find="{a: {where: N = 0, for: x}}"), "is lambda_c; or declare"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("written", "hint"), FURTHER)
+def test_further_habits_get_one_mistake(written, hint):
+    [only] = messages(written)
+    assert hint in only

@@ -241,7 +241,7 @@ HABITS = [
     (text(V="k*1_000"), "write k*1000"),
     (text(V="“k*x^2/2”"), "leave them out"),
     (text(V="U(x)", functions="U(x)"), "write {U: [x]}"),
-    (text(V="U(x)", functions="[U]"), "write {U: [r]"),
+    (text(V="U(x)", functions="[U]"), "write {U: [x]}"),
     (text(V="U(x)", functions="{U: k*x^2}"), "under definitions: U: k*x^2"),
     (text(V="U(x)", functions="{U(x): k*x^2}"), "under definitions: U: k*x^2"),
     (text(definitions="{f(x): x^2}"), "write f"),

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from lagcli.notation.greek import BY_LETTER, BY_NAME
 from lagcli.reader.foreign.words import Unclear, Vocabulary, parts_of
-from lagcli.reader.habits import unit_behind
+from lagcli.reader.habits import REMARK, unit_behind
 
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻½⅓⅔¼¾⅛"
 _LETTER = rf"[^\W\d{RAISED}]"
@@ -44,8 +44,9 @@ _SPEED = re.compile(
 #: The square of a position: \\vec{r}^2, |\\mathbf{r}|^2.
 _DISTANCE = re.compile(r"\|?\\(?:vec|mathbf)\s*\{?r\}?\|?\s*(?:(?:\^|\*\*)\s*\{?2\}?|²)(?!\w)")
 _RATE_OF_VECTOR = re.compile(r"\\dot\s*\{?\s*\\(?:vec|mathbf)\s*\{?r\}?\s*\}?(?=\s*[\^²*])")
-#: A remark behind a formula, a row of a matrix, the brackets of a mean.
+#: A remark behind a formula, a row of a matrix, the brackets of a mean, lines without a sign.
 _NO_FORMULA = re.compile(
+    r"[\w)']\s*\n\s*[\w(]|"
     r"\(\s*[^\W\d]{3,}(?:\s+[^\W\d]+)+\s*\)\s*$|\[\s*[\w'.]+(?:\s+[-\w'.]+)+\s*\]|<[^<>=]+>"
 )
 #: The length of a position: |r|, ||r||, |\\vec{r}|.
@@ -69,7 +70,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     behind = re.search(r"\[([^\[\]]+)\]\s*$", text)
     if behind and unit_behind(f"1 {behind[1]}"):
         raise Unclear  # m*g*y [J]
-    if _NO_FORMULA.search(text):
+    if _NO_FORMULA.search(text) or REMARK.search(text):
         raise Unclear
     if "arc" not in names.known:
         text = re.sub(r"\b(ar[ck]?)\s+(?=(?:sin|cos|tan|cot)h?\b)", "arc", text)
