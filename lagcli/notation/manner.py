@@ -67,6 +67,7 @@ from lagcli.notation.ordering import (
     negative_of,
     positive_first,
 )
+from lagcli.notation.reciprocals import GivenFractions
 from lagcli.problem_data import Problem
 from lagcli.rewriting import put_in, rebuilt
 
@@ -102,6 +103,7 @@ class Manner:
                     self._signs[key] = sign if self._signs.get(key, sign) == sign else 0
         self._ordering = Ordering(order_of_names(problem))
         self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
+        self._fractions = GivenFractions(given(problem), self._ordering)
         self._ratios = ratios_in(given(problem))
         self._potential = GivenPotential(problem.potential, self._ordering)
         names = [q.name for q in problem.coordinates]
@@ -122,7 +124,7 @@ class Manner:
         ):
             terms = self._opened(node)
         node = Sum((*positive_first(terms),)) if len(terms) > 1 else self._without_minus(node)
-        return squares_as_brackets(self._potential(node), self._squares)
+        return self._fractions(squares_as_brackets(self._potential(node), self._squares))
 
     def _without_minus(self, node: Expression) -> Expression:
         """(p − a − b)/d for −(a + b − p)/d, (b + c − a)/d for −(a − b − c)/d.

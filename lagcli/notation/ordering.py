@@ -172,9 +172,12 @@ class Ordering:
         """
         accelerations, rates, momenta = _degrees(node)
         velocities = rates + momenta
-        roots = (p for p in walk(node) if isinstance(p, Call) and p.function == "sqrt")
+        roots = [p for p in walk(node) if isinstance(p, Call) and p.function == "sqrt"]
         inside = [p for root in roots for p in walk(root) if isinstance(p, Name)]
-        velocities = velocities or any(p.primes or p.name.startswith("p_") for p in inside)
+        velocities = velocities or any(map(is_rate, inside))
+        if len(roots) == 1 and all(f in roots or self.is_parameter(f) for f in bases(node)):
+            # c sqrt(p² + m² c²)
+            velocities = velocities or any(p.name.startswith("p_") for p in inside)
         variables = tuple(sorted(self._variables(node))) or (len(self._index),)
         number, letters = _is_number(node), _flat(self._letters(node))
         timed = any(part == Name("t") for part in _factor_names(node))

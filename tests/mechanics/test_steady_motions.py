@@ -550,8 +550,8 @@ L: -sqrt(1 - r'^2 - r^2*phi'^2) + {k}*r^2*phi'
          "m*r^2", "k/(m*r^2)"),
         ("{r: POSITIVE, phi: }", "L: m*(r'^2 + r^2*phi'^2)/2 + q*b*r^2*phi'/2 - k*r^4/4",
          "m*r^2", "k*r^2/m"),
-        ("{theta: , phi: }", "L: m*(theta'^2 + phi'^2*sin(theta)^2)/2 + q*b*phi'*sin(theta)^2/2 "
-         "+ k*cos(theta)", "m*sin(theta)^2", "k/(m*cos(theta))"),
+        ("{theta: , phi: }", ("L: m*(theta'^2 + phi'^2*sin(theta)^2)/2 + q*b*phi'*sin(theta)^2/2 "
+         "+ k*cos(theta)"), "m*sin(theta)^2", "k/(m*cos(theta))"),
     ],
 )  # fmt: skip
 def test_two_rates_in_a_magnetic_field_have_one_root(coordinates, physics, momentum, rest):
