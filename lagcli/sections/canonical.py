@@ -83,8 +83,9 @@ def _verdict(each: ExaminedTransformation) -> list[str | Formula]:
             return [f"Canonical: the fundamental brackets are preserved{checked}."]
         case "extended canonical":
             assert each.valence is not None
+            lead = "In general not canonical" if each.in_general else "Not canonical"
             return [
-                "Not canonical, but extended canonical with the valence ",
+                f"{lead}, but extended canonical with the valence ",
                 each.valence,
                 f": each new bracket is that times the old one{checked}.",
             ]
@@ -93,8 +94,12 @@ def _verdict(each: ExaminedTransformation) -> list[str | Formula]:
             wanted: list[str | Formula] = ["what they should be"]
             if len(values) == 1 and all(isinstance(value, Number) for value in values):
                 wanted = [values.pop()]
-            plural = "this bracket is" if len(each.failing) == 1 else "these brackets are"
-            return [f"Not canonical: {plural} not ", *wanted, "."]
+            one = len(each.failing) == 1
+            if each.in_general:
+                these = "this bracket" if one else "these brackets"
+                return [f"In general not canonical: {these} need not be ", *wanted, "."]
+            these = "this bracket is" if one else "these brackets are"
+            return [f"Not canonical: {these} not ", *wanted, "."]
         case None:
             return ["Whether it is canonical is undecided."]
 

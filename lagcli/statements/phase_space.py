@@ -62,7 +62,8 @@ class ExaminedTransformation:
     """New variables by name, the kind, the valence c, and K in the new variables.
 
     `kind` None: undecided.  `hamiltonian` None: not found, for the `reason`, or there is none
-    because the transformation is not canonical.
+    because the transformation is not canonical.  `in_general`: it may be canonical for some values
+    of the parameters, where it is not for others.
     """
 
     name: str
@@ -71,6 +72,7 @@ class ExaminedTransformation:
     valence: Expression | None
     verified: Literal["exact", "50 digits"] | None
     failing: tuple[FailingBracket, ...] = ()
+    in_general: bool = False
     generator: GeneratingFunction | None = None
     hamiltonian: Expression | None = None
     hamiltonian_verified: Literal["exact", "50 digits"] | None = None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 import sympy
 
@@ -124,6 +126,32 @@ def test_kind(formulas: str):
     found = transformed(OSCILLATOR + f"canonical_transformations: {{a: {{{formulas}}}}}")
     assert found.kind == KINDS[formulas]
     assert bool(found.failing) == (found.kind == "not canonical")
+
+
+#: Formulas with parameters, the kind in general, and values for which it is canonical, if any
+WITH_PARAMETERS = {
+    "Q: m*x, p_Q: w*p_x": ("extended canonical", {"m": "2", "w": "1/2"}),
+    "Q: w^2*x, p_Q: p_x": ("extended canonical", {"w": "1"}),
+    "Q: x + (w - 2)*x^2, p_Q: p_x": ("not canonical", {"w": "2"}),
+    "Q: -m*x, p_Q: p_x": ("extended canonical", None),  # m > 0
+    "Q: x^2, p_Q: p_x": ("not canonical", None),
+    "Q: m*x, p_Q: p_x/m": ("canonical", {"m": "7"}),
+    "Q: 3*x, p_Q: p_x": ("extended canonical", None),
+}
+
+
+@pytest.mark.parametrize("formulas", WITH_PARAMETERS)
+def test_a_kind_that_values_of_the_parameters_change_is_so_in_general(formulas: str):
+    kind, values = WITH_PARAMETERS[formulas]
+    text = OSCILLATOR + f"canonical_transformations: {{a: {{{formulas}}}}}"
+    found = transformed(text)
+    assert found.kind == kind
+    assert found.in_general is (kind != "canonical" and values is not None)
+    for name, value in (values or {}).items():
+        formulas = re.sub(rf"\b{name}\b", f"({value})", formulas)
+    if values is not None:
+        there = transformed(OSCILLATOR + f"canonical_transformations: {{a: {{{formulas}}}}}")
+        assert there.kind == "canonical"
 
 
 def test_the_failing_brackets_are_named():

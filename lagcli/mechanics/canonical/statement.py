@@ -185,6 +185,7 @@ class PhaseSpace:
                 )
                 for each in test.failing
             ),
+            in_general=test.in_general,
             generator=generator,
             hamiltonian=None if K is None else self._written(K, new),
             hamiltonian_verified=how,

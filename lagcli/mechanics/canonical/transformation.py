@@ -24,6 +24,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of, symbol
+from lagcli.algebra.signs import sign
 from lagcli.mechanics.canonical.inverse import candidates
 from lagcli.mechanics.canonical.poisson import poisson
 from lagcli.mechanics.phase_states import PhaseStates
@@ -127,6 +128,17 @@ class CanonicalTest:
     def failing(self) -> tuple[TestedBracket, ...]:
         """The brackets that are not what a canonical transformation has."""
         return tuple(bracket for bracket, verdict, _ in self._verdicts if verdict is False)
+
+    @property
+    def in_general(self) -> bool:
+        """Whether values of the parameters may make it canonical, though it is not for others."""
+        off = [bracket.value - bracket.expected for bracket in self.failing]
+        off += [] if self.failing else [self.valence - 1]
+        parameters = {*self.system.parameters}
+        return bool(parameters) and all(
+            not simplify(each).free_symbols.isdisjoint(parameters) and sign(each) not in (1, -1)
+            for each in off
+        )
 
     @property
     def verified(self) -> Verification:

@@ -119,11 +119,13 @@ def _brackets(test: CanonicalTest, each: ExaminedTransformation) -> Iterator[Blo
     elif each.kind == "extended canonical":
         assert each.valence is not None
         pairs = "" if n == 1 else f", and the same for every pair.{others} It is"
-        yield says(f"This is a constant, but not 1{pairs or ','} the valence of the "
+        but = "in general" if each.in_general else "but"
+        yield says(f"This is a constant, {but} not 1{pairs or ','} the valence of the "
                    "transformation: Hamilton's equations keep their form with the Hamiltonian "
                    f"multiplied by the valence (extended canonical).{how}")  # fmt: skip
     elif each.kind == "not canonical":
-        yield says(f"{others} So the transformation is not canonical.".lstrip())
+        so = "So in general" if each.in_general else "So"
+        yield says(f"{others} {so} the transformation is not canonical.".lstrip())
 
 
 def _should(expected: Expression) -> str:
