@@ -62,6 +62,8 @@ def _one_of(key: Scalar, first: DocumentNode, second: DocumentNode) -> str:
     """What to do where a key is given twice: two formulas are terms of a sum."""
     hint = "leave out one of them"
     values = [each.value for each in (first, second) if isinstance(each, Scalar)]
+    if len(values) == 2 and all("=" in each for each in values):
+        return f"{hint}, or give it another name"
     if len(values) == 2 and all(re.search(r"[*'^(]", each) for each in values):
         total = " + ".join(values).replace("+ -", "- ")
         return f"{hint}, or write the sum: {key.label}: {total}"

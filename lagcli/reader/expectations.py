@@ -110,6 +110,10 @@ class ExpectReader:
         hint = f"write {known[0] if len(known) == 1 else 'name'}: {written}"
         if len(known) > 1:
             hint = f"write {{name: {written}}}; known are {', '.join(known[:10])}"
+        items = [each.value for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
+        if items and len(items) <= len(known):
+            pairs = ", ".join(f"{name}: {item}" for name, item in zip(known, items, strict=False))
+            hint = f"write {{{pairs}}}"
         for key, value in self.file.entries(node, f"'{' of '.join(path)}'", hint):
             self.spans[(*path, key.label)] = key.span
             if key.label in known:

@@ -23,7 +23,7 @@ from lagcli.reader.habits import (
     unit_at_end,
     unit_behind,
 )
-from lagcli.reader.headings import section_meant
+from lagcli.reader.headings import SECTIONS, section_meant
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.misshapen import (
     WITHOUT_HYPHENS,
@@ -73,7 +73,7 @@ _AT_REST = re.compile(
 )
 #: A quantity within a formula: the 9.81 m/s² of `m*9.81 m/s²*x`.
 _UNIT_WITHIN = re.compile(
-    r"([\d.]+)\s+([A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+|kg|cm|km|Hz)(?![\w(])"
+    r"([\d.]+)\s+([A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+|kg|[cmk]m|k?Hz|k?N|k?J|k?W|k?Pa)(?![\w(])"
 )
 _NO_EQUATION = Equation(ZERO, ZERO)
 
@@ -158,6 +158,13 @@ class FileReader:
             elif isinstance(node, Sequence) and all(isinstance(x, Mapping) for x in node.items):
                 flow = node.text.source.text[node.start : node.end].strip()
                 hint = f"write {{{flow[1:-1]}}}" if flow[:1] == "[" else WITHOUT_HYPHENS
+            first = node.items[0] if isinstance(node, Sequence) and node.items else None
+            labels = {key.label for key, _ in getattr(first, "entries", ())}
+            if first is not None and labels and labels <= SECTIONS.keys():
+                inner = ", ".join(
+                    f"{k.label}: {source_of(v)}" for k, v in getattr(first, "entries", ())
+                )
+                hint = f"each has a name: write name: {{{inner}}}, without '-'"
             # behind its key a map has braces: forces: {x: -c*x'}
             hint = re.sub(r"^write ([^{}]+: [^{}]+)$", r"write {\1}", hint)
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
@@ -361,6 +368,7 @@ class FileReader:
         known = {*names, *(f"{name}s" for name in names), *(name.rstrip("s") for name in names)}
         is_outer = len(key.label) > 2 and not advice and key.label not in known
         outer = key_meant(key.label, KEYS) if is_outer else None
+        outer = outer if outer in {key.label, "initial", "parameters"} else None
         if outer is not None and what != "the problem":
             hint = f"a key of the problem: write {outer}: {source_of(value)} on a line of its own"
         plural = f"{key.label}s" in names
@@ -446,7 +454,7 @@ class FileReader:
             return UNREADABLE
         within = _UNIT_WITHIN.search(alone)
         if within and self._is_unit(within[2]):
-            name = "m" if within[2] == "kg" else "g"
+            name = {"kg": "m", "N": "F", "kN": "F"}.get(within[2], "g" if "/" in within[2] else "a")
             given = f"parameters: {{{name}: {{value: {within[1]}, unit: {within[2]}}}}}"
             self.error(
                 f"the unit '{within[2]}' cannot stand in {what}", node.span, f"write {given}"

@@ -203,6 +203,7 @@ def _on_the_line(character: str) -> str:
 
 def unit_behind(text: str) -> str:
     """The unit in `10 kg` or `9.81 m/s^2`; nothing where a number stands alone."""
+    text = text.replace("°/", " deg/")
     found = _WITH_UNIT.fullmatch(
         re.sub(r"\s*(?:\[([^][]*)\]|\(([^()]*)\))$", r" \1\2", text.strip())
     )

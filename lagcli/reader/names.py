@@ -201,14 +201,16 @@ def _other_name(node: Name, scope: Scope, role: Role, what: str) -> Iterator[Dia
     elif name == "pi":
         if node.primes:
             yield Diagnostic(f"{node} is 0: pi is a number", span)
-    elif name in FUNCTIONS or name == "diff":
+    elif (name in FUNCTIONS or name == "diff") and name not in scope.refused:
         yield Diagnostic(f"'{name}' is a function and needs arguments", span, f"write {name}(…)")
     elif scope.coordinate_of_momentum(name) is not None:
         if not role.momenta:
             yield Diagnostic(f"the momentum '{name}' cannot stand in {what}", span, _MOMENTA)
         elif node.primes:
             yield Diagnostic("a momentum has no primes", span)
-    elif not scope.refused:  # else it may be one of those that could not be declared
+    elif (
+        not scope.refused and name not in FUNCTIONS
+    ):  # else it may be one of those that could not be declared
         yield Diagnostic(
             f"unknown name '{name}' in {what}", span, _advice(name, scope, role, node.primes, what)
         )

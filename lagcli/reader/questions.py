@@ -84,7 +84,8 @@ def _state_name(
     if letters not in coordinates and file.scope.refused:
         return None
     if letters not in coordinates:
-        plain = re.sub(r"(\(\s*(?:t\s*=\s*)?0\s*\)|_?0)$", "", key.label)
+        spoken = re.sub(r"\s+(?:dot|prime|punkt|point)$", "_dot", key.label)
+        plain = re.sub(r"(\(\s*(?:t\s*=\s*)?0\s*\)|_?0)$", "", spoken)
         meant = _translated(plain, coordinates)
         hint = f"write {meant}" if meant else did_you_mean(letters, coordinates)
         if meant.endswith("'") and plain == key.label:

@@ -159,7 +159,9 @@ def name_mistake(name: str, *, one: bool = False) -> tuple[str, str] | None:
     if name in RESERVED:
         meaning = {"t": "the time", "pi": "the number", "diff": "the partial derivative"}
         meant = meaning.get(name, "a function")
-        return f"'{name}' is {meant} and cannot be declared", f"choose another name: {name}_1"
+        hint = f"choose another name: {name}_1"
+        hint = f"leave it out, or {hint}" if name in meaning else hint
+        return f"'{name}' is {meant} and cannot be declared", hint
     if quoted := re.fullmatch(r"[‘'’](\w+)['’‘]", name):
         return f"'{name}' is not a name", f"leave out the quotes: write {quoted[1]}"
     if not set("=>→(") & set(name) and any(prime in name for prime in "'’′″‴"):

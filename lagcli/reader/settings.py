@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -94,6 +95,11 @@ def _read(
     if not equals:
         hint = "write name=value"
         raise ProblemError(source, (Diagnostic("an '=' is missing", text.span(0, 0), hint),))
+    if re.search(r"[,;]\s*[^\W\d]\w*'*\s*=", value):
+        option = source.name.split()[0]
+        each = " ".join(f"{option} {part.strip()}" for part in re.split("[,;]", source.text))
+        message = "one option sets one value"
+        raise ProblemError(source, (Diagnostic(message, text.span(0, 0), f"write {each}"),))
     if name not in names:
         known = f"known are {', '.join(names)}" if names else "the file declares none"
         hint = did_you_mean(name, names) or known

@@ -173,7 +173,9 @@ def _check_run(file: FileReader, problem: Problem) -> None:
     defaults = problem.simulation
     for name, formula in (("until", defaults.until), ("accuracy", defaults.accuracy)):
         if formula is not None and (mistake := run_mistake(name, run_number(formula))):
-            file.error(f"'{name}': {mistake}", formula.span)
+            usual = {"until": "such as until: 10", "accuracy": "such as accuracy: 1e-9"}
+            hint = "" if "write" in mistake else usual[name]
+            file.error(f"'{name}': {mistake}", formula.span, hint)
 
 
 def _check_dissipation(file: FileReader, problem: Problem) -> None:

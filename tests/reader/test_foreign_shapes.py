@@ -528,3 +528,52 @@ FURTHER = [
 def test_further_habits_get_one_mistake(written, hint):
     [only] = messages(written)
     assert hint in only
+
+
+@pytest.mark.parametrize("bars", ["|{}|", "||{}||", r"|\vec{{{}}}|"])
+@pytest.mark.parametrize("between", ["{}1", "{}_1"])
+def test_the_distance_of_two_bodies_is_written_by_its_components(bars, between):
+    names = [between.format(axis) for axis in "xy"]
+    names += [name.replace("1", "2") for name in names]
+    x1, y1, x2, y2 = names
+    kinetic = " + ".join(f"{name}'^2" for name in names)
+    plane = {"coordinates": f"[{', '.join(names)}]", "T": f"m*({kinetic})/2"}
+    if "vec" not in bars:
+        hint = only_mistake(text(**plane, V=f"-k/{bars.format('r1 - r2')}")).hint
+        assert hint == f"write -k/sqrt(({x1} - {x2})^2 + ({y1} - {y2})^2)"
+        assert messages(text(**plane, V=hint.removeprefix("write "))) == []
+    alone = only_mistake(
+        text(**plane, V=f"-k/{bars.format('r')}".replace("r}|", "r}_2|").replace("r|", "r2|"))
+    ).hint
+    assert alone == f"write -k/sqrt({x2}^2 + {y2}^2)"
+
+
+@pytest.mark.parametrize("unit", ["N", "kN", "J", "kg", "Hz", "mm"])
+def test_a_quantity_within_a_formula_is_a_parameter(unit):
+    hint = only_mistake(text(V=f"5 {unit} * x", parameters="{k: 1, M: 1}", T="M*x'^2")).hint
+    assert re.fullmatch(rf"write parameters: {{\w: {{value: 5, unit: {unit}}}}}", hint)
+
+
+@pytest.mark.parametrize("name", ["exp", "sin", "diff", "pi"])
+def test_a_name_that_cannot_be_declared_is_told_once(name):
+    found = only_mistake(text(parameters=f"{{m: 1, {name}: 2}}", V=f"x^2*{name}"))
+    assert f"choose another name: {name}_1" in found.hint
+
+
+LAST = [
+    (text(initial="{x dot: 1}"), "write x'"),
+    (text(initial="{x': 10 °/s}"), "write 10*pi/180"),
+    (text(parameters="{m: 1, k: 2, t: 0}"), "leave it out, or choose another name"),
+    (text(constraints="\n  a: x = 1\n  a: x^2 = 1"), "or give it another name"),
+    (text(simulation="{until: -3}"), "such as until: 10"),
+    (text(symmetries="{s: {x: 1}}", V=None, expect="{charges: [m*x']}"), "write {s: m*x'}"),
+    (text(find="\n  - where: x' = 0\n    for: x"), "write name: {where: x' = 0, for: x}"),
+    (text(constraints="\n  - equation: x = 1\n    multiplier: N"), "write name: {equation: x = 1, multiplier: N}"),
+    (text(picture="{bodies: [P]}"), "the points are drawn by themselves"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("written", "hint"), LAST)
+def test_names_and_numbers_of_other_forms(written, hint):
+    [only] = messages(written)
+    assert hint in only

@@ -28,6 +28,8 @@ def test_numbers_and_other_parameters_are_values():
         ("m = 2 kg", 5, "write 2: numbers are in the units of the file"),
         ("m=m", 3, "needs itself"),
         ("m=", 3, "empty"),
+        ("m=1, g=2", 1, "write --set m=1 --set g=2"),
+        ("m=1;g=m/2", 1, "write --set m=1 --set g=m/2"),
     ],
 )
 def test_a_wrong_setting_has_a_place(setting, column, piece):

@@ -163,6 +163,7 @@ MISTAKES = [
     (["--vary", "tetha=1"], "did you mean 'theta'"),
     (["--vary", "theta"], "write NAME=FIRST:LAST:COUNT"),
     (["--vary", "theta=1:2"], "FIRST:LAST:COUNT"),
+    (["--vary", "theta=1..2"], "FIRST:LAST:COUNT"),
     (["--vary", "theta=1:2:x"], "whole number"),
     (["--vary", "theta=1:2:0"], "whole number"),
     (["--vary", "theta=0:2:5:log"], "above 0"),

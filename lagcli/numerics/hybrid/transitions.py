@@ -103,7 +103,8 @@ class Transitions:
 
         constraint = self.modes.setup.whole.constraints[k]
         message = f"the initial state is on the wrong side of the contact '{constraint.name}'"
-        return Refusal((Diagnostic(message, constraint.equation.span),))
+        hint = "correct it under initial: a gap is never negative"
+        return Refusal((Diagnostic(message, constraint.equation.span, hint),))
 
     # -- an event ------------------------------------------------------------------------------
 

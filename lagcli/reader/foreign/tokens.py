@@ -51,6 +51,12 @@ _NO_FORMULA = re.compile(
 )
 #: The length of a position: |r|, ||r||, |\\vec{r}|.
 _LENGTH = re.compile(r"(?:\\?\|){1,2}\s*(?:\\(?:vec|mathbf)\s*)?\{?r\}?\s*(?:\\?\|){1,2}")
+#: The distance of two bodies, and of one from the origin: |r1 - r2|, |\\vec{r}_1|.
+_VECTOR = r"(?:\\(?:vec|mathbf)\s*)?\{?r\}?_?\{?"
+_BETWEEN = re.compile(
+    rf"(?:\\?\|){{1,2}}\s*{_VECTOR}(?P<one>\d)\}}?"
+    rf"(?:\s*[-−]\s*{_VECTOR}(?P<two>\d)\}}?)?\s*(?:\\?\|){{1,2}}"
+)
 #: `self.` before a name.
 _OWNER = re.compile(r"\b([A-Za-z]\w*)\.(?=[A-Za-z_](?!iff\b))")
 
@@ -78,7 +84,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
     text = re.sub(r"(?<=\w)//(?=\w)", "/", re.sub(r"\s\.\s", " * ", text).strip(" =").rstrip(";,"))
     text = re.sub(r"\bDerivative\[(\d)\]\[(\w+)\]", lambda m: m[2] + "'" * int(m[1]), text)
-    text = _leibniz(_square_of_speed(text, names), names)
+    text = _leibniz(_distance(_square_of_speed(text, names), names), names)
     for name, component in names.components.items():
         point, axis = name.split(".")
         forms = [name, *({f"{axis}_{point}", f"{point}_{axis}"} - {*names.known})]
@@ -104,6 +110,25 @@ def _square_of_speed(text: str, names: Vocabulary) -> str:
         squares = " + ".join(f"{x}^2" for x in names.coordinates)
         text = _LENGTH.sub(f" sqrt({squares}) ", text)
     return text
+
+
+def _distance(text: str, names: Vocabulary) -> str:
+    """`sqrt((x1 - x2)^2 + (y1 - y2)^2)` for |r1 - r2|, with the coordinates of two bodies."""
+
+    def written(found: re.Match[str]) -> str:
+        parts = []
+        for axis in "xyz":
+            ends = [_axis(axis, found[index], names) for index in ("one", "two") if found[index]]
+            if all(ends):
+                parts.append(f"({' - '.join(ends)})^2" if len(ends) > 1 else f"{ends[0]}^2")
+        return f" sqrt({' + '.join(parts)}) " if len(parts) > 1 else found[0]
+
+    known = {*names.known} & {found[0] for found in re.finditer(r"r_?\d", text)}
+    return text if known else _BETWEEN.sub(written, text)
+
+
+def _axis(axis: str, index: str, names: Vocabulary) -> str:
+    return next((x for x in (f"{axis}{index}", f"{axis}_{index}") if x in names.coordinates), "")
 
 
 def _leibniz(text: str, names: Vocabulary) -> str:

@@ -180,6 +180,8 @@ def _range(text: str, names: Sequence[str], *, random: bool) -> SweptRange:
         if len(parts) != 2:
             raise ValueError("a random plan draws between two ends: write NAME=FIRST:LAST")
         return SweptRange(name, (_number(parts[0]), _number(parts[1])))
+    if len(parts) == 1 and ".." in rest:
+        raise ValueError("a range is FIRST:LAST:COUNT")
     if len(parts) == 1:
         return SweptRange(name, tuple(_number(part) for part in rest.split(",")))
     return SweptRange(name, _spaced(parts))
