@@ -194,6 +194,8 @@ class _Composer:
                     "write what it stands for",
                 )
             elif key.label in entries:
+                if key.in_flow and key.label.isdigit() and value.is_empty:
+                    continue  # the second 5 of {m: 1,5, k: 2,5}
                 twice += 1
                 if twice > 1:  # a second group of the same keys
                     continue

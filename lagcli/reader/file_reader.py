@@ -442,6 +442,9 @@ class FileReader:
     ) -> Expression:
         """A formula whose names are all known and allowed in its role."""
         alone = node.value.strip() if isinstance(node, Scalar) else ""
+        alone = re.sub(
+            r"^[\[(]\s*([^\W\d][^\])]*?)\s*[\])]\s*([-\d.]+)$", r"\2 \1", alone
+        )  # [kg] 1
         unit = unit_behind(alone)
         if unit and (role in _NUMERIC or self._is_unit(unit)):
             declared = what.startswith("the value of")

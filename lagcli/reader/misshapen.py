@@ -74,6 +74,9 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
     question = re.fullmatch(r"[\"']?(?:solve\s+)?(.*=.*\S)\s+for\s+(\w+'*)[\"']?", written)
     if isinstance(node, Scalar) and names[0] == "where" and question:
         return f"write {{where: {question[1]}, for: {question[2]}}}"
+    asked = re.fullmatch(r"[\"']?(\w+'*)\s+(?:where|when|if|at)\s+(.*=.*\S)[\"']?", written)
+    if isinstance(node, Scalar) and names[0] == "where" and asked:
+        return f"write {{where: {asked[2]}, for: {asked[1]}}}"
     if isinstance(node, Scalar) and names[0] == "where" and "=" in written:
         return f"write {{where: {written}, for: {unknown}}}"
     if isinstance(node, Scalar) and written in get_args(Assumption) and "assume" in names:

@@ -66,6 +66,13 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
             if not foreign[1].startswith("["):
                 hint = COMMENT if foreign[2] else colon_advice(each)
             return Diagnostic("this line is none of the file", foreign_line, hint)
+    if assigned := re.match(
+        r"\s*([\w.]+\s*=\s*(?:dict\()?)\{?\s*$", next(filter(str.strip, lines), "")
+    ):
+        begin_ = text.source.text.index(assigned[1])
+        message = "the file is the map itself, without a name"
+        span_ = text.span(begin_, begin_ + len(assigned[1].rstrip()))
+        return Diagnostic(message, span_, f"leave out '{assigned[1].strip()}'")
     near = "\n".join(lines[max(0, number - 1) : number + 1])
     if blank := re.search(r"^\s*\w+:([^\S \t\r\n])", near, re.MULTILINE):
         here = text.source.text.index(blank[1])

@@ -577,3 +577,53 @@ LAST = [
 def test_names_and_numbers_of_other_forms(written, hint):
     [only] = messages(written)
     assert hint in only
+
+
+@pytest.mark.parametrize("name", ["x", "theta", "q_1"])
+@pytest.mark.parametrize("form", ["{},t", "{}_{{,t}}", "{}_,t"])
+def test_a_comma_derivative_by_the_time_is_a_velocity(name, form):
+    written = text(coordinates=f"[{name}]", T=f"m*{form.format(name)}^2/2", V=None)
+    assert only_mistake(written).hint == f"write m*{name}'^2/2"
+
+
+@pytest.mark.parametrize("formula", ["atan2({0},t)", "atan2(k, {0},t)"])
+def test_an_argument_is_no_derivative(formula):
+    found = messages(text(V=formula.format("x")))
+    assert not any("x'" in each for each in found)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_decimal_commas_in_braces_are_one_mistake(seed):
+    draw = random.Random(seed)
+    digit = draw.randrange(1, 10)
+    other = draw.choice([digit, draw.randrange(1, 10)])
+    found = read_problem(
+        "p", text(parameters=f"{{m: 1,{digit}, k: 2,{other}}}").encode()
+    ).diagnostics
+    assert {each.hint for each in found} == {"a decimal point is written '.'"}
+
+
+@pytest.mark.parametrize("number", ["1", "2.5"])
+@pytest.mark.parametrize("unit", ["kg", "m/s^2", "N m"])
+@pytest.mark.parametrize("brackets", ["[{}]", "({})"])
+def test_a_unit_in_brackets_before_its_number(number, unit, brackets):
+    written = f'{{m: "{brackets.format(unit)} {number}", k: 2}}'
+    assert only_mistake(text(parameters=written)).hint == f"write {{value: {number}, unit: {unit}}}"
+
+
+@pytest.mark.parametrize(
+    ("written", "hint"),
+    [
+        (
+            text(contacts="{floor: x >= 0}", restitution="0.8"),
+            "{floor: {gap: y >= 0, restitution: 0.8}}",
+        ),
+        (text(simulation="{until: 1, n: 100}"), "lagcli simulate FILE --samples 100"),
+        (text(find="{top: x where x' = 0}"), "write {where: x' = 0, for: x}"),
+        (text(expect="{L: m*x'^2/2}"), "given by the file"),
+        ("problem = {\n  'coordinates': ['x'],\n  'T': \"x'^2\"\n}\n", "leave out 'problem ='"),
+    ],
+)
+def test_the_last_of_other_places(written, hint):
+    [only] = messages(written)
+    assert hint in only

@@ -147,6 +147,10 @@ def _leibniz(text: str, names: Vocabulary) -> str:
             ]
             for form in forms:
                 text = re.sub(form, f" {prime} ", text)
+            times = "t" * order
+            text = re.sub(
+                rf"(?<![\w.(,])\\?(?:{spelled})_?\{{?,{times}\}}?(?![\w.)])", f" {prime} ", text
+            )
     return text
 
 
