@@ -72,8 +72,10 @@ def dimensions(explainer: Explainer, section: Section) -> Iterator[Block]:
         {n: Label("Q", (n,), unit=True) for n in found.forces},
         found.forces,
     )
+    quick = any(not e.holonomic for e in explainer.dynamics.constraints.equations)
+    also = ", of one on velocities also by that of the time" if quick else ""
     yield from _units(
-        ("A multiplier has that of ", L, " divided by that of its constraint:"),
+        ("A multiplier has that of ", L, f" divided by that of its constraint{also}:"),
         {n: Label(n, unit=True) for n in found.multipliers},
         found.multipliers,
     )
