@@ -48,6 +48,11 @@ def derive(statements: Statements) -> ModesSection:
         statements.lacks("the normal modes", section.reason)
     if section.unshaped:
         statements.lacks("the shapes of some normal modes")
+    if open_ := [mode for mode in section.modes or () if _is_open(mode)]:
+        roots = "exponents" if any(mode.damped for mode in open_) else "frequencies"
+        statements.lacks(
+            f"a closed form of all {roots}", "lagcli explain --also modes has their equation"
+        )
     if section.modes and not section.complete:
         statements.warnings.append("there may be equilibria whose normal modes are not listed")
     return section
@@ -80,8 +85,7 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
         for mode in modes_in_pairs(modes):
             if rows := tuple(_mode(mode)):
                 yield Equations(rows)
-            open_ = len(mode.exponents) < 2 * mode.multiplicity and mode.decay is None
-            if not rows or (mode.damped and open_):
+            if not rows or _is_open(mode):
                 yield Paragraph((_without_rows(mode),))
             if mode.pole is not None and mode.multiplicity > 1:
                 yield Paragraph(
@@ -125,6 +129,13 @@ def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
         squared = Power(omega, Number(Fraction(2)))
         yield Row(squared, mode.frequency_squared, note or _NO_OSCILLATION[mode.negative])
     yield from _shape(mode.shape or {})
+
+
+def _is_open(mode: ModesOfFrequency) -> bool:
+    """Whether roots of it have no closed form."""
+    if mode.damped:
+        return mode.decay is None and len(mode.exponents) < 2 * mode.multiplicity
+    return mode.frequency is None and mode.frequency_squared is None and not mode.negative
 
 
 def _without_rows(mode: ModesOfFrequency) -> str:

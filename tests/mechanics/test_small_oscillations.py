@@ -499,3 +499,16 @@ dissipation: r*x'^2/2
     found = modes(dynamics(text)).modes
     assert found is not None
     assert all(mode.shape is None for mode in found)
+
+
+@pytest.mark.parametrize(("drag", "said"), [("r*x'^2/2", "exponents"), ("0", "")])
+def test_roots_without_a_closed_form_are_said_to_be_missing(drag: str, said: str) -> None:
+    text = f"""
+coordinates: [x, y]
+parameters: {{m: {{assume: positive}}, k: {{assume: positive}}, r: {{assume: positive}}}}
+T: m*x'^2/2 + m*y'^2
+V: k*(x^2 + (x - y)^2)/2
+dissipation: {drag}
+"""
+    found = lagcli.solve(lagcli.loads(text), sections=["modes"])
+    assert any(f"closed form of all {said}" in each for each in found.warnings) is bool(said)
