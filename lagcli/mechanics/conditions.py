@@ -13,7 +13,16 @@ from lagcli.algebra.factors import factors_of
 from lagcli.algebra.one_ratio import in_one_ratio
 from lagcli.algebra.positivity import deciding, sign_of, weak_sign, with_sines
 from lagcli.algebra.signs import sign
-from lagcli.expression import ZERO, Power, Sum, added_and_subtracted, operation_count, walk
+from lagcli.expression import (
+    ZERO,
+    Expression,
+    Negative,
+    Power,
+    Sum,
+    added_and_subtracted,
+    operation_count,
+    walk,
+)
 from lagcli.mechanics.inequalities import shorter_sums
 from lagcli.statements.motions import Above
 
@@ -182,21 +191,32 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
         return None
     if any(power % 2 == 0 for _, power in with_sines(rest)):
         return Above(shape(rest, order), ZERO)
-    differences = [factor for factor, _ in factors_of(rest) if factor.is_Add]
-    product = Above(shape(rest, order), ZERO) if len(differences) > 1 else None
+    factors = [factor for factor, _ in factors_of(rest) if not factor.is_number]
+    differences = [factor for factor in factors if factor.is_Add]
+    product = _product(rest, order) if len(differences) > 1 else None
+    if differences and len(factors) > len(differences):  # w (A - C) > 0, not A w > C w
+        return _product(rest, order)
     if product and len(differences) == 2 and all(map(_is_difference, differences)):
         return product  # (A - B) (A - C) > 0
+    if product and len(factors) == 2:
+        product = min(product, _squares(rest, factors, order), key=_operations)
     by_monomial: dict[Expr, Expr] = {}
     for term in rest.expand().as_ordered_terms():
         number, monomial = term.as_independent(*term.free_symbols, as_Add=False)
         by_monomial[monomial] = by_monomial.get(monomial, S.Zero) + number
     right = -sympy.Add(*(n * m for m, n in by_monomial.items() if n.is_negative))
     left = sympy.Add(*(n * m for m, n in by_monomial.items() if not n.is_negative))
+    if product is not None and _share_a_factor(left, right):
+        return product  # (p + q) (A p + B q) < 0
     found = Above(shape(left, order), shape(right, order))
     tree = shape(rest, order)
     powers = (p.base for p in walk(tree) if isinstance(p, Power))
     # k - m a² sin² is not k + m a² cos² - m a², k² (R² - l²)³ > g² is not multiplied out
-    if rest.has(sympy.sin, sympy.cos) or any(isinstance(base, Sum) for base in powers):
+    if (
+        rest.has(sympy.sin, sympy.cos)
+        or any(isinstance(base, Sum) for base in powers)
+        or _share_a_letter(left, right)
+    ):
         found = min(found, Above(*added_and_subtracted(tree)), key=_operations)
     constant, others = left.as_coeff_Add()
     if constant > 0 and right == 0 and not others.is_Add:  # n > -3
@@ -207,6 +227,46 @@ def above(expression: Expr, order: Sequence[str], positive: Sequence[Expr] = ())
         other = Above(shape(constant, order), shape(subtracted, order))
         found = min((found, other) if subtracted.is_Add else (other, found), key=_operations)
     return found if product is None else min(found, product, key=_operations)
+
+
+def _product(rest: Expr, order: Sequence[str]) -> Above:
+    """A product > 0, or < 0 where that has fewer minus signs."""
+    more, less = shape(rest, order), shape(-rest, order)
+    if _minus_signs(less) < _minus_signs(more):
+        return Above(ZERO, less)
+    return Above(more, ZERO)
+
+
+def _squares(rest: Expr, factors: Sequence[Expr], order: Sequence[str]) -> Above:
+    """u² > v² for (u + v) (u - v) > 0."""
+    one, other = factors
+    u, v = (sympy.factor(simplify((one + side * other) / 2)) for side in (1, -1))
+    number = simplify(rest / (one * other))
+    if not number.is_number:  # with powers
+        return _product(rest, order)
+    squares = [shape(x**2, order) for x in ((u, v) if number > 0 else (v, u))]
+    return Above(*squares)
+
+
+def _minus_signs(tree: Expression) -> int:
+    return sum(isinstance(part, Negative) for part in walk(tree))
+
+
+def _share_a_factor(left: Expr, right: Expr) -> bool:
+    """Whether both sides of an inequality have one, beside numbers."""
+    factors = [
+        {factor for factor, _ in factors_of(side) if not factor.is_number} for side in (left, right)
+    ]
+    return left != 0 and right != 0 and bool(factors[0] & factors[1])
+
+
+def _share_a_letter(left: Expr, right: Expr) -> bool:
+    """Whether the same power of a letter is on both sides: (A - C) p² > B q² is one side each."""
+    powers = [
+        {f for term in sympy.Add.make_args(side) for f in sympy.Mul.make_args(term) if f.is_Pow}
+        for side in (left, right)
+    ]
+    return bool(powers[0] & powers[1])
 
 
 def _is_difference(factor: Expr) -> bool:

@@ -7,12 +7,14 @@ import random
 import pytest
 import sympy
 
+from lagcli.algebra.build import Builder, symbol
 from lagcli.evaluation import evaluated
 from lagcli.formatters.grammar import to_grammar
-from lagcli.mechanics.conditions import conditions, opposites
+from lagcli.mechanics.conditions import above, conditions, opposites
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.pipeline import explain
+from lagcli.reader import parse_text
 from lagcli.statements.wording import conditions as worded
 
 from .derived import derive
@@ -203,3 +205,32 @@ def conditions_of(stated) -> list[str]:
     return [
         f"{to_grammar(c.left)} > {to_grammar(c.right)}".replace("0 > k", "k < 0") for c in stated
     ]
+
+
+@pytest.mark.parametrize(
+    ("positive", "shown"),
+    [  # the conditions of a gyroscope in gimbals: Magnus, Kreisel, section 5
+        ("-w*((A + B - C)*w + p)", "0 > ((A + B - C)*w + p)*w"),
+        ("w*(C*w + p - (A + B)*w)", "(p - (A + B - C)*w)*w > 0"),
+        ("-(p + w)*(A*p + B*w)", "0 > (A*p + B*w)*(p + w)"),
+        ("(A + B - C)^2*p^2 - (A + B)^2*w^2", "(A + B - C)^2*p^2 > (A + B)^2*w^2"),
+        ("(A + B + D)*w^2 - (A + B - C)*p^2", "(A + B + D)*w^2 > (A + B - C)*p^2"),
+        ("w*(A - C)", "(A - C)*w > 0"),
+        ("A*p - B*w^2", "A*p > B*w^2"),
+    ],
+)
+def test_a_condition_keeps_its_factors_and_its_squares(positive: str, shown: str) -> None:
+    """In the shape of the squared frequency whose sign it is, and with that sign at random."""
+    names = {n: symbol(n, "positive") for n in "ABCD"} | {n: symbol(n) for n in "pw"}
+    expression = Builder(names, {}, lambda e: e)(parse_text(positive))
+    found = above(expression, list(names))
+    assert found is not None
+    assert f"{to_grammar(found.left)} > {to_grammar(found.right)}" == shown
+    chance = random.Random(11)
+    for _ in range(20):
+        values = {s: chance.uniform(0.3, 2) * (1 if s.is_positive else chance.choice((-1, 1)))
+                  for s in names.values()}  # fmt: skip
+        left, right = (
+            Builder(names, {}, lambda e: e)(side).subs(values) for side in (found.left, found.right)
+        )
+        assert (left > right) == (expression.subs(values) > 0)
