@@ -83,6 +83,40 @@ V: {m * g * k}*{f}^2/2
     assert mode.multiplicity == 2
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_the_modes_at_a_pole_of_a_bowl_that_a_constraint_gives(seed):
+    """On the sphere r = R, with other coordinates that constraints fix or leave alone."""
+    source = random.Random(seed)
+    m, g, R, c = (source.randint(1, 9) for _ in "mgRc")
+    radius = source.choice(["r = R", "R - r = 0", "2*r = 2*R"]).replace("R", str(R))
+    held = source.choice(["", ", hold: z = 1"])
+    problem = lagcli.loads(f"""
+coordinates: [z, r, theta, phi]
+T: {m}*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2 + z'^2)/2
+V: {-m * g}*r*cos(theta) + {m * c}*z^2/2
+constraints: {{sphere: {radius}{held}}}
+""")
+    modes = lagcli.solve(problem, "modes")._answers.sections["modes"].modes
+    assert modes is not None
+    low = [mode for mode in modes if mode.at["theta"] == ZERO]
+    found = sorted(
+        finite_value(mode.frequency) ** 2 for mode in low for _ in range(mode.multiplicity)
+    )
+    assert found == pytest.approx(sorted([g / R, g / R, *([] if held else [c])]))
+
+
+@pytest.mark.parametrize("bends", ["r = 2 + theta^2", "r = 2 + z*theta^2", "r = 2*cos(theta)"])
+def test_a_surface_that_bends_at_a_pole_is_left_alone(bends):
+    problem = lagcli.loads(f"""
+coordinates: [z, r, theta, phi]
+T: (r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2 + z'^2)/2
+V: -r*cos(theta) + z^2/2
+constraints: {{surface: {bends}}}
+""")
+    modes = lagcli.solve(problem, "modes")._answers.sections["modes"].modes
+    assert not [mode for mode in modes or () if mode.at["theta"] == ZERO and mode.pole]
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_an_upright_top_swings_as_a_pendulum_in_two_directions(seed):
     """Precession and spin have one axis there; without a spin the top is a spherical pendulum."""

@@ -88,12 +88,16 @@ def _linear(explainer: Explainer, place: Place) -> Iterator[Block]:
     write = explainer.readable.as_written
     matrices = ([[write(e) for e in row] for row in matrix] for matrix in place.matrices)
     yield from linear_equations("the equations of motion are ", *matrices)
-    if isinstance(place.near, AtPole):
-        yield says("in Cartesian displacements at the pole, the second of them in the last row.")
+    within: list[Part] = []
     if explainer.dynamics.constraints.equations:
         free = [q.name for q in place.near.independent]
         those = [", in terms of those of ", *names(free)] if free else []
-        yield says("restricted to the displacements that the constraints allow", *those, ".")
+        within = ["restricted to the displacements that the constraints allow", *those]
+    if isinstance(place.near, AtPole):
+        within += [", "] if within else []
+        within.append("in Cartesian displacements at the pole, the second of them in the last row")
+    if within:
+        yield says(*within, ".")
 
 
 # -- without damping -----------------------------------------------------------------------------

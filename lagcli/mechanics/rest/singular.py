@@ -16,10 +16,12 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 import mpmath
+import sympy
 from mpmath import mpf
 from sympy import Dummy, Expr, S, Symbol
 
 from lagcli.algebra import dot, is_zero, nullspace, simplify
+from lagcli.algebra.build import free_of
 from lagcli.algebra.determinants import determinant
 from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.place import at
@@ -108,9 +110,10 @@ def at_pole(linear: Linearization) -> AtPole | None:
     """The motion in regular coordinates; None where it is no pole of one angle that is cyclic."""
     whole, null = OnMeridians(linear), nullspace(linear.M)
     system, lagrange = linear.system, linear.dynamics.lagrange
-    if len(null) != 1 or linear.rows or any(force != 0 for force in system.applied_forces):
+    fixed = _fixed(linear)
+    if len(null) != 1 or fixed is None or any(force != 0 for force in system.applied_forces):
         return None
-    [turning] = null
+    turning = [dot(null[0], components) for components in zip(*linear.basis, strict=True)]
     turned = [q for q, x in zip(system.q, turning, strict=True) if x != 0]
     if any(is_zero(system.L.diff(q)) is not True for q in turned):
         return None
@@ -120,7 +123,7 @@ def at_pole(linear: Linearization) -> AtPole | None:
 
     across = [dot(turning, row) for row in lagrange.mass_matrix_at_rest]
     around, still = dot(turning, across), dict.fromkeys(system.qdot, S.Zero)
-    others = [q for q in system.q if q not in turned]
+    others = [q for q in system.q if q not in turned and q not in fixed]
     bends = {(a, b): here(around.diff(a, b)) / 2 for a in others for b in others}
     curved = [pair for pair, bend in bends.items() if is_zero(bend) is not True]
     if len(curved) != 1 or curved[0][0] != curved[0][1]:
@@ -132,6 +135,22 @@ def at_pole(linear: Linearization) -> AtPole | None:
     if any(is_zero(x) is not True for x in (*flat, round_)):
         return None
     return AtPole(whole, turning, radius)
+
+
+def _fixed(linear: Linearization) -> set[Symbol] | None:
+    """The coordinates that constraints q = c fix; None where there are others, which may bend."""
+    fixed: set[Symbol] = set()
+    for equation in linear.dynamics.constraints.equations:
+        given = [q for q, a in zip(linear.system.q, equation.row, strict=True) if a != 0]
+        constant = equation.holonomic and is_zero(equation.drift) is True
+        if (
+            len(given) != 1
+            or not constant
+            or not free_of(sympy.Add(*equation.row), linear.system.q)
+        ):
+            return None
+        fixed |= {*given}
+    return fixed
 
 
 def complement(basis: Matrix, null: Matrix) -> Matrix:

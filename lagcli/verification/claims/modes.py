@@ -65,8 +65,9 @@ def _all_modes(x: Examination, about: Sequence[ModesOfFrequency]) -> RestPlace |
     if first.kinked or with_closed_contacts(x, place) is not x:
         return place
     count = sum(mode.multiplicity for mode in about)
-    if first.pole is not None and count != len(x.reference.names):
-        x.refute(what, f"it is {count} as derived, with {len(x.reference.names)} coordinates")
+    free = len(x.reference.names) - len(x.reference.rows)
+    if first.pole is not None and count != free:
+        x.refute(what, f"it is {count} as derived, with {free} degrees of freedom")
         return None
     for near in place.states():
         if not (near.defined and near.regular and near.residual < _STAYS):
