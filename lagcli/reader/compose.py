@@ -14,6 +14,7 @@ import yaml
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.reader.flow import mend_commas
+from lagcli.reader.headings import SECTIONS
 from lagcli.reader.limits import EXPANDED_SIZE, YAML_LEVELS
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.text import Mistake, SourceText
@@ -24,6 +25,7 @@ _WITHOUT_COLON = re.compile(
     r"(?P<key>[^\W\d]\w*'*)(?:\s*[;=](?!>)\s*|\s*:(?=\S)|\s+(?=[.\d])|\s+(?=[-\w.+*/^'()]+$))"
     r"(?P<value>[^:;]+)"
 )
+_ATTRIBUTE = re.compile(r"(?P<key>\w+)\s+(?P<value>[^:;]+)")
 _PROSE = frozenset({"title", "source", "description", "symbol"})
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
@@ -151,6 +153,9 @@ class _Composer:
         key, value = children[place], children[place + 1]
         if not (isinstance(key, Scalar) and key.in_flow and not key.style and value.is_empty):
             return None
+        found = _ATTRIBUTE.fullmatch(key.value)
+        if found is not None and found["key"] in SECTIONS:
+            return found
         found = _WITHOUT_COLON.fullmatch(key.value)
         if found is None or not re.match(r"\s+[^\d.;:=\s]", key.value[found.end("key") :]):
             return found
@@ -165,7 +170,9 @@ class _Composer:
         found = [self._split(children, place) for place in range(0, len(children), 2)]
         is_text = any(isinstance(key, Scalar) and key.value in _PROSE for key in keys)
         others = any(not value.is_empty for value in values)
-        if is_text or not any(found) or not (others or len(keys) == 1):
+        if is_text:  # of which a comma cuts off words
+            found = [each if each and each["key"] in SECTIONS else None for each in found]
+        if not any(found) or not (others or len(keys) == 1):
             return children  # all alike are told where names are declared
         mended: list[DocumentNode] = []
         for key, value, split in zip(keys, values, found, strict=True):

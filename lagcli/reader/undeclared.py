@@ -16,6 +16,8 @@ _KEY = re.compile(r"unknown keys? (?P<keys>'.*') in (?P<place>(?:the |[^']).*)")
 _ORDER = re.compile(
     r"^(the (?:coordinate|velocity|acceleration|momentum)) (\S+) (cannot stand in .*)$"
 )
+_MISSING_LINE = re.compile(r"a line '\w+:' is missing")
+_OF_NAMES = re.compile(r"unknown name '|'\w+' is not a parameter$|\w+: there is no point '")
 _NO_COORDINATE = re.compile(r"'(\w+)'*' (?:in (?:initial|the symmetry)|is not a parameter)")
 _SHAPE = re.compile(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
 _NAME = re.compile(r"unknown name '(\w+)' in (.*)")
@@ -23,6 +25,8 @@ _NAME = re.compile(r"unknown name '(\w+)' in (.*)")
 
 def _once_by_name(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
     """Without what a state or a symmetry has to say of a name that is unknown elsewhere."""
+    if any(_MISSING_LINE.match(each.hint) for each in diagnostics):  # what it would declare
+        diagnostics = [each for each in diagnostics if not _OF_NAMES.match(each.message)]
     names = (_NAME.fullmatch(each.message) for each in diagnostics)
     unknown = {part for found in names if found for part in (found[1], found[1].removeprefix("p_"))}
     kept = []

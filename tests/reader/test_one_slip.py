@@ -112,3 +112,21 @@ def test_the_same_keys_twice_in_a_map_are_one_mistake():
         "  a:\n    Q: p_x\n    p_Q: -x\n    Q: x\n    p_Q: p_x\n"
     )
     assert len(errors(text)) == 1
+
+
+@pytest.mark.parametrize("seed", range(15))
+def test_a_missing_colon_behind_an_attribute(seed):
+    draw = random.Random(seed)
+    text, place = drawn(draw, r"(?<=[{ ])(mass|where|value|for): (?=[^{},\[\]\"]+[,}])")
+    found = errors(text[: place.end() - 2] + " " + text[place.end() :])
+    assert len(found) == 1, [each.message for each in found]
+    assert found[0].message == f"': ' is missing behind '{place[1]}'"
+
+
+def test_names_of_a_section_whose_line_is_missing_are_not_told():
+    text = (
+        "coordinates: [x]\nparameters: {m: 1, w: 2}\npoints:\n  P: {position: [x], mass: m}\n"
+        "  motor: x = w*t\nfind:\n  push: {value: lambda_motor, in_terms_of: [x]}\n"
+    )
+    [only] = errors(text)
+    assert only.hint == "a line 'constraints:' is missing above it"
