@@ -101,6 +101,9 @@ def _found(parts: Sequence[object], taken: Collection[str]) -> _Abbreviations | 
     return names if names.where else None
 
 
+_TIME = Name("t")
+
+
 class _Abbreviations:
     """The names chosen for some formulas, the one that saves most first."""
 
@@ -141,7 +144,14 @@ class _Abbreviations:
         """k1, k2, … and Δ, Δ2, … in the order in which they are listed."""
         if isinstance(node, Name):
             return Name(self._final.get(node.name, node.name), node.primes)
-        return rebuilt(node, self._renamed)
+        found = rebuilt(node, self._renamed)
+        if isinstance(found, Product) and _TIME in found.factors:  # k2 t, not t k2
+            names = {*self._final.values(), *self._labels}
+            k = found.factors.index(_TIME)
+            after = [f for f in found.factors[k:] if isinstance(f, Name) and f.name in names]
+            rest = (f for f in found.factors[k:] if f not in after)
+            found = Product((*found.factors[:k], *after, *rest))
+        return found
 
     def _best(self) -> Expression | None:
         shapes: dict[int, Counter[Expression]] = {}

@@ -24,9 +24,10 @@ from lagcli.expression import (
     opposite,
     walk,
 )
+from lagcli.formatters import Options
 from lagcli.formatters.page import to_document
 from lagcli.notation.letters import names_in
-from lagcli.pipeline import Request, derive, state
+from lagcli.pipeline import Request, derive, read, render, state
 from lagcli.reader import read_problem
 from lagcli.record import replace
 from lagcli.rewriting import rewritten
@@ -160,3 +161,19 @@ constraints: {rolling: x' = R*phi'}
     assert "k99" not in names
     read = names_in(rest) | names_in([row.right for row in listed.rows])
     assert {*names} <= read
+
+
+@pytest.mark.parametrize("stiffness", ["w^2", "3*w^2"])
+def test_the_time_stands_behind_the_name_of_a_frequency(stiffness):
+    """sin(k2 t/(2 m)), as a charge on a spring in a magnetic field turns (Fock and Darwin)."""
+    text = f"""title: t
+coordinates: [x, y]
+parameters: {{m: {{assume: positive}}, w: {{assume: positive}}, q: {{assume: positive}},
+  B: {{assume: positive}}}}
+L: m*(x'^2 + y'^2)/2 + q*B*(x*y' - y*x')/2 - m*{stiffness}*(x^2 + y^2)/2
+"""
+    problem = read("t.yaml", text.encode()).problem
+    request = Request(sections=("discovered",), abbreviate=True)
+    told = render([state(derive(problem), request)], "text", Options())
+    assert "k₂ t/(2 m)" in told
+    assert "t k" not in told.replace("that k", "")
