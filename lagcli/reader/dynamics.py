@@ -226,7 +226,7 @@ def _force(file: FileReader, node: DocumentNode, name: str, length: int) -> tupl
     items = read_components(file, node, what, "one component for each of the position's", length)
     if isinstance(node, Sequence) and 0 < length != len(items) and len(file.diagnostics) == before:
         message = f"{what} has {len(items)} components, its position has {length}"
-        file.error(message, node.span)
+        file.error(message, node.span, "one component for each of the position's")
     return tuple(file.expression(item, what, STATE) for item in items)
 
 

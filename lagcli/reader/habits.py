@@ -160,6 +160,8 @@ def colon_advice(line: str) -> str:
         and key_meant(line.strip(), KEYS) is None
     ):
         return f"a heading is a comment, which begins with '#': # {line.strip()}"
+    if line.strip() in MAPS:
+        return f"write {line.strip()}: with its entries below it"
     return f"write {line.strip() or 'key'}: value"
 
 

@@ -94,7 +94,10 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
     if isinstance(node, Sequence) and names[0] == "unit" and "value" not in names:
         return "a coordinate has no range: leave it out"
     if isinstance(node, Sequence) and "value" in names:
-        number, _, unit = (each.strip() for each in written[1:-1].partition(","))
+        inner = written[1:-1]
+        if not written.startswith("["):
+            inner = ", ".join(each.value for each in node.items if isinstance(each, Scalar))
+        number, _, unit = (each.strip() for each in inner.partition(","))
         if unit_behind(f"1 {number}"):
             number, unit = unit, number
         if unit and unit_behind(f"1 {unit}"):
@@ -119,6 +122,13 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
         and all(isinstance(each, Scalar) for each in node.items)
     ):
         return f"write {{until: {written.strip('[]').split(',')[-1].strip()}}}"
+    if (
+        isinstance(node, Scalar)
+        and names[0] == "position"
+        and re.match(r"(position|mass) ", written)
+    ):
+        entries = re.sub(r"(?:^|(?<=, ))(position|mass|force) +", r"\1: ", written)
+        return f"write {{{entries}}}"
     if isinstance(node, Scalar) and names[0] == "position" and written:
         within = re.fullmatch(r"\((.*)\)", written)
         return f"write {{position: [{within[1] if within else written}]}}"

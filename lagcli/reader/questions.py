@@ -275,7 +275,8 @@ def _number(file: FileReader, node: DocumentNode, what: str) -> Expression:
     if isinstance(node, Scalar) and re.fullmatch(
         r"[^\W\d]{3,}(?:\s+[^\W\d]+)+", node.value.strip()
     ):
-        file.error(f"{what} is a number", node.span, "write it in digits, as in 10")
+        usual = "1e-9" if "accuracy" in what else "10"
+        file.error(f"{what} is a number", node.span, f"write it in digits, as in {usual}")
         return ZERO
     if isinstance(node, Scalar) and (mistake := run_mistake(node.value, what)):
         file.error(mistake[0], node.span, mistake[1])
