@@ -25,10 +25,14 @@ from lagcli.record import replace
 from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import AlgebraSection, Answers, SpecialValue
 from lagcli.statements.declaration import Explained, declared, step
-from lagcli.statements.wording import rows_by_name
+from lagcli.statements.motions import Above
+from lagcli.statements.wording import conditions, rows_by_name
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
+
+#: Names of algebras that are the same for frequencies that are not real.
+_AS_WELL = ("R^", "Heisenberg", "Galilei")
 
 
 def derive(statements: Statements) -> AlgebraSection | None:
@@ -51,7 +55,21 @@ def derive(statements: Statements) -> AlgebraSection | None:
         for case in statements.derivation.special_cases
     )
     section = algebra_section(discovery, found, lambda: _separates(statements))
-    return replace(section, special=special)
+    return replace(section, special=special, named_where=_named_where(statements, found.name))
+
+
+def _named_where(statements: Statements, name: str | None) -> tuple[Above, ...]:
+    """Where the charges are real, if the algebra of their real and imaginary parts is another.
+
+    That of exp(±a t) for cos(a t) and sin(a t): a rotation becomes a hyperbolic one.
+    """
+    from lagcli.mechanics.discovery.reality import real_where
+
+    if name is None or name.startswith(_AS_WELL) or "sl(2,R)" in name:
+        return ()
+    charges = statements.derivation.discovery.charges
+    found = [each for c in charges for each in real_where(c, statements.derivation.system)]
+    return tuple(dict.fromkeys(found))
 
 
 def _separates(statements: Statements) -> bool:
@@ -78,7 +96,8 @@ def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
     if section.in_involution is not None:
         charges += f", {section.in_involution} in involution"
     counts = "" if section.dimension_counts == "charges" else f" of the {section.dimension_counts}"
-    yield Paragraph((f"Dimension {section.dimension}{counts}{named}; {charges}.",))
+    where = [" where ", *conditions(section.named_where)] if section.named_where else []
+    yield Paragraph((f"Dimension {section.dimension}{counts}{named}", *where, f"; {charges}."))
     lead = "The Hamilton-Jacobi equation separates: t" if section.separates else "T"
     yield Paragraph((integrable[section.integrable].replace("T", lead, 1),))
     for cases in _alike(section.special):

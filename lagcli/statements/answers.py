@@ -199,6 +199,7 @@ class AlgebraSection:
     `independent` is None where no state was found, or not in the work allowed.
     `closed`: every bracket is a combination of all of them and of constants.  `integrable` is
     True or None; `separates` where the Hamilton-Jacobi equation shows it, not the charges.
+    `named_where`: the name is another one where the charges are not real.
     """
 
     ansatz: str
@@ -211,6 +212,7 @@ class AlgebraSection:
     closed: bool = False
     separates: bool = False
     special: tuple[SpecialValue, ...] = ()
+    named_where: tuple[Above, ...] = ()
 
     @property
     def dimension_counts(self) -> str:

@@ -7,6 +7,7 @@ import random
 import pytest
 import sympy
 
+from lagcli import pipeline
 from lagcli.algebra import is_zero
 from lagcli.algebra.signs import sign
 from lagcli.document import Equations
@@ -641,3 +642,32 @@ def test_special_values_are_said_with_what_the_same_search_finds(factor):
     numbers = [part.split()[0] for part in told.split("the same search finds ")[1:]]
     assert sorted(set(numbers)) == ["3", "5"]
     assert told.count("symmetries, of which these are no linear combinations") == len(numbers)
+
+
+@pytest.mark.parametrize("offset", ["l", "2*l"])
+def test_the_name_of_an_algebra_has_the_condition_under_which_its_charges_are_real(offset):
+    """Of r'' = (w² − k/m) r + …: the other sign has the hyperbolic oscillator algebra."""
+    text = (
+        "coordinates: [r, phi]\nparameters: {m: {assume: positive}, k: {}, w: {}, l: {}}\n"
+        f"T: m*(r'^2 + r^2*phi'^2)/2\nV: k*(r - {offset})^2/2\n"
+        "constraints: {motor: phi = w*t}\n"
+    )
+    answers = pipeline.state(derive(text), pipeline.Request(sections=("algebra",)))
+    [where] = answers.sections["algebra"].named_where
+    assert (to_grammar(where.left), to_grammar(where.right)) == ("k", "m*w^2")
+    assert "oscillator algebra where" in said(text, "The algebra of the symmetries", "algebra")
+
+
+@pytest.mark.parametrize("drag", ["c*x'^2/2", "c*(x' - a')^2/2", "c*x'^2/2 + c*a'^2"])
+def test_roots_without_a_closed_form_are_not_left_unsaid(drag):
+    text = (
+        "coordinates: [x, a]\n"
+        "parameters: {M: {assume: positive}, m: {assume: positive}, g: {assume: positive},"
+        " c: {assume: positive}}\n"
+        "T: M*x'^2/2 + m*(x'^2 + 2*x'*a'*cos(a) + a'^2)/2\nV: -m*g*cos(a)\n"
+        f"dissipation: {drag}\n"
+    )
+    told = said(text, "Small oscillations", "modes")
+    assert "Its roots are" not in told
+    assert "Among its roots are" in told
+    assert "No closed form was found for the others." in told

@@ -201,7 +201,10 @@ def _damped(
     if operation_count(written) <= _LONG:
         yield says("This gives")
         yield vanishing((written,))
-    lead = "Its roots are "
+    count = sum(len(mode.exponents) + 2 * mode.multiplicity * (mode.decay is not None)
+                for mode in modes)  # fmt: skip
+    some = count < 2 * len(place.linear.M)
+    lead = "Among its roots are " if some else "Its roots are "
     for mode in modes_in_pairs(modes):
         if mode.decay is not None and mode.frequency is not None:
             yield from _decaying(explainer, lead, mode.decay, mode.frequency)
@@ -210,6 +213,8 @@ def _damped(
             yield says(lead.strip())
             yield equations_of((s, exponent) for exponent in dict.fromkeys(mode.exponents))
             lead = "and "
+    if some:
+        yield says(f"No closed form was found for {'the others' if count else 'its roots'}.")
     yield from _where_real(explainer, modes)
 
 

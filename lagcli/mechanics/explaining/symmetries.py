@@ -176,13 +176,15 @@ def _dimension(found: AlgebraSection) -> Iterator[Block]:
             )
         return
     name = found.name.removesuffix(MODULO_CONSTANTS)
+    where = [" where ", *conditions(found.named_where)] if found.named_where else []
     if name == found.name:
-        yield says(f"The algebra of the {kind} found has dimension {found.dimension}: {name}.")
+        lead = f"The algebra of the {kind} found has dimension {found.dimension}: {name}"
     else:
-        yield says(
+        lead = (
             f"Constants occur among the brackets. The algebra of the {kind} found has dimension "
-            f"{found.dimension} modulo constants and {found.dimension + 1} with them: {name}."
+            f"{found.dimension} modulo constants and {found.dimension + 1} with them: {name}"
         )
+    yield says(lead, where, ".")
 
 
 def _integrability(found: AlgebraSection, n: int) -> list[Part]:
