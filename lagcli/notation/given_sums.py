@@ -259,7 +259,7 @@ class GivenPotential:
 
     def __init__(self, potential: Expression | None, ordering: Ordering) -> None:
         value = multiplied_out(potential) if isinstance(potential, Sum) else None
-        self._value = value if value and is_tidy(cast(Sum, potential)) else None
+        self._value = value if value and _is_tidy_inside(cast(Sum, potential)) else None
         self._node = None if potential is None else _arranged(potential, ordering)
 
     def __call__(self, node: Expression) -> Expression:
@@ -284,6 +284,12 @@ class GivenPotential:
         before, after = terms[:first], [t for t in terms[first:] if t not in still]
         found = (*before, *own, *after)
         return node if isinstance(found[0], Negative) else Sum(found)
+
+
+def _is_tidy_inside(node: Sum) -> bool:
+    """Whether it is tidy behind other terms, where it may begin with a minus."""
+    first, *rest = node.terms
+    return is_tidy(Sum((opposite(first), *rest)) if isinstance(first, Negative) else node)
 
 
 def _cost(term: Expression) -> int:

@@ -125,6 +125,17 @@ BOOK = [
         {"hamiltonian": "p_r^2/(2*m) + (p_phi + e*B*r^2/2)^2/(2*m*r^2) - e*U*log(r/R0)"},
     ),
     (
+        "[r, a]", "M l m k b g",  # V as the file has it, also where it begins with a minus
+        (
+            "T: M*l^2*a'^2/6 + m*(r'^2 + r^2*a'^2)/2\n"
+            "V: -M*g*l*cos(a)/2 - m*g*r*cos(a) + k*(r - b)^2/2"
+        ),
+        {
+            "hamiltonian": "p_r^2/(2*m) + 3*p_a^2/(2*(3*m*r^2 + M*l^2)) - M*g*l*cos(a)/2 "
+            "- m*g*r*cos(a) + k*(r - b)^2/2",
+        },
+    ),
+    (
         "[x]", "m k c",  # Goldstein, section 7.9; kinetic energy first
         "L: -m*c^2*sqrt(1 - x'^2/c^2) - k*x^2/2",
         {"hamiltonian": "c*sqrt(p_x^2 + m^2*c^2) + k*x^2/2"},
