@@ -115,6 +115,10 @@ def test_a_slope_that_may_be_level_makes_a_blade_leave_where_there_is_one(F, whe
     told = said(text, "Equilibria", "equilibria")
     verdict = f"Unstable {where}. Near" if where else "Unstable: near"
     assert f"{verdict} it there are motions with a constant acceleration." in told
+    block = f"and {where} it has fewer" if where else "and has fewer"
+    assert f"The root is multiple{', ' if where else ' '}{block}" in said(
+        text, "Small oscillations", "modes"
+    )
 
 
 @pytest.mark.parametrize("rate", ["W*x", "W*sin(x)", "W*x + W*y"])

@@ -26,6 +26,7 @@ from lagcli.expression import (
     sum_of,
 )
 from lagcli.mechanics.conditions import above
+from lagcli.mechanics.conditions import conditions as above_zero
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
 from lagcli.mechanics.rest.singular import AtPole
@@ -119,10 +120,12 @@ def _undamped(
     yield says("An oscillation with the angular frequency ", omega,
                " needs the determinant of ", form, " to vanish. The roots are")  # fmt: skip
     for mode in modes_in_pairs(modes):
-        yield from _mode(mode, omega, place)
+        yield from _mode(explainer, mode, omega, place)
 
 
-def _mode(mode: ModesOfFrequency, omega: Name, place: Place) -> Iterator[Block]:
+def _mode(
+    explainer: Explainer, mode: ModesOfFrequency, omega: Name, place: Place
+) -> Iterator[Block]:
     value = mode.frequency if mode.frequency is not None else mode.frequency_squared
     if value is None and mode.negative:
         yield says("No other root is real and positive: the amplitudes of some displacements grow.")
@@ -145,16 +148,27 @@ def _mode(mode: ModesOfFrequency, omega: Name, place: Place) -> Iterator[Block]:
     elif mode.frequency is None or mode.open_sign:
         yield says("It oscillates only where this is real and positive.")
     if value == ZERO:
-        yield says(_without_oscillation(mode, len(shapes), place))
+        if 0 < len(shapes) < mode.multiplicity:
+            yield says(*_with_fewer_shapes(explainer, place))
+        else:
+            yield says(_without_oscillation(mode, place))
 
 
-def _without_oscillation(mode: ModesOfFrequency, shapes: int, place: Place) -> str:
+def _with_fewer_shapes(explainer: Explainer, place: Place) -> list[Part]:
+    """Of a root 0 that has a Jordan block, where what all of K is a multiple of is not 0."""
+    entries = [x for row in place.near.K for x in row if is_zero(x) is not True]
+    factors = [{f for f, _ in factors_of(x)} for x in entries]
+    common = set.intersection(*factors) if factors else set()
+    weak = sorted((f for f in common if sign(f) not in (1, -1)), key=str)
+    where = above_zero([f**2 for f in weak], explainer.system.order, place.point.positive)
+    parts: list[Part] = ["The root is multiple", ", and where " if where else " and has"]
+    parts += [*conditions(where), " it has"] if where else []
+    rest = "to first order other displacements grow in proportion to a higher power of the time."
+    return [*parts, f" fewer independent shapes: {rest}"]
+
+
+def _without_oscillation(mode: ModesOfFrequency, place: Place) -> str:
     """What a root 0 is: each is two roots s = 0, and a null vector of K stays displaced."""
-    if 0 < shapes < mode.multiplicity:
-        return (
-            "The root is multiple and has fewer independent shapes: to first order other "
-            "displacements grow in proportion to a higher power of the time."
-        )
     staying = len(nullspace(place.near.K))
     if staying == mode.multiplicity:
         return "To first order this is not an oscillation but a uniform drift."
