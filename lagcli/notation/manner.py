@@ -324,14 +324,15 @@ class Manner:
         return True if _all_negative(node) else None
 
     def _declared_first(self, node: Sum) -> bool | None:
-        """Whether it is a² − b² with a before b in the file; False of b² − a²."""
-        match node.terms:
-            case (Power(base=Name() as a), Negative(operand=Power(base=Name() as b))):
-                return self._ordering.factor(a) < self._ordering.factor(b)
-            case (Negative(operand=Power(base=Name() as b)), Power(base=Name() as a)):
-                return self._ordering.factor(a) < self._ordering.factor(b)
-            case _:
-                return None
+        """Whether it is 3 a² − 2 b² with a before b in the file; False of 2 b² − 3 a²."""
+        if len(node.terms) != 2:
+            return None
+        plus, minus = sorted(node.terms, key=lambda term: isinstance(term, Negative))
+        letters = [_squared_letter(each) for each in (plus, opposite(minus))]
+        if isinstance(plus, Negative) or not isinstance(minus, Negative) or None in letters:
+            return None
+        a, b = (self._ordering.factor(each) for each in letters if each is not None)
+        return a < b
 
     def _function(self, node: Call, inner: Sum) -> Expression:
         """sin(a − b) = −sin(b − a), cos(a − b) = cos(b − a); sin((a − b)/2) for sin(a/2 − b/2)."""
@@ -468,6 +469,15 @@ def _terms(node: Expression) -> tuple[Expression, ...]:
 
 def _all_negative(node: Sum) -> bool:
     return all(isinstance(term, Negative) for term in node.terms)
+
+
+def _squared_letter(node: Expression) -> Expression | None:
+    """The letter of n a², with or without a number."""
+    match [f for f in factors_of(node) if not isinstance(f, Number)]:
+        case [Power(base=Name() as letter)]:
+            return letter
+        case _:
+            return None
 
 
 def _determinant(node: Sum) -> bool | None:

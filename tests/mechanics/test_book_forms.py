@@ -136,6 +136,13 @@ BOOK = [
         },
     ),
     (
+        "[a]", "m R l g",  # a rod in a bowl: 3 R² − 2 l² is its moment of inertia
+        (
+            "definitions: {d: sqrt(R^2 - l^2)}\nT: m*d^2*a'^2/2 + m*l^2*a'^2/6\nV: -m*g*d*cos(a)"
+        ),
+        {"accelerations.a": "-3*g*sqrt(R^2 - l^2)*sin(a)/(3*R^2 - 2*l^2)"},
+    ),
+    (
         "[x]", "m k c",  # Goldstein, section 7.9; kinetic energy first
         "L: -m*c^2*sqrt(1 - x'^2/c^2) - k*x^2/2",
         {"hamiltonian": "c*sqrt(p_x^2 + m^2*c^2) + k*x^2/2"},
