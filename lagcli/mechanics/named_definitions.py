@@ -176,6 +176,7 @@ class NamedConstants:
 
     def __init__(self, problem: Problem) -> None:
         self._fractions: dict[str, tuple[Fraction, Mapping[Key, int]]] = {}
+        self._divisors: dict[str, Expression] = {}
         self._sums: list[tuple[Polynomial, str]] = []
         constants = [name for name in problem.definitions if is_constant(problem, name)]
         used = _used(problem, tuple(constants))
@@ -186,6 +187,9 @@ class NamedConstants:
             number, powers = _powers_of(whole)
             if len(powers) > 1 and any(len(key) > 1 for key in powers):
                 self._fractions[name] = number, powers
+                _, _, below = _parts_of(whole)
+                if len(below) == 1 and _is_positive(problem, below[0]):
+                    self._divisors[name] = below[0]
             elif isinstance(whole, Sum) and (value := multiplied_out(whole)) and len(value) > 1:
                 self._sums.append((value, name))
 
@@ -199,9 +203,57 @@ class NamedConstants:
     def _with_fractions(self, node: Expression) -> Expression:
         node = rebuilt(node, self._with_fractions)
         if isinstance(node, (Product, Quotient, Sum)):
+            if isinstance(node, Quotient):
+                node = self._cancelled(node)
             for name, (number, powers) in self._fractions.items():
                 whole = _with_fraction(node, name, number, powers)
                 node = node if whole is None else whole
+        if isinstance(node, Call) and node.function == "sqrt":
+            return self._root(node)
+        return node
+
+    def _cancelled(self, node: Quotient) -> Expression:
+        """sqrt(p² + mu k) for M sqrt(p² + mu k)/M."""
+        minus, above, below = parts_of(node)
+        for divisor in self._divisors.values():
+            exponents = [
+                sum(e for b, e in map(whole_power, side) if b == divisor) for side in (above, below)
+            ]
+            if min(exponents) < 1:
+                continue
+            for side, exponent in zip((above, below), exponents, strict=True):
+                rest = exponent - min(exponents)
+                side[:] = [f for f in side if whole_power(f)[0] != divisor]
+                side += (
+                    [divisor]
+                    if rest == 1
+                    else [Power(divisor, Number(Fraction(rest)))] * (rest > 1)
+                )
+            whole = quotient_of(above or [ONE], below)
+            return Negative(whole) if minus else whole
+        return node
+
+    def _root(self, node: Call) -> Expression:
+        """M sqrt(p² + mu k) for sqrt(M (M p² + m1 m2 k)), M = m1 + m2 > 0."""
+        for name, divisor in self._divisors.items():
+            minus, above, below = parts_of(node.arguments[0])
+            _, key = _key(divisor)
+            count, kept = 0, list[Expression]()
+            for factor in above:
+                base, exponent = whole_power(factor)
+                found = _homogeneous(base, name, *self._fractions[name], key)
+                if _key(base) == (_ONE, key):
+                    count += exponent
+                elif found is not None and exponent == 1:
+                    count += found[0]
+                    kept.append(found[1])
+                else:
+                    kept.append(factor)
+            if count and count % 2 == 0 and len(kept) and not minus:
+                half = Number(Fraction(count // 2))
+                before = divisor if half == ONE else Power(divisor, half)
+                root = Call("sqrt", (quotient_of(kept, below),))
+                return product_of((before, root))
         return node
 
     def _with_sums(self, node: Expression) -> Expression:
@@ -268,6 +320,39 @@ def _key(base: Expression) -> tuple[Fraction, Key]:
     return content, frozenset((term, c / content) for term, c in terms.items())
 
 
+def _is_positive(problem: Problem, node: Expression) -> bool:
+    """Whether each term of a sum is positive, and no number stands before the sum."""
+    positive = {p.name for p in problem.parameters if p.assume == "positive"}
+    names = {part.name for part in walk(node) if isinstance(part, Name)}
+    terms = multiplied_out(node) or {}
+    return names <= positive and all(c > 0 for c in terms.values()) and _key(node)[0] == 1
+
+
+def _homogeneous(
+    node: Expression, name: str, number: Fraction, powers: Mapping[Key, int], divisor: Key
+) -> tuple[int, Expression] | None:
+    """n and p² + mu k for M^n (p² + mu k), where n factors of each term are M or m1 m2."""
+    if not isinstance(node, Sum) or powers.get(divisor) != -1:
+        return None
+    over = {key: exponent for key, exponent in powers.items() if key != divisor}
+    if not over or min(over.values()) < 0:
+        return None
+    counts = []
+    for term in node.terms:
+        _, there = _powers_of(term)
+        counts.append((min(there.get(k, 0) // e for k, e in over.items()), there.get(divisor, 0)))
+    n = sum(counts[0])
+    if n < 1 or any(min(c) < 0 or sum(c) != n for c in counts) or len(set(counts)) == 1:
+        return None
+    terms = [
+        _with_power(
+            term, name, i, {k: i * e for k, e in over.items()} | {divisor: n - i}, number**-i
+        )
+        for term, (i, _) in zip(node.terms, counts, strict=True)
+    ]
+    return n, Sum(tuple(terms))
+
+
 def _alone(base: Expression) -> Key:
     return frozenset({(frozenset({(repr(base), 1)}), _ONE)})
 
@@ -281,9 +366,15 @@ def _with_fraction(
     if not (all(r >= 1 for r in ratios) or all(r <= -1 for r in ratios)):
         return None
     k = int(min(ratios, key=abs))  # towards 0
+    return _with_power(node, name, k, {b: k * e for b, e in powers.items()}, number**-k)
+
+
+def _with_power(
+    node: Expression, name: str, k: int, left: dict[Key, int], count: Fraction
+) -> Expression:
+    """The term without the powers `left`, times the number `count` and name^k."""
     minus, above, below = _parts_of(node)
-    left = {key: k * exponent for key, exponent in powers.items()}
-    count = Fraction(-1 if minus else 1) / number**k
+    count = -count if minus else count
     kept: list[list[Expression]] = [[], []]
     for side, sign_, factors in (0, 1, above), (1, -1, below):
         for factor in factors:
@@ -299,7 +390,8 @@ def _with_fraction(
                 rest = Number(Fraction(exponent - taken))
                 kept[side].append(base if rest == ONE else Power(base, rest))
     power = Name(name) if abs(k) == 1 else Power(Name(name), Number(Fraction(abs(k))))
-    kept[0 if k > 0 else 1].insert(0, power)
+    if k:
+        kept[0 if k > 0 else 1].insert(0, power)
     for side, value in enumerate((abs(count.numerator), count.denominator)):
         numbers = [f for f in kept[side] if isinstance(f, Number)]
         whole = value * prod((f.value for f in numbers), start=_ONE)

@@ -8,11 +8,13 @@ import pytest
 
 from lagcli.expression import Expression, Name, walk
 from lagcli.formatters import Options
+from lagcli.formatters.grammar import to_grammar
 from lagcli.graph.nodes import Graph
 from lagcli.graph.reading import GraphReader
 from lagcli.graph.values import Floats, Program
-from lagcli.mechanics.named_definitions import with_named_constants
+from lagcli.mechanics.named_definitions import NamedConstants, with_named_constants
 from lagcli.pipeline import Request, derive, explain, read, render, state
+from lagcli.reader import parse_text
 
 # Goldstein, 3rd ed., sections 3.1 and 3.7: two bodies by their reduced mass
 TWO_BODIES = """
@@ -130,6 +132,66 @@ def test_a_sum_of_constants_keeps_its_name():
     told = text_of(answers_of(WITH_CENTRE.replace("{mu:", "{M: m1 + m2, mu:"), "hamiltonian"))
     assert "H = (p_X² + p_Y²)/(2 M) + p_r²/(2 μ)" in told
     assert "M = m₁ + m₂" in told
+
+
+REDUCED = """
+coordinates: [x, y]
+parameters: {m: {assume: SIGN}, n: {assume: positive}, k: {assume: positive}}
+definitions: {mu: m*n/(m + n)}
+T: mu*(x'^2 + y'^2)/2
+V: k*x^2/2
+"""
+
+
+@pytest.mark.parametrize(
+    ("formula", "shown"),
+    [
+        ("m*n*k/sqrt((m + n)*(3*(m + n)*x^2 + m*n*k*y^4))", "mu*k/sqrt(3*x^2 + mu*k*y^4)"),
+        ("sqrt((m + n)*((m + n)*x - 2*m*n*k))/(m + n)", "sqrt(x - 2*mu*k)"),
+        ("sqrt((m + n)^2*x - m*n*(m + n)*y + 3*m^2*n^2)/(m + n)", "sqrt(x - mu*y + 3*mu^2)"),
+        # not of one degree, an odd power before it, and nothing with mu
+        ("sqrt((m + n)*((m + n)*x + k))", None),
+        ("sqrt((m + n)*x + m*n*k)", None),
+        ("sqrt((m + n)*((m + n)*x + (m + n)*k))", None),
+    ],
+)
+def test_a_sum_under_a_root_has_the_fraction_where_its_divisor_comes_out(formula, shown):
+    problem, tree, chance = (
+        problem_of(REDUCED.replace("SIGN", "positive")),
+        parse_text(formula),
+        random.Random(11),
+    )
+    written = NamedConstants(problem)(tree)
+    for _ in range(3):
+        values = {name: chance.uniform(0.2, 0.4) for name in ("m", "n", "k", "y")} | {"x": 2.0}
+        assert value(problem, written, values) == pytest.approx(value(problem, tree, values))
+    assert to_grammar(written) == (formula if shown is None else shown)
+
+
+def test_a_divisor_of_unknown_sign_stays_under_the_root():
+    formula = "sqrt((m + n)*((m + n)*x - 2*m*n*k))"
+    for assume, shown in ("real", formula), ("positive", "(m + n)*sqrt(x - 2*mu*k)"):
+        names = NamedConstants(problem_of(REDUCED.replace("SIGN", assume)))
+        assert to_grammar(names(parse_text(formula))) == shown
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_random_sums_under_a_root_keep_their_values(seed):
+    chance = random.Random(seed)
+    problem = problem_of(REDUCED.replace("SIGN", "positive"))
+    degree, outside = chance.randint(1, 3), chance.randint(0, 3)
+    outside += (degree + outside) % 2
+    terms = (
+        "*".join((str(chance.randint(1, 9)), *["m*n"] * i, *["(m + n)"] * (degree - i), "x"))
+        for i in range(degree + 1)
+    )
+    before = "(m + n)*" * outside
+    tree = parse_text(f"x*m*n/sqrt({before}({' + '.join(terms)}))")
+    written = NamedConstants(problem)(tree)
+    assert "mu" in {part.name for part in walk(written) if isinstance(part, Name)}
+    assert "m*n" not in to_grammar(written)
+    values = {name: chance.uniform(0.2, 0.9) for name in ("x", "y", "m", "n", "k")}
+    assert value(problem, written, values) == pytest.approx(value(problem, tree, values))
 
 
 def test_even_powers_of_a_distance_have_its_name_too():
