@@ -196,7 +196,7 @@ def test_many_wrong_terms_are_answered_quickly_and_not_all():
     )
     reading = read_problem("a.yaml", text.encode())
     assert reading.problem is None
-    assert 50 <= len(reading.diagnostics) <= 5000
+    assert len(reading.diagnostics) == 5  # one for each power, not for each term
 
 
 PIECES = [

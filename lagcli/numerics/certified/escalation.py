@@ -70,9 +70,9 @@ def is_marginal(outcome: Outcome) -> bool:
     """Whether runs at the rounding of their numbers are within the accuracy by chance."""
     controller = outcome.controller
     at_rounding = controller.factor(outcome.tolerances[1], outcome.run) > USUAL
-    if not (at_rounding or controller.is_unstable):
-        return False
-    return _CHANCE * max(*outcome.errors, *outcome.held) > controller.accuracy
+    if controller.is_unstable and max(outcome.held) >= controller.accuracy:  # for chance
+        return True
+    return at_rounding and _CHANCE * max(outcome.errors) > controller.accuracy
 
 
 def horizon_of(outcome: Outcome) -> float:
