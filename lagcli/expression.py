@@ -236,6 +236,11 @@ def quotient_of(above: Iterable[Expression], below: Collection[Expression]) -> E
     return Quotient(product_of(above), product_of(below)) if below else product_of(above)
 
 
+def power_of(base: Expression, exponent: int | Fraction) -> Expression:
+    """The power of a base; the first is the base itself."""
+    return base if exponent == 1 else Power(base, Number(Fraction(exponent)))
+
+
 def multiple_of(
     number: Fraction, above: Sequence[Expression], below: Sequence[Expression]
 ) -> Expression:

@@ -23,11 +23,12 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    power_of,
     product_of,
     quotient_of,
     walk,
 )
-from lagcli.notation.factors import half_of, parts_of, whole_power
+from lagcli.notation.factors import cancelled, half_of, parts_of, whole_power
 from lagcli.notation.given_formulas import is_constant
 from lagcli.notation.likeness import Monomial, Polynomial, multiplied_out
 from lagcli.problem_data import Assumption, Parameter, Problem
@@ -215,23 +216,11 @@ class NamedConstants:
     def _cancelled(self, node: Quotient) -> Expression:
         """sqrt(p² + mu k) for M sqrt(p² + mu k)/M."""
         minus, above, below = parts_of(node)
-        for divisor in self._divisors.values():
-            exponents = [
-                sum(e for b, e in map(whole_power, side) if b == divisor) for side in (above, below)
-            ]
-            if min(exponents) < 1:
-                continue
-            for side, exponent in zip((above, below), exponents, strict=True):
-                rest = exponent - min(exponents)
-                side[:] = [f for f in side if whole_power(f)[0] != divisor]
-                side += (
-                    [divisor]
-                    if rest == 1
-                    else [Power(divisor, Number(Fraction(rest)))] * (rest > 1)
-                )
-            whole = quotient_of(above or [ONE], below)
-            return Negative(whole) if minus else whole
-        return node
+        bases = [{base for base, _ in map(whole_power, side)} for side in (above, below)]
+        if bases[0].isdisjoint(bases[1] & {*self._divisors.values()}):
+            return node
+        whole = quotient_of(*cancelled(above, below))
+        return Negative(whole) if minus else whole
 
     def _root(self, node: Call) -> Expression:
         """M sqrt(p² + mu k) for sqrt(M (M p² + m1 m2 k)), M = m1 + m2 > 0."""
@@ -250,10 +239,8 @@ class NamedConstants:
                 else:
                     kept.append(factor)
             if count and count % 2 == 0 and len(kept) and not minus:
-                half = Number(Fraction(count // 2))
-                before = divisor if half == ONE else Power(divisor, half)
                 root = Call("sqrt", (quotient_of(kept, below),))
-                return product_of((before, root))
+                return product_of((power_of(divisor, count // 2), root))
         return node
 
     def _with_sums(self, node: Expression) -> Expression:
@@ -387,11 +374,9 @@ def _with_power(
             left[key] -= taken * sign_
             count *= content ** (sign_ * taken)
             if exponent > taken:
-                rest = Number(Fraction(exponent - taken))
-                kept[side].append(base if rest == ONE else Power(base, rest))
-    power = Name(name) if abs(k) == 1 else Power(Name(name), Number(Fraction(abs(k))))
+                kept[side].append(power_of(base, exponent - taken))
     if k:
-        kept[0 if k > 0 else 1].insert(0, power)
+        kept[0 if k > 0 else 1].insert(0, power_of(Name(name), abs(k)))
     for side, value in enumerate((abs(count.numerator), count.denominator)):
         numbers = [f for f in kept[side] if isinstance(f, Number)]
         whole = value * prod((f.value for f in numbers), start=_ONE)

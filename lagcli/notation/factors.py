@@ -19,6 +19,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
     factors_of,
+    power_of,
     quotient_of,
     walk,
 )
@@ -171,8 +172,7 @@ def _less(factors: list[Expression], base: Expression, times: int) -> list[Expre
         if own != base:
             found.append(factor)
         elif exponent > times:
-            more = Number(Fraction(exponent - times))
-            found.append(base if more == ONE else Power(base, more))
+            found.append(power_of(base, exponent - times))
     return found
 
 
@@ -252,9 +252,7 @@ def _whole(node: Expression) -> list[Expression]:
     exponent = half_of(node.exponent)
     if exponent is None or exponent < 1:
         return [node]
-    whole = Number(Fraction(exponent.numerator // 2))
-    power = node.base if whole == ONE else Power(node.base, whole)
-    return [power, Call("sqrt", (node.base,))]
+    return [power_of(node.base, exponent.numerator // 2), Call("sqrt", (node.base,))]
 
 
 def half_of(node: Expression) -> Fraction | None:
@@ -275,10 +273,7 @@ def product_of_powers(
     found: list[list[Expression]] = []
     for sign, value in (1, abs(number.numerator)), (-1, number.denominator):
         chosen = [(b, Fraction(sign * e)) for b, e in powers.items() if sign * e > 0]
-        shown = [
-            base if exponent == 1 else Power(base, Number(exponent))
-            for base, exponent in ordering.arranged(chosen)
-        ]
+        shown = [power_of(base, exponent) for base, exponent in ordering.arranged(chosen)]
         found.append([Number(Fraction(value)), *shown] if value != 1 else shown)
     whole = quotient_of(found[0] or [ONE], found[1])
     return Negative(whole) if number < 0 else whole

@@ -28,6 +28,7 @@ from lagcli.expression import (
     Sum,
     factors_of,
     opposite,
+    power_of,
     quotient_of,
     terms_of,
     walk,
@@ -389,13 +390,10 @@ class Manner:
             if len(each) < len(above):
                 return None  # a factor twice
             exponents = {b: e - shared.get(b, 0) for b, e in each.items()}
-            kept = [
-                Power(b, Number(Fraction(e))) if e != 1 else b for b, e in exponents.items() if e
-            ]
+            kept = [power_of(b, e) for b, e in exponents.items() if e]
             whole = quotient_of(kept or [ONE], below)
             left.append(Negative(whole) if minus else whole)
-        outside = (Power(b, Number(Fraction(e))) if e > 1 else b for b, e in shared.items())
-        return [*outside, Sum(tuple(left))]
+        return [*(power_of(b, e) for b, e in shared.items()), Sum(tuple(left))]
 
     def _late(self, node: Sum) -> bool:
         """Whether it is a difference of letters, the first of which comes second in the file."""

@@ -21,6 +21,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
     length,
+    power_of,
     quotient_of,
     walk,
 )
@@ -71,8 +72,7 @@ class GivenFractions:
                 if found is not None:
                     times, inner = found
                     outside.update({b: sign * exponent * e for b, e in times.items()})
-                    kept = Power(inner, Number(Fraction(exponent))) if exponent != 1 else inner
-                    sums[side].append(kept)
+                    sums[side].append(power_of(inner, exponent))
                 elif isinstance(base, Number):
                     number *= base.value ** (sign * exponent)
                 elif isinstance(base, Name):

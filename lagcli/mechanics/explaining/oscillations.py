@@ -22,6 +22,7 @@ from lagcli.expression import (
     Number,
     Power,
     operation_count,
+    power_of,
     product_of,
     sum_of,
 )
@@ -210,7 +211,7 @@ def _damped(
     for factor, power in sorted(found, key=lambda pair: pair[0] != symbol):
         falling = sympy.Poly(factor, symbol).terms()
         written = sum_of(shape(c * symbol**k, order) for (k,), c in falling)
-        factors += [written if power == 1 else Power(written, Number(Fraction(power)))]
+        factors.append(power_of(written, power))
     written = product_of(factors)
     if operation_count(written) <= _LONG:
         yield says("This gives")

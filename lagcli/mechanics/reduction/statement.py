@@ -25,13 +25,13 @@ from lagcli.expression import (
     Name,
     Negative,
     Number,
-    Power,
     Product,
     Quotient,
     Sum,
     factors_of,
     operation_count,
     opposite,
+    power_of,
     quotient_of,
     sum_of,
     terms_of,
@@ -400,7 +400,7 @@ def _two_pi_times(root: Expression) -> Expression:
     divisor, divisors = _number_and_rest(below)
     number = 2 * number / divisor
     powers = factors.count(Name("pi")) + 1 - divisors.count(Name("pi"))
-    pi = Name("pi") if powers == 1 else Power(Name("pi"), Number(Fraction(powers)))
+    pi = power_of(Name("pi"), powers)
     whole = [*([pi] if powers else []), *(factor for factor in factors if factor != Name("pi"))]
     divisors = [factor for factor in divisors if factor != Name("pi")]
     if number.numerator != 1:
