@@ -173,7 +173,7 @@ class _Composer:
         if is_text:  # of which a comma cuts off words
             found = [each if each and each["key"] in SECTIONS else None for each in found]
         if not any(found) or not (others or len(keys) == 1):
-            return children  # all alike are told where names are declared
+            return children  # all alike: reported where names are declared
         mended: list[DocumentNode] = []
         for key, value, split in zip(keys, values, found, strict=True):
             if split is None or not isinstance(key, Scalar):

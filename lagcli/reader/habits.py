@@ -129,9 +129,8 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
     if part in known:
         return f"write {part}: {{{key}: {value or '…'}}}"
     if "parameters" in known and is_constant(word, value):
-        value, unit = value.strip(), unit_behind(value)
-        number = value.partition(unit)[0].strip(" [(,;") if unit else value
-        given = f"{{value: {number}, unit: {unit}}}" if unit else value
+        number, unit = number_and_unit(value)
+        given = f"{{value: {number}, unit: {unit}}}" if unit else number
         return f"a constant stands under parameters: write parameters: {{{word}: {given}}}"
     if word.casefold() in {"gravity", "gravitation", "weight", "spring", "field"} and "V" in known:
         return "it has a potential energy: write V: m*g*y"
@@ -146,10 +145,10 @@ def colon_advice(line: str) -> str:
             return begun.expand(advice)
     if "''" in line:
         return DERIVED
-    if found and found[1] not in habits()["keys"] and (unit := unit_behind(found[2])):
-        number = found[2].partition(unit)[0].strip(" [(,;")
-        return f"write parameters: {{{found[1]}: {{value: {number}, unit: {unit}}}}}"
     if found:
+        number, unit = number_and_unit(found[2])
+        if unit and found[1] not in habits()["keys"]:
+            return f"write parameters: {{{found[1]}: {{value: {number}, unit: {unit}}}}}"
         value = re.sub(r"^\{([^:{}]*)\}$", r"[\1]", found[2].strip())
         value = re.sub(r"^T\s*[-−]\s*V\s*=\s*", "", value)
         return f"write {found[1]}: {value}"
@@ -210,6 +209,12 @@ def unit_behind(text: str) -> str:
         re.sub(r"\s*(?:\[([^][]*)\]|\(([^()]*)\))$", r" \1\2", text.strip())
     )
     return found["unit"] if found and _is_unit(found["unit"]) else ""
+
+
+def number_and_unit(text: str) -> tuple[str, str]:
+    """`10` and `kg` of `10 kg`, `9.81 [m/s^2]`; the text and nothing where no unit is behind it."""
+    unit = unit_behind(text)
+    return (text.partition(unit)[0].strip(" [(,;") if unit else text.strip()), unit
 
 
 def _is_unit(text: str) -> bool:

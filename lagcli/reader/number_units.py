@@ -6,7 +6,7 @@ import re
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagcli.reader.habits import unit_behind
+from lagcli.reader.habits import number_and_unit
 
 if TYPE_CHECKING:
     from collections.abc import Container
@@ -24,11 +24,9 @@ def unit_mistake(
     Numbers are in the units of the file, whose names may be letters that are units as well;
     a parameter is declared with its own.
     """
-    text = text.replace("°", " deg")
-    unit = unit_behind(text)
+    number, unit = number_and_unit(text.replace("°", " deg"))
     if not unit:
         return None
-    number = text.partition(unit)[0].strip(" [(,;")
     hint = f"write {number}: numbers are in the units of the file"
     factor, base = _in_base_units(unit)
     if abs(factor - 1) > 1e-9 and number.count(".") < 2:

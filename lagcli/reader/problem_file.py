@@ -107,7 +107,7 @@ def _mistakes(source: Source) -> tuple[bool, tuple[Diagnostic, ...]]:
 def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
     """The problem that a text writes; `Mistake` where it is not YAML.
 
-    With `alone` several terms that do not fit are told as their one cause, where there is one.
+    With `alone` the one cause of several terms that do not fit is reported, where there is one.
     """
     root, diagnostics = compose(SourceText.of(source))
     file = FileReader(diagnostics=diagnostics)

@@ -64,7 +64,7 @@ _DEFECT = 3.0
 #: rounding is enlarged, 20 errors were up to 20 times this bound: with the multiple for
 #: chance at any size (`_grows`) two were 10 and 1.1 times it, the others 0.9 of it at most.
 #: Of 840 that pass one of five saddles two were 1.8 and 2.2 times it: with the third run, which
-#: such motions have, too, one of 900, 2.1 times.
+#: such motions have, too, one of 1,080, 2.1 times.
 USUAL, CHANCE, NARROW, _THIRD = 2.0, 20.0, 60.0, 3.0
 _CHARGES = 10.0
 LONGEST = (200.0, 2000.0, 20000.0)  # parts of the span
