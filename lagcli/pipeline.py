@@ -187,13 +187,10 @@ def state(derivation: Derivation, request: Request) -> Answers:
 
 def _with_roots(problem: Problem, answers: Answers) -> Answers:
     """With r for sqrt(x² + y²) and mu for m1 m2/(m1 + m2), where the file defines them so."""
-    from lagcli.mechanics.named_definitions import NamedConstants, NamedRoots
+    from lagcli.mechanics.named_definitions import by_names
     from lagcli.notation.letters import names_in
-    from lagcli.rewriting import rewritten
 
-    sections = answers.sections
-    for names in NamedRoots(problem), NamedConstants(problem):
-        sections = rewritten(sections, names) if names else sections
+    sections = by_names(problem, answers.sections)
     if sections is answers.sections:
         return answers
     used = names_in(sections)
@@ -281,12 +278,9 @@ def explain(
 
     account = _ended(lambda: explanation(derivation, also))
     if named and derivation.given.definitions:
-        from lagcli.mechanics.named_definitions import NamedConstants, NamedRoots
-        from lagcli.rewriting import rewritten
+        from lagcli.mechanics.named_definitions import by_names
 
-        for names in NamedRoots(derivation.given), NamedConstants(derivation.given):
-            if names:
-                account = replace(account, steps=rewritten(account.steps, names))
+        account = replace(account, steps=by_names(derivation.given, account.steps))
     return _in_the_manner(derivation, _confirmed(derivation, account, also))
 
 

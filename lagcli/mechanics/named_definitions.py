@@ -33,7 +33,7 @@ from lagcli.notation.given_formulas import is_constant
 from lagcli.notation.likeness import Monomial, Polynomial, multiplied_out
 from lagcli.problem_data import Assumption, Parameter, Problem
 from lagcli.record import replace
-from lagcli.rewriting import expressions_in, rebuilt
+from lagcli.rewriting import Value, expressions_in, rebuilt, rewritten
 
 _ASIDE = ("source", "definitions", "parameters", "coordinates", "functions", "expect", "named",
           "simulation", "picture")  # fmt: skip
@@ -249,6 +249,13 @@ class NamedConstants:
             if name := next((name for known, name in self._sums if known == value), ""):
                 return Name(name)
         return rebuilt(node, self._with_sums)
+
+
+def by_names(problem: Problem, found: Value) -> Value:
+    """Statements with r for sqrt(x² + y²) and mu for m1 m2/(m1 + m2), as the file defines them."""
+    for names in NamedRoots(problem), NamedConstants(problem):
+        found = rewritten(found, names) if names else found
+    return found
 
 
 #: The terms of a base without their common number.

@@ -13,7 +13,7 @@ from lagcli.reader.shapes import formula
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, EnergySection
 from lagcli.statements.declaration import always, declared
-from lagcli.statements.wording import not_found, one_row
+from lagcli.statements.wording import capitalized, not_found, one_row
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
@@ -53,7 +53,7 @@ def blocks(section: EnergySection, _: Answers) -> Iterator[Block]:
     words = _CONSERVED[section.conserved] + _TOTAL[section.is_total_energy]
     reason = section.reason.strip().rstrip(".")
     if reason.startswith(("conserved", "not conserved", "whether it is conserved")):
-        yield Paragraph((f"{reason[0].upper()}{reason[1:]}.",))  # it says all of that, and why
+        yield Paragraph((f"{capitalized(reason)}.",))  # it says all of that, and why
     else:
         yield Paragraph((f"{words} {reason}.".replace(" .", ""),))
 

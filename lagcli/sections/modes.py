@@ -48,7 +48,7 @@ def derive(statements: Statements) -> ModesSection:
         statements.lacks("the normal modes", section.reason)
     if section.unshaped:
         statements.lacks("the shapes of some normal modes")
-    if open_ := [mode for mode in section.modes or () if _is_open(mode)]:
+    if open_ := [mode for mode in section.modes or () if mode.is_open]:
         roots = "exponents" if any(mode.damped for mode in open_) else "frequencies"
         statements.lacks(
             f"a closed form of all {roots}", "lagcli explain --also modes has their equation"
@@ -85,7 +85,7 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
         for mode in modes_in_pairs(modes):
             if rows := tuple(_mode(mode)):
                 yield Equations(rows)
-            if not rows or _is_open(mode):
+            if not rows or mode.is_open:
                 yield Paragraph((_without_rows(mode),))
             if mode.pole is not None and mode.multiplicity > 1:
                 yield Paragraph(
@@ -129,13 +129,6 @@ def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
         squared = Power(omega, Number(Fraction(2)))
         yield Row(squared, mode.frequency_squared, note or _NO_OSCILLATION[mode.negative])
     yield from _shape(mode.shape or {})
-
-
-def _is_open(mode: ModesOfFrequency) -> bool:
-    """Whether roots of it have no closed form."""
-    if mode.damped:
-        return mode.decay is None and len(mode.exponents) < 2 * mode.multiplicity
-    return mode.frequency is None and mode.frequency_squared is None and not mode.negative
 
 
 def _without_rows(mode: ModesOfFrequency) -> str:

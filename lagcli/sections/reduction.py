@@ -30,6 +30,7 @@ from lagcli.statements.motions import OneFreedom, PeriodSeries
 from lagcli.statements.plus_minus import once, single
 from lagcli.statements.wording import (
     POTENTIALS,
+    capitalized,
     conditions,
     irreducible,
     state_blocks,
@@ -129,7 +130,7 @@ def _one_freedom(motion: OneFreedom, potential: Formula) -> Iterator[Block]:
     for period in once(motion.periods):
         yield from _period(period, motion.coordinate, potential)
     if motion.reason:
-        yield Paragraph((f"{motion.reason[0].upper()}{motion.reason[1:]}.",))
+        yield Paragraph((f"{capitalized(motion.reason)}.",))
 
 
 def _period(period: PeriodSeries, coordinate: str, potential: Formula) -> Iterator[Block]:

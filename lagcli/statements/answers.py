@@ -301,6 +301,13 @@ class ModesOfFrequency:
     exponents: tuple[Expression, ...] = ()
     pole: Pole | None = None
 
+    @property
+    def is_open(self) -> bool:
+        """Whether roots of it have no closed form."""
+        if self.damped:
+            return self.decay is None and len(self.exponents) < 2 * self.multiplicity
+        return self.frequency is None and self.frequency_squared is None and not self.negative
+
 
 @record(kw_only=True)
 class ModesSection:

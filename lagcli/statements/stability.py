@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from lagcli.document import Label
 from lagcli.expression import Expression, Name, operation_count, walk
 from lagcli.statements.motions import Above, SteadyMotion, Verdict
-from lagcli.statements.wording import Part, conditions, joined
+from lagcli.statements.wording import Part, conditions, joined, with_capital
 
 #: A condition of more operations is not written beside the frequency that it says of.
 _LONG = 24
@@ -46,9 +46,7 @@ def stability(
     if not parts:
         return ["Stability undecided", *([": ", *reason] if reason else []), "."]
     if reason:
-        first = reason[0]
-        lead = f"{first[0].upper()}{first[1:]}" if isinstance(first, str) else first
-        parts += [lead, *reason[1:], "."]
+        parts += [*with_capital(reason), "."]
     return _trimmed(parts)
 
 

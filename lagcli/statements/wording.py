@@ -132,6 +132,17 @@ def only_along_its_path(point: str, fixed: Sequence[str]) -> Iterator[Paragraph]
         yield Paragraph((f"{lead} does no work on it and is not determined here.",))
 
 
+def capitalized(words: str) -> str:
+    """The words with a capital letter first; the others stay."""
+    return words[:1].upper() + words[1:]
+
+
+def with_capital(parts: Sequence[Part]) -> list[Part]:
+    """The beginning of a sentence, with a capital letter unless it is a formula."""
+    first, *rest = parts
+    return [capitalized(first) if isinstance(first, str) else first, *rest]
+
+
 def turning_contacts(motion: OneFreedom) -> Iterator[Paragraph]:
     """For which energies one-sided contacts hold at the turning points."""
     different = {*motion.turning_where}
@@ -139,26 +150,27 @@ def turning_contacts(motion: OneFreedom) -> Iterator[Paragraph]:
     sides = [side for where in different for each in where for side in (each.left, each.right)]
     if any(length(side) > _MOST_TO_READ for side in sides):
         E = Name(motion.constant)
-        yield Paragraph(("It depends on ", E, " whether t", *demands, f"{hold} there."))
+        yield Paragraph(("It depends on ", E, " whether ", *demands, f"{hold} there."))
         return
     if len(different) == 1 and different != {()}:
         where = motion.turning_where[0]
-        yield Paragraph(("T", *demands, f"{hold} there for ", *conditions(where), "."))
+        lead = with_capital(demands)
+        yield Paragraph((*lead, f"{hold} there for ", *conditions(where), "."))
     if len(different) < 2:
         return
     for root, where in zip(motion.turning_points or (), motion.turning_where, strict=True):
         if where:
             place = ("At ", Name(motion.coordinate), " = ", root)
-            yield Paragraph((*place, " t", *demands, f"{hold} for ", *conditions(where), "."))
+            yield Paragraph((*place, " ", *demands, f"{hold} for ", *conditions(where), "."))
 
 
 def _demands(motion: OneFreedom) -> tuple[list[Part], str]:
-    """What must hold at a turning point, without its first letter, and the verb."""
-    signs = "signs" if len(motion.signed) > 1 else "sign"
-    signed: list[Part] = [f"he assumed {signs} of ", *listed(motion.signed)]
+    """What must hold at a turning point, and the verb."""
+    several = len(motion.signed) > 1
+    signed: list[Part] = [f"the assumed sign{'s' * several} of ", *listed(motion.signed)]
     if motion.one_sided:
-        return ["he one-sided constraints", *([" and t", *signed] * bool(motion.signed))], " hold"
-    return signed, " hold" if len(motion.signed) > 1 else " holds"
+        return ["the one-sided constraints", *([" and ", *signed] * bool(motion.signed))], " hold"
+    return signed, " hold" if several else " holds"
 
 
 def joined(where: Sequence[Above], word: str) -> list[Part]:
@@ -379,8 +391,7 @@ def none_found(
     """That there is none of what was sought, or that none is known."""
     if not complete:
         return Paragraph(("None was found.",))
-    lead, *rest = unless(what + where, vanishing, edge)
-    return Paragraph((f"{str(lead)[0].upper()}{str(lead)[1:]}", *rest, "."))
+    return Paragraph((*with_capital(unless(what + where, vanishing, edge)), "."))
 
 
 def remark(answer: Answer) -> Iterator[Paragraph]:
@@ -389,9 +400,7 @@ def remark(answer: Answer) -> Iterator[Paragraph]:
     if isinstance(answer, Solutions) and answer.remarks:
         remarks = answer.remarks
     if remarks:
-        first, *rest = remarks
-        lead = f"{first[0].upper()}{first[1:]}" if isinstance(first, str) else first
-        parts: list[Part] = [lead, *rest]
+        parts = with_capital(remarks)
         if isinstance(parts[-1], str):
             parts[-1] = parts[-1].rstrip(".")
         yield Paragraph((*parts, "."))

@@ -14,7 +14,7 @@ from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, listed, says, shows
 from lagcli.mechanics.impacts import between_impacts
 from lagcli.mechanics.noether import NoetherCharge
-from lagcli.statements.wording import TRIVIAL, enumerated
+from lagcli.statements.wording import TRIVIAL, capitalized, enumerated
 
 
 def energy(explainer: Explainer) -> Iterator[Block]:
@@ -200,7 +200,7 @@ def _acting(explainer: Explainer) -> str:
         return ""
     several = len(forces) > 1 or forces[0].startswith(("the applied", "the forces"))
     words = enumerated(forces)
-    return f"{words[0].upper()}{words[1:]} {'do' if several else 'does'}"
+    return f"{capitalized(words)} {'do' if several else 'does'}"
 
 
 def _work(explainer: Explainer, charge: NoetherCharge, *, with_gauge: bool) -> Iterator[Block]:
@@ -214,7 +214,7 @@ def _work(explainer: Explainer, charge: NoetherCharge, *, with_gauge: bool) -> I
     words = enumerated(working)
     several = len(working) > 1 or words.startswith(("the applied", "the constraints"))
     do = "do" if several else "does"
-    lead = f"{words[0].upper()}{words[1:]} {do} work along this transformation, which together "
+    lead = f"{capitalized(words)} {do} work along this transformation, which together "
     letters = explainer.letters
     total: list[Part] = ["the total time derivative of ", letters.G] if with_gauge else ["0"]
     yield says(lead, "with the change of ", letters.L, " is ", *total, ".")

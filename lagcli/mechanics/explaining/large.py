@@ -22,6 +22,7 @@ from lagcli.mechanics.large_charges import LargeCharges
 from lagcli.mechanics.matrix_form import MatrixForm
 from lagcli.notation.given_formulas import names_of
 from lagcli.statements.explanation import Explanation, ExplanationStep
+from lagcli.statements.wording import capitalized
 
 UNSOLVED = "the accelerations and multipliers were not solved in closed form"
 
@@ -122,7 +123,7 @@ def _energy(form: MatrixForm, charges: LargeCharges) -> Iterator[Block]:
         Product((letters.velocity, Diff(letters.L, letters.velocity))),
         " over all coordinates, minus ",
         letters.L,
-        f". {charges.energy_reason[0].upper()}{charges.energy_reason[1:]}.",
+        f". {capitalized(charges.energy_reason)}.",
     )
     cyclic = [form.q[i].name for i in charges.cyclic]
     if cyclic:

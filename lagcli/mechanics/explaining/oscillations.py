@@ -216,9 +216,7 @@ def _damped(
     if operation_count(written) <= _LONG:
         yield says("This gives")
         yield vanishing((written,))
-    count = sum(len(mode.exponents) + 2 * mode.multiplicity * (mode.decay is not None)
-                for mode in modes)  # fmt: skip
-    some = count < 2 * len(place.linear.M)
+    some = any(mode.is_open for mode in modes)
     lead = "Among its roots are " if some else "Its roots are "
     for mode in modes_in_pairs(modes):
         if mode.decay is not None and mode.frequency is not None:
@@ -229,7 +227,8 @@ def _damped(
             yield equations_of((s, exponent) for exponent in dict.fromkeys(mode.exponents))
             lead = "and "
     if some:
-        yield says(f"No closed form was found for {'the others' if count else 'its roots'}.")
+        known = any(mode.exponents or mode.decay is not None for mode in modes)
+        yield says(f"No closed form was found for {'the others' if known else 'its roots'}.")
     yield from _where_real(explainer, modes)
 
 

@@ -262,9 +262,8 @@ class Near:
             found.append([S.One if x == s else steps.get(x, S.Zero) for x in q])
         return found
 
-    def _excluded(self, linear: Linearization) -> int:
-        """How many of these displacements the constraints exclude."""
-        rows = linear.rows
+    def _excluded(self, rows: Sequence[Sequence[Expr]]) -> int:
+        """How many of these displacements constraints with these gradients exclude."""
         if not (rows and self._tangents):
             return 0
         return rank([[dot(row, dq) for dq in self._tangents] for row in rows])
@@ -272,12 +271,12 @@ class Near:
     @cached_property
     def dimension(self) -> int:
         """Of the equilibria that it can be displaced to."""
-        return len(self._tangents) - self._excluded(self.linear)
+        return len(self._tangents) - self._excluded(self.linear.rows)
 
     @cached_property
     def dimension_released(self) -> int:
         """The same without the velocity constraints that cannot be integrated."""
-        return len(self._tangents) - self._excluded(self.restoring)
+        return len(self._tangents) - self._excluded(self.restoring.rows)
 
     @property
     def rests_everywhere(self) -> bool:
@@ -291,14 +290,13 @@ class Near:
             return False
         equations = [e for e in dynamics.constraints.equations if e.holonomic]
         rows = [[at(a, values) for a in e.row] for e in equations]
-        excluded = rank([[dot(row, dq) for dq in self._tangents] for row in rows]) if rows else 0
-        return len(self._tangents) - excluded == len(q) - (rank(rows) if rows else 0)
+        return len(self._tangents) - self._excluded(rows) == len(q) - (rank(rows) if rows else 0)
 
     @cached_property
     def as_many_equilibria(self) -> bool:
         """Whether the equilibria near it are a manifold with a dimension for each root 0."""
         velocity = sum(kind != "holonomic" for kind in self._kinds_of_independent())
-        return self.zeros == self.dimension and self._excluded(self.linear) == velocity
+        return self.zeros == self.dimension and self._excluded(self.linear.rows) == velocity
 
     def _kinds_of_independent(self) -> list[str]:
         constraints, dynamics = self.linear.dynamics.constraints, self.linear.dynamics
