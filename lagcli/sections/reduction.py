@@ -33,6 +33,7 @@ from lagcli.statements.wording import (
     capitalized,
     conditions,
     irreducible,
+    none_cyclic,
     state_blocks,
     turning_contacts,
     used_to_eliminate,
@@ -67,8 +68,7 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
     elif section.irreducible:
         yield Paragraph(("The Routhian is the Lagrangian.",))
     else:
-        other = " other" if section.eliminated else ""
-        yield Paragraph((f"No{other} coordinate is cyclic: the Routhian is the Lagrangian.",))
+        yield Paragraph((f"{none_cyclic(section.eliminated)}: the Routhian is the Lagrangian.",))
     if section.routhian is None:
         yield Paragraph((f"Not found: {section.reason}.",))
         return

@@ -124,6 +124,11 @@ def used_to_eliminate(gone: Sequence[str]) -> list[Part]:
     return [f"The constraint{' is' if len(gone) == 1 else 's are'} used to eliminate ", *found]
 
 
+def none_cyclic(gone: Sequence[str]) -> str:
+    """That no coordinate is, but for those that are eliminated, of which this says nothing."""
+    return f"{'None of the other coordinates' if gone else 'No coordinate'} is cyclic"
+
+
 def only_along_its_path(point: str, fixed: Sequence[str]) -> Iterator[Paragraph]:
     """That a force on a point that cannot move along an axis is not known along that."""
     if fixed:

@@ -9,6 +9,7 @@ import re
 import pytest
 import sympy
 
+import lagcli
 from lagcli.algebra.build import symbol
 from lagcli.algebra.numeric import Evaluator
 from lagcli.document import Paragraph
@@ -200,6 +201,8 @@ def test_what_the_constraints_eliminate_is_named_before_none_is_cyclic():
     sentences = said(text, "The reduction", "reduction")
     assert "used to eliminate" in sentences
     assert "None of the other coordinates is cyclic" in sentences
+    answers = " ".join(str(lagcli.solve(lagcli.loads(text), sections=["reduction"])).split())
+    assert "None of the other coordinates is cyclic: the Routhian is the Lagrangian." in answers
 
 
 # -- turning points -------------------------------------------------------------------------------

@@ -27,6 +27,7 @@ from lagcli.statements.wording import (
     POTENTIALS,
     conditions,
     irreducible,
+    none_cyclic,
     place_rows,
     turning_contacts,
     used_to_eliminate,
@@ -85,8 +86,8 @@ def _cyclic(explainer: Explainer, reduced: ReductionSection) -> Iterator[Block]:
                    else " are cyclic, with the constant momenta")  # fmt: skip
         yield equations_of((Name(f"p_{name}"), value) for name, value in reduced.momenta.items())
     elif not reduced.irreducible and reduced.reason != NONE_LEFT:
-        none = "None of the other coordinates" if reduced.eliminated else "No coordinate"
-        yield says(f"{none} is cyclic, so the Routhian is ", explainer.letters.L, ".")
+        none = none_cyclic(reduced.eliminated)
+        yield says(f"{none}, so the Routhian is ", explainer.letters.L, ".")
     for name, why in reduced.irreducible.items():
         yield says(*irreducible(name, why, explainer.letters.L))
 
