@@ -17,6 +17,7 @@ from lagcli.formatters.options import Options
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.pipeline import Request, explain, render, state
+from tests.marks import mostly_long
 
 from .derived import derive
 from .test_explanation import words
@@ -161,7 +162,7 @@ def test_what_a_frame_that_moves_along_leaves_the_same(text, frame):
     assert frame is None or f"any constant {frame}:" in told
 
 
-@pytest.mark.parametrize("seed", SEEDS)
+@pytest.mark.parametrize("seed", mostly_long(SEEDS, 3))
 def test_a_frame_that_moves_along_may_have_constraints(seed):
     """A bob on a rod whose support slides: with u - n x alone in all, u' = n x' is any constant."""
     source = random.Random(seed)

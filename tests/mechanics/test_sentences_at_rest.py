@@ -20,6 +20,7 @@ from lagcli.mechanics.oscillations.small_oscillations import (
 from lagcli.mechanics.reduction.statement import reduction
 from lagcli.mechanics.rest.equilibria import _finite_where
 from lagcli.pipeline import Request, explain, state
+from tests.marks import mostly_long
 
 from .derived import derive
 from .test_explanation import words
@@ -680,7 +681,7 @@ def test_a_steady_motion_is_not_stated_where_its_rates_divide_by_zero(power):
     assert "It is possible for B ≠ 0." in told
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", mostly_long(range(3), 2))
 def test_a_rate_that_a_sum_in_a_product_divides_by_is_not_0(seed):
     """psi' = -(phi' + V'/(c phi'))/s: no value of psi' makes phi' = 0 steady where V' is not 0."""
     source = random.Random(seed)
