@@ -118,7 +118,14 @@ class Derivation:
         """Symmetries and first integrals that nobody listed."""
         from lagcli.mechanics.discovery.discovery import Discovery
 
-        return Discovery(self.noether)
+        return Discovery(self.noether, self._unconstrained_discovery)
+
+    def _unconstrained_discovery(self) -> Discovery | None:
+        """The same in coordinates that no constraint binds, where they are known."""
+        from lagcli.mechanics.fewer_coordinates import unconstrained
+
+        problem = unconstrained(self.dynamics)
+        return None if problem is None else Derivation(problem).discovery
 
     @cached_property
     def special_cases(self) -> tuple[SpecialCase, ...]:

@@ -44,7 +44,12 @@ KNOWN = {
     "driven/bead-on-wire-turning-horizontally": (
         "conformal_exp conformal_exp_2 translation_r_exp_2", "", "sch(1)", True),
     "chains/cartesian-double-pendulum": ("energy", "", "R", None),
-    "driven/bead-on-wire-turning-in-vertical-plane": ("", "", None, None),
+    "driven/bead-on-wire-turning-in-vertical-plane": (
+        "conformal_exp conformal_exp_2 moving_energy translation_r_exp translation_r_exp_2", "",
+        "sch(1)", True),
+    "classics/particle-on-helix": (
+        "energy momentum_phi_z boost_phi_z dilation conformal", "", "sch(1)", True),
+    "pulleys/double-atwood-tension": ("energy dilation conformal", "", "sch(2)", True),
 }  # fmt: skip
 
 
@@ -179,3 +184,58 @@ def test_what_is_a_function_of_the_others_is_not_missed(friction):
     found = derive(text).discovery
     assert "all others are functions of these" in found.ansatz
     assert not found.stopped
+
+
+def test_on_a_turning_wire_the_five_are_constant_along_the_known_motion():
+    """r = A exp(w t) + B exp(-w t) + g sin(w t)/(2 w^2) solves r'' = w^2 r - g sin(w t)."""
+    derivation = derived("driven/bead-on-wire-turning-in-vertical-plane")
+    system = derivation.system
+    m, g, w, A, B, t = sympy.Rational(3, 2), 7, sympy.Rational(2, 3), 5, -2, system.t
+    r = A * sympy.exp(w * t) + B * sympy.exp(-w * t) + g * sympy.sin(w * t) / (2 * w**2)
+    assert sympy.simplify(r.diff(t, 2) - w**2 * r + g * sympy.sin(w * t)) == 0
+    along = dict(zip(system.parameters, (m, g, w), strict=True))
+    along |= dict(zip((*system.q, *system.qdot), (r, w * t, r.diff(t), w), strict=True))
+    charges = [c.charge.xreplace(along) for c in derivation.discovery.charges]
+    assert len(charges) == 5
+    for Q in charges:
+        start, end = (Q.subs(t, x).evalf(30) for x in (sympy.Rational(1, 7), 2))
+        assert abs(start - end) < 1e-20 * (1 + abs(start))
+
+
+FREE = "coordinates: [x]\n{}L: m*x'^2/2 {}"
+HELD = [
+    ("coordinates: [x, y]\n{}T: m*(x'^2 + 3*y'^2)/8\nV: -({})\nconstraints: {{c: y = x + 2}}"),
+    ("coordinates: [y, x]\n{}T: m*(x'^2 + y'^2/4)/4\nV: -({})\nconstraints: {{c: y' - 2*x' = 0}}"),
+    ("coordinates: [a, x, y]\n{}T: m*(x'^2 + (y' + a*x')^2/4)/4\nV: -({})\n"
+     "constraints: {{c: y = 2*x, d: a = 0}}"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("held", HELD)
+@pytest.mark.parametrize("force", ["-k*x^2/2", "m*g*x", "k*x^2 + x*sin(w*t)", "-k*x^2/2 + x*t"])
+def test_a_linear_system_has_the_same_five_with_and_without_a_constraint(held, force):
+    parameters = "parameters: {m: {assume: positive}, k: {assume: positive}, g: {}, w: {}}\n"
+    free = summary(derive(FREE.format(parameters, f"+ {force}")).discovery)
+    discovery = derive(held.format(parameters, force)).discovery
+    found = summary(discovery)
+    assert len([c for c in discovery.charges if c.name != "constraint_integral"]) == 5
+    if "x' = 0" not in held:
+        assert (found.dimension, found.name, found.integrable) == (5, free.name, True)
+
+
+def test_a_constraint_that_is_put_in_leaves_its_constant():
+    discovery = derived("canonical/bead-on-rotating-hoop-multiplier").discovery
+    assert {c.name for c in discovery.charges} == {"moving_energy", "constraint_integral"}
+    [angle] = [c.charge for c in discovery.charges if c.name == "constraint_integral"]
+    assert is_zero(angle - built(discovery, "omega*t - phi")) is True
+
+
+def test_of_two_dilations_the_difference_is_a_rotation():
+    """Two falling bodies in oblique coordinates: the Schroedinger algebra of a plane."""
+    discovery = derived("pulleys/double-atwood-tension").discovery
+    assert sum(c.transformation.time != 0 for c in discovery.point_charges) == 3
+    assert len(discovery.point_charges) == 8
+
+
+def test_without_a_degree_of_freedom_nothing_is_conserved():
+    assert derived("contact/block-on-shaking-table-kept").discovery.charges == ()

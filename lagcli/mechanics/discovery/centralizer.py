@@ -5,6 +5,8 @@ difference; the basis with fewest entries has a mixture.  Where a combination wi
 time-independent rotations commutes with all translations, it is taken instead: with the
 components Y X_a of a displacement Y along Cartesian X_a, those of P are constant, and [Y, P] = 0
 is P (Y X_a) = 0.
+Of two with one stretching of time the difference leaves the time: of two dilations of a falling
+body in oblique coordinates, the rotation.
 Likewise the charges p_i - F_i t of a uniform force have combinations without the time, and so have
 two dilations of a free point in oblique coordinates, their rotation.
 """
@@ -60,6 +62,25 @@ def centralized(
         for k in turns:
             if k != last:
                 result[k] = _sparser(result[k], result[last], system)
+    return result
+
+
+def with_one_stretching(
+    transformations: Sequence[Transformation], system: System
+) -> list[Transformation]:
+    """The same space, in which no two displace the time by multiples of one function."""
+    result = list(transformations)
+    constants = set(system.parameters)
+    for k, last in enumerate(result):
+        for first in result[:k]:
+            if last.time == 0 or first.time == 0:
+                continue
+            ratio = sympy.cancel(last.time / first.time)
+            if ratio.free_symbols <= constants:
+                pairs = zip(last.changes, first.changes, strict=True)
+                changes = scaled([sympy.expand(a - ratio * b) for a, b in pairs], constants)
+                result[k] = Transformation(changes, sympy.S.Zero)
+                break
     return result
 
 

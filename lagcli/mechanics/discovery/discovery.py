@@ -22,7 +22,7 @@ from lagcli.mechanics.discovery.ansatz import (
     point_unknowns,
     quadratic_unknowns,
 )
-from lagcli.mechanics.discovery.centralizer import centralized, without_time
+from lagcli.mechanics.discovery.centralizer import centralized, with_one_stretching, without_time
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import rank_on_surface, tangent
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, is_gyroscopic
@@ -30,10 +30,11 @@ from lagcli.mechanics.discovery.hidden_names import HiddenNames
 from lagcli.mechanics.discovery.killing import KillingFrame
 from lagcli.mechanics.discovery.killing_integrals import KillingIntegrals
 from lagcli.mechanics.discovery.kinds import Kinds
+from lagcli.mechanics.discovery.lifted import lifted, of_velocity_constraints
 from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Allowance, TooMuchWork
 from lagcli.mechanics.discovery.listing import more, times
 from lagcli.mechanics.discovery.modular import NoPoint
-from lagcli.mechanics.discovery.on_surface import search_on_surface
+from lagcli.mechanics.discovery.on_surface import ALL_ARE_KNOWN, all_are_known, search_on_surface
 from lagcli.mechanics.discovery.products import Products
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.search import Search
@@ -63,12 +64,16 @@ class Discovery(Setting):
         The beginning of a sentence that ends with them.
     unproved : str
         The sentence of `stopped` where a symmetry is known, but not its charge.
+    unconstrained : Discovery
+        The search that was made in coordinates that no constraint binds; None where there was none.
     """
 
-    def __init__(self, noether: Noether) -> None:
+    def __init__(self, noether: Noether, unconstrained: Callable[[], Discovery | None]) -> None:
         super().__init__(noether)
+        self._unconstrained = unconstrained
         self.momentum_equations: tuple[NoetherCharge, ...] = ()
         self.unsearched = bool(self.unusable)
+        self.unconstrained: Discovery | None = None
         self.cartesian: tuple[Expr, ...] = ()
         self.cartesian_lead = ""
         self.unproved = ""
@@ -89,6 +94,8 @@ class Discovery(Setting):
 
     def _run(self) -> None:
         searches: list[tuple[Callable[[], None], str]] = [(self._points, "point symmetries")]
+        if self._of_unconstrained():
+            return
         if self.dynamics.constraints.equations:
             searches += [(self._on_surface, "integrals on the constraint surface")]
         else:
@@ -110,6 +117,24 @@ class Discovery(Setting):
         if len(self.system.q) > 1 and not self.dynamics.constraints.equations:
             what = "those" if self._degree > 1 else "first integrals"
             self.words.append(f"{what} of degree {self._degree + 1} or higher were not sought")
+
+    def _of_unconstrained(self) -> bool:
+        """What is found without the coordinates that constraints give; whether it was sought."""
+        if not (self.dynamics.constraints.equations and self.dynamics.degrees_of_freedom):
+            return False
+        fewer = self._unconstrained()
+        if fewer is None or fewer.unsearched:
+            return False
+        self.unconstrained = fewer
+        self.words.append(f"with the constraints put in, {fewer.ansatz}")
+        self.listing.add(of_velocity_constraints(self.noether))
+        self.listing.add(lifted(fewer.point_charges, fewer.system, self.noether))
+        for charge in fewer.hidden_charges:
+            name = "" if charge.name.startswith("charge_") else charge.name
+            self.listing.add_hidden((name, c) for c in lifted([charge], fewer.system, self.noether))
+        if all_are_known(self):
+            self.words.append(ALL_ARE_KNOWN)
+        return True
 
     def _search(self, kinds: Kinds, allowed: Allowance) -> tuple[Search, str]:
         """The linear system for the point symmetries, and what its ansatz is in words."""
@@ -159,6 +184,7 @@ class Discovery(Setting):
                 f"{more(search.unsolved, 'symmetry')} there, whose coefficients were not solved"
             )
         transformations.reverse()
+        transformations = with_one_stretching(transformations, self.system)
         transformations = centralized(transformations, self.system, allowed, self.cartesian)
         if constraints:
             self._of_lagrangian = transformations

@@ -16,6 +16,7 @@ from lagcli.mechanics.discovery.setting import Setting
 from lagcli.mechanics.discovery.under_constraints import UnderConstraints
 from lagcli.mechanics.noether import NoetherCharge, Transformation
 
+ALL_ARE_KNOWN = "all others are functions of these"
 _MOST_IN_SPACE = 4  # measured: at most 3
 
 
@@ -40,13 +41,13 @@ def search_on_surface(
     momenta = search.momenta(of_lagrangian, listing.points)
     listing.add(search.new(_values(setting), momenta.conserved))
     setting.words.append(_sentence(times))
-    freedom = setting.dynamics.degrees_of_freedom
-    held = setting.dynamics.states.conditions_on_positions()
-    states = len(setting.system.q) - held + freedom
-    known = states > 0 and rank_on_surface(setting.dynamics, _values(setting)) == states
+    known = all_are_known(setting)
     if known:
-        setting.words.append("all others are functions of these")
-    elif freedom > 1 and setting.system.t not in setting.equations_symbols:
+        setting.words.append(ALL_ARE_KNOWN)
+    elif (
+        setting.dynamics.degrees_of_freedom > 1
+        and setting.system.t not in setting.equations_symbols
+    ):
         found = search.quadratic(listing.points)
         if _few(setting, [*listing.points, *found]):
             solved = search.of_velocities([*listing.points, *found])
@@ -61,6 +62,14 @@ def search_on_surface(
             f"{more(search.unsolved, 'integral')} there, whose coefficients were not solved"
         )
     return _named(setting, momenta)
+
+
+def all_are_known(setting: Setting) -> bool:
+    """Whether all integrals are functions of those of point symmetries."""
+    dynamics = setting.dynamics
+    held = dynamics.states.conditions_on_positions()
+    states = len(setting.system.q) - held + dynamics.degrees_of_freedom
+    return states > 0 and rank_on_surface(dynamics, _values(setting)) == states
 
 
 def _values(setting: Setting) -> list[Expr]:

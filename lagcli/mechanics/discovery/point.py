@@ -41,13 +41,23 @@ def charge_of(
 ) -> NoetherCharge | None:
     """The proved charge of a transformation; None where it is not proved."""
     gauge = _gauge(noether, transformation, allowed, lengths)
-    if gauge is None:
-        return None
+    return None if gauge is None else with_gauge(noether, transformation, gauge)
+
+
+def with_gauge(
+    noether: Noether, transformation: Transformation, gauge: Expr
+) -> NoetherCharge | None:
+    """The charge with this boundary term, if it is proved."""
     charge = _proved(noether.charge("", "discovered", transformation, gauge))
-    if charge is not None and transformation.time == 1 and not any(transformation.changes):
+    if charge is not None and is_energy(transformation):
         # Q = -h - G by the formula; the textbook's energy is h
         return replace(charge, charge=noether.energy.function + gauge)
     return charge
+
+
+def is_energy(transformation: Transformation) -> bool:
+    """Whether only the time is displaced, and by a constant."""
+    return transformation.time == 1 and not any(transformation.changes)
 
 
 def _gauge(

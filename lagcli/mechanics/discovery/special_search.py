@@ -48,23 +48,24 @@ def special_cases(
     discovery: Discovery, search: Callable[[Problem], Discovery]
 ) -> tuple[SpecialCase, ...]:
     """One parameter at a time; `search` makes the same search for another problem."""
-    system = discovery.system
+    searched = discovery.unconstrained or discovery
+    system = searched.system
     if discovery.unsearched:
         return ()
     few = 0 < len(system.q) <= _MOST_COORDINATES
     if not few or not system.parameters:
         return ()
     allowed = Allowance(_UNITS)
-    variables = (system.t, *system.q, *system.qdot)
+    variables = (system.t, *discovery.system.q, *discovery.system.qdot)
     found: list[SpecialCase] = []
     try:
-        if discovery.dynamics.constraints.equations:
+        if searched.dynamics.constraints.equations:
             values = exchanged(discovery.dynamics)
         else:
-            factors = [*_factors(discovery, allowed), *linear_powers(discovery.equations)]
-            linear = discovery.accelerations or (), discovery.time_functions.exponents, system.q
+            factors = [*_factors(searched, allowed), *linear_powers(searched.equations)]
+            linear = searched.accelerations or (), searched.time_functions.exponents, system.q
             factors += damped_powers(*linear)
-            values = candidates(system, factors, _exponents(discovery))
+            values = candidates(system, factors, _exponents(searched))
         if len(values) > _MOST_VALUES:
             discovery.words.append(_NOT_TRIED)
         for parameter, value in values[:_MOST_VALUES]:

@@ -67,10 +67,15 @@ def algebra_section(
 
 def summary(discovery: Discovery) -> Summary:
     """Brackets and what follows from them; counts alone where they were not worked out."""
+    fewer = discovery.unconstrained
     try:
         kinds = discovery.dynamics.constraints.kinds.values()
         if any(kind != "holonomic" for kind in kinds):
             return _nonholonomic(discovery)
+        if fewer is not None and len(fewer.charges) == len(discovery.charges):
+            found = summary(fewer)
+            if found.integrable:
+                return found
         return _free(discovery)
     except TooMuchWork:
         why = "the brackets were not worked out: too much work"
