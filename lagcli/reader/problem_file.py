@@ -36,7 +36,7 @@ from lagcli.reader.restrictions import declare_constraints, read_constraints, re
 from lagcli.reader.scenery import read_scenery
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
 from lagcli.reader.text import Mistake, SourceText, decode
-from lagcli.reader.undeclared import one_for_alike, one_for_undeclared
+from lagcli.reader.undeclared import one_for_alike, one_for_habit, one_for_undeclared
 from lagcli.reader.value_checks import check_values, slips
 from lagcli.record import record, replace
 
@@ -115,7 +115,9 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
     if problem is not None and not file.diagnostics:
         file.diagnostics += _dimension_mistakes(problem, alone=alone) or slips(problem)
     by_place = one_for_alike(sorted(file.diagnostics, key=lambda each: each.span))
-    found = one_for_undeclared(by_place, together=not _declares(root))
+    declared = one_for_undeclared(by_place, together=not _declares(root))
+    starts = [key.span.line for key, _ in root.entries] if isinstance(root, Mapping) else []
+    found = one_for_habit(declared, starts)
     has_errors = any(diagnostic.is_error for diagnostic in found)
     return ProblemReading(source, None if has_errors else problem, found)
 

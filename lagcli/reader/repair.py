@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, Source
 from lagcli.expression import Equation, Expression
+from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Inequality
 from lagcli.reader.expressions import read_equation, read_expression
 from lagcli.reader.foreign.translation import translated
@@ -25,6 +26,10 @@ if TYPE_CHECKING:
 
 #: Characters of a formula that is repeated in a hint, and of one that is read for it, as LaTeX.
 _LONGEST, _LONGEST_GIVEN = 600, 1800
+#: Characters of a formula in which neighbours are exchanged.
+_LONGEST_EXCHANGED = 160
+#: At least two words.
+_PROSE = re.compile(r"[^\W\d_]+(?:[ ,]+[^\W\d_]+)+\.?")
 #: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
 _LEFT_SIDE = re.compile(r"^\s*(?:T\s*[-−]\s*V|[^\W\d][\w ]*(?:\(\w+\))?)\s*:?=(?!=)")
 
@@ -56,26 +61,28 @@ def with_whole(
     too_large = "the limit is" in found[0].hint
     if stated or too_large or all(each.hint.startswith("did you mean '") for each in found):
         return found
+    if _PROSE.fullmatch(node.value.strip()) and _is_strange(node.value, scope):
+        is_equation = read is read_equation
+        hint = "write left = right, as in x' = R*theta'" if is_equation else "write a formula"
+        return [Diagnostic("a sentence is no formula", node.span, hint)]
     for written in _written(node.value, scope, equation=read is not read_expression):
         try:
-            whole = translated(written, _vocabulary(scope, role))
+            names = _vocabulary(scope, role)
+            whole = translated(written, names._replace(related=read is read_equation))
             if read is read_equation and len(re.findall("[<>]", whole)) == 1:
                 gap = re.sub(r"([<>])(?!=)", r"\1=", whole)
                 hint = f"a one-sided contact stands under contacts, as in floor: {gap}"
                 return [replace(found[0], hint=hint)]
-            read_back = read(Excerpt.whole(Source("", whole)))
+            sides = _sides(read(Excerpt.whole(Source("", whole))))
         except (Unclear, Mistake):
             continue
-        sides = (
-            (read_back.left, read_back.right)
-            if isinstance(read_back, Equation | Inequality)
-            else (read_back,)
-        )
         wrong = [each for side in sides for each in name_mistakes(side, scope, role, what)]
         words = set(re.findall(r"\w+", re.sub(r"_?[\[{](\w+)[\]}]", r"_\1", node.value)))
         if len(whole) > _LONGEST or not all(_is_undeclared(each, role, words) for each in wrong):
             named = [each for each in wrong if each.hint]
-            return found if found[0].hint or not named else [replace(named[0], span=node.span)]
+            if named and not found[0].hint:
+                return [replace(named[0], span=node.span)]
+            break
         proposed = re.search(rf"(?:write|mean) {re.escape(whole)}(?:[?;,]|$)", found[0].hint)
         if "".join(whole.split()) == "".join(node.value.split()) or (proposed and not found[1:]):
             return found
@@ -88,7 +95,48 @@ def with_whole(
         first = next((each for each in found if each.message not in undeclared), found[0])
         rest = [replace(each, span=spans.get(each.message, node.span)) for each in wrong]
         return [replace(first, hint=hint), *rest]
-    return found
+    exchanged = _exchanged(node.value, scope, role, what, read)
+    return [replace(found[0], hint=f"did you mean {exchanged}?")] if exchanged else found
+
+
+def _is_strange(text: str, scope: Scope) -> bool:
+    """Whether more words of a text are unknown than known, among them a long one."""
+    words = re.findall(r"\w+", text)
+    strange = [each for each in words if each not in scope.kinds and each not in GREEK]
+    return 2 * len(strange) > len(words) and max(map(len, strange), default=0) >= 5
+
+
+def _exchanged(
+    text: str,
+    scope: Scope,
+    role: Role,
+    what: str,
+    read: Callable[[Excerpt], Expression | Equation | Inequality],
+) -> str:
+    """The only formula without a mistake that two exchanged neighbours lead to: `co(sphi)`."""
+    found: dict[str, str] = {}
+    for place in range(len(text) - 1 if len(text) <= _LONGEST_EXCHANGED else 0):
+        before, one, other, after = text[:place], text[place], text[place + 1], text[place + 2 :]
+        is_number = re.match(r"\d[^^')]|[^(^']\d", one + other)
+        if one == other or " " in {one, other} or is_number:
+            continue
+        changed = f"{before}{other}{one}{after}"
+        try:
+            sides = _sides(read(Excerpt.whole(Source("", changed))))
+        except Mistake:
+            continue
+        if not any(True for side in sides for _ in name_mistakes(side, scope, role, what)):
+            found[str(sides)] = changed
+    return found.popitem()[1] if len(found) == 1 else ""
+
+
+def _sides(
+    formula: Expression | Equation | Inequality,
+) -> tuple[Expression, ...]:
+    """A formula, or both sides of a relation."""
+    if isinstance(formula, Equation | Inequality):
+        return formula.left, formula.right
+    return (formula,)
 
 
 def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:

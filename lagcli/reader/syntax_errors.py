@@ -29,8 +29,6 @@ _EXPONENT = re.compile(r"([\d.]+)(?:\s*([eE])\s*|([dD])(?=[-+\d]))([-+]?)\s*(\d*
 _TIMES_TEN = re.compile(r"([\d.]+)\s*[xX]\s*10\s*(?:\^|\*\*|[eE])?\s*[({]?\s*(-?)[\s+]*(\d+)")
 #: Before a factor of a denominator, as in p^2/2m, where 1/2m may be a half of m.
 _DENOMINATOR = re.compile(r"(?:[\w.]*[^\W\d][\w.']*|[)'²]|\^\s*\d)\s*/\s*$")
-#: At least three words, one of them longer than the names of most quantities.
-_PROSE = re.compile(r"(?=.*\b[^\W\d_]{5,}\b)[^\W\d_]+(?:[ ,]+[^\W\d_]+){2,}\.?")
 
 
 def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str) -> Diagnostic:
@@ -66,7 +64,7 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
             return Diagnostic(f"'{function}' needs arguments", _span(function, excerpt))
         if CASES & {str(previous), str(token)} and (hint := instead(_called(tokens[:place]))):
             return Diagnostic("a formula has no loops", _span(token, excerpt), hint)
-        return _missing_product(previous, token, following, excerpt, start)
+        return _missing_product(previous, token, following, excerpt)
     if token.type == "COMPARISON" and CASES & {str(other) for other in tokens}:
         return Diagnostic("a formula has no cases", _span(token, excerpt), CASE)
     if [str(other) for other in tokens[place - 1 : place + 1]] == ["-", ">"]:
@@ -122,7 +120,7 @@ def _unexpected_end(tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
 
 
 def _missing_product(
-    left: Token, right: Token, following: Token | None, excerpt: Excerpt, start: str
+    left: Token, right: Token, following: Token | None, excerpt: Excerpt
 ) -> Diagnostic:
     span = excerpt.span(left.start_pos, right.end_pos)
     apart = left.end_pos < right.start_pos
@@ -156,11 +154,6 @@ def _missing_product(
         return Diagnostic("two lines without a sign between them", span, hint)
     if apart and REMARK.search(excerpt.value):
         return Diagnostic("a remark is no part of a formula", span, COMMENT)
-    if apart and _PROSE.fullmatch(excerpt.value.strip()):
-        hint = (
-            "write left = right, as in x' = R*theta'" if start == "equation" else "write a formula"
-        )
-        return Diagnostic("a sentence is no formula", excerpt.everything, hint)
     rest = excerpt.value[left.start_pos :]
     if right.type == "NAME" and (number := _EXPONENT.match(rest)):
         value, e, d, sign, digits = number.groups()

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+from bisect import bisect_right
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
 from lagcli.diagnostics import Diagnostic
 
@@ -19,6 +21,10 @@ _ORDER = re.compile(
 _MISSING_LINE = re.compile(r"a line '\w+:' is missing")
 _OF_NAMES = re.compile(r"unknown name '|'\w+' is not a parameter$|\w+: there is no point '")
 _NO_COORDINATE = re.compile(r"'(\w+)'*' (?:in (?:initial|the symmetry)|is not a parameter)")
+#: What a message quotes; a name may end with a prime.
+_QUOTED = re.compile(r"'[^ ]+'+(?=[ ,:;]|$)")
+#: Of the hints for one cause.
+_SHOWN = 3
 _SHAPE = re.compile(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
 _NAME = re.compile(r"unknown name '(\w+)' in (.*)")
 
@@ -58,6 +64,62 @@ def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
             message = f"unknown keys {earlier}, {found['keys']} in {place}"
             kept[key] = replace(first, message=message)
     return tuple(kept.values())
+
+
+def one_for_habit(
+    diagnostics: Sequence[Diagnostic], starts: Sequence[int]
+) -> tuple[Diagnostic, ...]:
+    """The mistakes, with one for those of one section that have the same cause, and its advice.
+
+    Two have the same cause where their messages differ in what is quoted only, and their advice
+    in single words: `vx: 1, vy: 2` in `initial`.
+
+    Parameters
+    ----------
+    diagnostics
+        By their place.
+    starts
+        The lines at which the sections begin.
+    """
+    groups: list[list[Diagnostic]] = []
+    for each in diagnostics:
+        section = bisect_right(starts, each.span.line)
+        alike = (
+            group
+            for group in groups
+            if bisect_right(starts, group[0].span.line) == section
+            and _has_same_cause(group[0], each)
+        )
+        if (group := next(alike, None)) is None:
+            groups.append([each])
+        else:
+            group.append(each)
+    return tuple(map(_joined, groups))
+
+
+def _has_same_cause(one: Diagnostic, other: Diagnostic) -> bool:
+    if not other.hint or other.hint.startswith("did you mean '") or UNDECLARED in other.hint:
+        return False
+    if one.related or other.related or _unquoted(one.message) != _unquoted(other.message):
+        return False
+    words, others = one.hint.split(), other.hint.split()
+    same = sum(map(str.__eq__, words, others))
+    return words[0] == others[0] and (words[0] == "write" or 2 * same >= len(words) == len(others))
+
+
+def _unquoted(message: str) -> str:
+    return _QUOTED.sub("''", message)
+
+
+def _joined(group: list[Diagnostic]) -> Diagnostic:
+    """The first, with the advice of each, of three where there are more."""
+    hints = {group[0].hint: group[0].hint}
+    for before, each in pairwise(group):
+        at = each.span.line
+        line = f"in line {at} " if at != before.span.line else ""
+        hints.setdefault(each.hint, line + each.hint[each.hint.find(": write ") + 1 :].strip())
+    more = ["and so on"] if len(hints) > _SHOWN else []
+    return replace(group[0], hint="; ".join([*list(hints.values())[:_SHOWN], *more]))
 
 
 def _with_value(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:

@@ -130,3 +130,100 @@ def test_names_of_a_section_whose_line_is_missing_are_not_told():
     )
     [only] = errors(text)
     assert only.hint == "a line 'constraints:' is missing above it"
+
+
+def proposed(hint):
+    """The formulas that a hint says to write."""
+    return [part.partition("write ")[2] for part in hint.split("; ")]
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_one_habit_in_several_entries_is_one_mistake(seed):
+    draw = random.Random(seed)
+    names = draw.sample(["x", "y", "z", "u", "w"], draw.choice([2, 3]))
+    unit = draw.sample(["kg", "m", "N/m", "s"], len(names))
+    values = [draw.choice(["1", "0.5", "12"]) for _ in names]
+    entries_, hints = draw.choice(
+        [
+            (
+                f"parameters: {{{', '.join(f'k_{x}: {v} {u}' for x, v, u in zip(names, values, unit, strict=True))}}}",
+                [f"{{value: {v}, unit: {u}}}" for v, u in zip(values, unit, strict=True)],
+            ),
+            (
+                f"initial: {{{', '.join(f'{x}(0): {v}' for x, v in zip(names, values, strict=True))}}}",
+                names,
+            ),
+            (
+                f"initial: {{{', '.join(f'{x}: {v} deg' for x, v in zip(names, values, strict=True))}}}",
+                [f"{v}*pi/180" for v in values],
+            ),
+        ]
+    )
+    kinetic = " + ".join(f"{x}'^2" for x in names)
+    found = errors(f"coordinates: [{', '.join(names)}]\nT: {kinetic}\n{entries_}\n")
+    assert len(found) == 1, [each.message for each in found]
+    assert proposed(found[0].hint) == list(dict.fromkeys(hints))
+
+
+def test_of_many_entries_three_are_shown_with_their_lines():
+    lines = "".join(f"  {name}: {place} kg\n" for place, name in enumerate("abcde", start=1))
+    [found] = errors(f"coordinates: [x]\nT: x'^2\nparameters:\n{lines}")
+    assert found.span.line == 4
+    assert found.hint == (
+        "write {value: 1, unit: kg}; in line 5 write {value: 2, unit: kg}; "
+        "in line 6 write {value: 3, unit: kg}; and so on"
+    )
+
+
+def test_two_slips_of_one_section_stay_two():
+    found = errors("coordinates: [x]\nT: x'^2\nsimulation: {untill: 3, acuracy: 1e-9}\n")
+    assert [each.hint for each in found] == ["did you mean 'until'?", "did you mean 'accuracy'?"]
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_two_exchanged_neighbours_of_a_formula(seed):
+    draw = random.Random(seed)
+    formula = draw.choice(["-m*g*l*cos(theta)", "k*sqrt(x^2 + l^2)", "m*(g*x - 2*k*x^2)/2"])
+    places = [
+        k for k in range(len(formula) - 1)
+        if {*formula[k : k + 2]} & {*"()^"} and not set(formula[k : k + 2]) & {*" 0123456789"}
+    ]  # fmt: skip
+    at = draw.choice(places)
+    wrong = formula[:at] + formula[at + 1] + formula[at] + formula[at + 2 :]
+    begin = "coordinates: [x, theta]\nparameters: [m, g, l, k]\nT: x'^2 + theta'^2\nV: "
+    assert not errors(begin + formula + "\n")
+    found = errors(f"{begin}{wrong}\n")
+    if found and found[0].hint.startswith("did you mean") and "*" in found[0].hint:
+        proposal = found[0].hint.removeprefix("did you mean ").removesuffix("?")
+        assert not errors(f"{begin}{proposal}\n")
+        assert len(found) == 1
+
+
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [
+        ("-m*g*l*co(stheta)", "-m*g*l*cos(theta)"),
+        ("-m*g*l*cost(heta)", "-m*g*l*cos(theta)"),
+        ("m*x^'2/2", "m*x'^2/2"),
+        ("k*x2^/2", "k*x^2/2"),
+    ],
+)
+def test_exchanged_neighbours_are_put_back(wrong, right):
+    begin = "coordinates: [x, theta]\nparameters: [m, g, l, k]\nT: x'^2 + theta'^2\nV: "
+    [found] = errors(f"{begin}{wrong}\n")
+    assert found.hint == f"did you mean {right}?"
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "wrong", "right"),
+    [
+        ("[x, theta]", "v = omega*R", "x' = theta'*R"),
+        ("[phi, u]", "v = R*ω", "u' = R*phi'"),
+        ("[x, theta]", "omega = v/R", "theta' = x'/R"),
+    ],
+)
+def test_letters_of_velocities_in_a_rolling_constraint(coordinates, wrong, right):
+    begin = f"coordinates: {coordinates}\nparameters: [R]\n"
+    kinetic = " + ".join(f"{x}'^2" for x in re.findall(r"\w+", coordinates))
+    [found] = errors(f"{begin}T: {kinetic}\nconstraints:\n  rolling: {wrong}\n")
+    assert found.hint == f"write {right}"

@@ -42,7 +42,7 @@ class Sums(ABC):
         self.names = names
         self.at = 0
         self.depth = 0
-        self.by_letter = ""  # the coordinate whose velocity was called v or ω
+        self.by_letter: set[str] = set()  # the coordinates whose velocity was called v or ω
 
     def whole(self) -> str:
         """Everything: a formula, an equation or a comparison."""
@@ -52,7 +52,7 @@ class Sums(ABC):
         if self.at < len(self.tokens):
             raise Unclear
         text = " ".join(SIGNS.get(each, each) for each in sides)
-        if self.by_letter and re.search(rf"\b{self.by_letter}\b(?!')", text):
+        if self.by_letter & {*re.findall(r"\b\w+\b(?!')", text)}:
             raise Unclear  # ω beside θ may be a parameter
         return text
 

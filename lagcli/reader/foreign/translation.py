@@ -139,11 +139,12 @@ class _Translation(Functions):
         if word in self.names.functions:
             return self.applied(word + "'" * primes)
         word += self.in_brackets()
+        primes += self.primes()
         self.refuse_unknown_call(word)
         name, more = meant(word, self.names)
         primes += more
         if word in VELOCITIES and more:
-            self.by_letter = name
+            self.by_letter.add(name)
         if self.called_by_time():
             if name not in self.names.dependent or (more and "dot" not in word):
                 raise Unclear

@@ -37,6 +37,7 @@ class Vocabulary(NamedTuple):
     momenta: bool = False
     components: Mapping[str, str] = {}  #: of points: what `bob.x` is written as
     moving: tuple[str, ...] = ()  #: definitions that depend on coordinates
+    related: bool = False  #: in an equation, where v = ω R relates the velocities
 
     @property
     def known(self) -> tuple[str, ...]:
@@ -117,12 +118,13 @@ def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
         for order, forms in enumerate(_rates(x), start=1)
         if word in forms and not (radial and is_angle(x) and word in {p + x for p in _SPEEDS})
     }
-    if len(names.coordinates) == 1:
-        (x,) = names.coordinates
-        if word in VELOCITIES and (word in {"omega", "ω"}) == is_angle(x):
-            found.add((x, 1))
-        if names.momenta and word in {"p", "P"}:
-            found.add((f"p_{x}", 0))
+    alone = len(names.coordinates) == 1
+    if word in VELOCITIES and (names.related or alone):
+        turns = word in {"omega", "ω"}
+        alike = [x for x in names.coordinates if is_angle(x) == turns]
+        found |= {(x, 1) for x in alike if len(alike) == 1 and (alone or turns or not radial)}
+    if names.momenta and alone and word in {"p", "P"}:
+        found.add((f"p_{names.coordinates[0]}", 0))
     if names.momenta:
         found |= {(f"p_{x}", 0) for x in names.coordinates if word in _momenta(x)}
     return found.pop() if len(found) == 1 else None
