@@ -31,8 +31,9 @@ def plain(value: Any) -> Any:
     match value:
         case Expression():
             return to_grammar(value)
-        case Above(left=left, right=right):
-            return f"{to_grammar(left)} > {to_grammar(right)}"
+        case Above(left=left, right=right, besides=besides):
+            sides = f"{to_grammar(left)} > {to_grammar(right)}"
+            return " and ".join([sides, *map(plain, besides)])
         case Unit():
             return str(value)
         case Mapping():

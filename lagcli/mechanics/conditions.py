@@ -49,14 +49,25 @@ def conditions(
 def opposites(
     expressions: Sequence[Expr], order: Sequence[str], positive: Sequence[Expr] = ()
 ) -> tuple[Above, ...]:
-    """The opposite inequalities of `conditions`, those that can hold."""
+    """The opposite inequalities of `conditions`, those that can hold, squares set beside them."""
     positive = _with_numerators(positive)
     solved = _in_ratios([_times_known(e, positive) for e in expressions], positive)
     solved = [e for each in solved for e in _of_one_sign(each, solved, positive, zeros=True)]
     plain = [_without_zeros(each, solved) for each in solved]
     kept = _without_implied(plain, order, positive, squares=True)
-    possible = [each for each, rest in kept if not _never_negative(rest, positive)]
-    return tuple(dict.fromkeys(Above(each.right, each.left) for each in possible))
+    possible = [pair for pair in kept if not _never_negative(pair[1], positive)]
+    return tuple(dict.fromkeys(_reversed(*pair, order, positive) for pair in possible))
+
+
+def _reversed(
+    condition: Above, rest: Expr, order: Sequence[str], positive: Sequence[Expr]
+) -> Above:
+    """The opposite of `condition`, that `rest` is positive: of k p² > 0, k < 0 and p ≠ 0."""
+    other, *squares = _without_squares(rest)
+    plain = above(other, order) if squares else condition
+    assert plain is not None
+    besides = (above(square, order, positive) for square in squares)
+    return Above(plain.right, plain.left, tuple(each for each in besides if each is not None))
 
 
 def _with_numerators(positive: Sequence[Expr]) -> list[Expr]:
@@ -244,8 +255,8 @@ def _squares(rest: Expr, factors: Sequence[Expr], order: Sequence[str]) -> Above
     number = simplify(rest / (one * other))
     if not number.is_number:  # with powers
         return _product(rest, order)
-    squares = [shape(x**2, order) for x in ((u, v) if number > 0 else (v, u))]
-    return Above(*squares)
+    more, less = (u, v) if number > 0 else (v, u)
+    return Above(shape(more**2, order), shape(less**2, order))
 
 
 def _minus_signs(tree: Expression) -> int:

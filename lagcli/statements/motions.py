@@ -10,10 +10,11 @@ from lagcli.record import field, record
 
 @record
 class Above:
-    """`left > right`, the condition for what it stands beside."""
+    """`left > right`, the condition for what it stands beside; with it the `besides` hold."""
 
     left: Expression
     right: Expression
+    besides: tuple[Above, ...] = ()
 
 
 @record(kw_only=True)

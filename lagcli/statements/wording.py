@@ -183,6 +183,7 @@ def joined(where: Sequence[Above], word: str) -> list[Part]:
     parts: list[Part] = []
     for position, each in enumerate(where):
         parts += [word if position else "", *_sides(each), *_order_of_three(each)]
+        parts += [part for other in each.besides for part in (" and ", *_sides(other))]
     return parts
 
 

@@ -9,6 +9,7 @@ import sympy
 
 from lagcli.algebra.build import Builder, symbol
 from lagcli.evaluation import evaluated
+from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.conditions import above, conditions, opposites
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
@@ -165,7 +166,43 @@ def test_a_plumb_line_is_stable_where_its_cosine_is_positive(p, q):
 
 
 def by_numbers(stated, known: dict[str, float]) -> list[bool]:
-    return [evaluated(c.left, known, {}) > evaluated(c.right, known, {}) for c in stated]
+    return [
+        all(evaluated(e.left, known, {}) > evaluated(e.right, known, {}) for e in (c, *c.besides))
+        for c in stated
+    ]
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_where_a_factor_is_0_nothing_is_said_to_be_unstable(seed):
+    """(C - A) b² q²/2: reversed it is A > C and b not 0."""
+    source = random.Random(f"beside {seed}")
+    i, factor = source.randint(1, 4), ["b^2", "(b - c)^2", "b^2*c^2"][seed]
+    text = (
+        "coordinates: [q]\nparameters: {A: {assume: positive}, C: {assume: positive}, b: , c: }\n"
+        f"T: A*q'^2/2\nV: {i}*(C - A)*{factor}*q^2/2\n"
+    )
+    [rest] = equilibria(derive(text).dynamics).equilibria
+    [unstable] = rest.verdict.unstable
+    assert (to_grammar(unstable.left), to_grammar(unstable.right)) == ("A", "C")
+    for _ in range(20):
+        known = {name: source.uniform(0.1, 1.4) for name in ("A", "C", "b", "c")}
+        assert by_numbers([unstable], known) == [known["A"] > known["C"]]
+    assert by_numbers([unstable], {"A": 2, "C": 1, "b": 0, "c": 0}) == [False]
+
+
+def test_the_gyrocompass_turns_away_from_north_where_its_disk_is_long():
+    """Klein and Sommerfeld: the axle of the greater moment seeks the meridian, but at a pole."""
+    text = (
+        "coordinates: [phi, psi]\nparameters: {A: {assume: positive}, C: {assume: positive}, "
+        "W: {assume: positive}, beta: }\ndefinitions: {axial: psi' + W*cos(beta)*cos(phi)}\n"
+        "T: C*axial^2/2 + A*(W^2*cos(beta)^2*sin(phi)^2 + (phi' + W*sin(beta))^2)/2\n"
+    )
+    north = next(e for e in equilibria(derive(text).dynamics).equilibria if e.verdict.unstable)
+    [condition] = north.verdict.unstable
+    told = (
+        to_grammar(part) if isinstance(part, Expression) else part for part in worded([condition])
+    )
+    assert "".join(told) == "A > C and cos(beta) ≠ 0"
 
 
 @pytest.mark.parametrize("seed", range(4))

@@ -167,8 +167,11 @@ def test_the_opposite_keeps_a_square_that_may_be_0_together_with_others():
     """k (a + b)² > 0 and c (a + b)² > 0: for a + b = 0 neither is negative, whatever k and c."""
     a, b, k, c = sympy.symbols("a b k c", real=True)
     found = opposites([k * (a + b) ** 2, c * (a + b) ** 2], ["a", "b", "c", "k"])
-    assert {to_grammar(each.right) for each in found} == {"(a + b)^2*k", "(a + b)^2*c"}
+    assert {to_grammar(each.right) for each in found} == {"k", "c"}
     assert {to_grammar(each.left) for each in found} == {"0"}
+    assert [[to_grammar(other.left) for other in each.besides] for each in found] == [
+        ["(a + b)^2"]
+    ] * 2
 
 
 @pytest.mark.parametrize("seed", range(10))

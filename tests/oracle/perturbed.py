@@ -84,7 +84,10 @@ class Numbers:
         return float(value) if value.is_Float or value.is_Rational else None
 
     def holds(self, each: Above) -> bool | None:
-        """Whether an inequality holds, or fails, by a margin."""
+        """Whether an inequality holds with those beside it, or fails, by a margin."""
+        if each.besides:
+            found = {self.holds(part) for part in (replace(each, besides=()), *each.besides)}
+            return False if False in found else None if None in found else True
         left, right = self(each.left), self(each.right)
         if left is None or right is None:
             return None

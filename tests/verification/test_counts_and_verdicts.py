@@ -156,13 +156,13 @@ def test_charges_on_a_sphere_are_counted(numbers, kept):
 
 @pytest.mark.parametrize("length", ["l", "2*l", "l + 1"])
 def test_charges_at_a_special_value_are_examined_on_the_constraints(length):
-    """Atwood's machine with equal masses: m x (x' - y') - … is constant where x + y = l."""
+    """Two oscillators, one of them on a string: L_z is constant for equal springs."""
     text = f"""
-coordinates: [x, y]
-parameters: {{m: {{assume: positive}}, n: {{assume: positive}}, g: , l: {{assume: positive}}}}
-T: m*x'^2/2 + n*y'^2/2
-V: -m*g*x - n*g*y
-constraints: {{string: x + y = {length}}}
+coordinates: [x, y, z]
+parameters: {{m: {{assume: positive}}, n: {{assume: positive}}, l: {{assume: positive}}}}
+T: (x'^2 + 2*y'^2 + z'^2)/2
+V: m*(x^2 + ({length} - z)^2)/2 + n*y^2
+constraints: {{string: x + z = {length}}}
 """
     problem = read_problem("a.yaml", text.encode()).checked()
     answers = state(derive(problem), Request(sections=("algebra",)))

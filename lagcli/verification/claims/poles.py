@@ -11,7 +11,7 @@ from flint import arb
 
 from lagcli.statements.motions import SteadyMotion
 from lagcli.verification.claims.near import NOTHING, LinearMotion
-from lagcli.verification.claims.rest import RestPlace, conditions
+from lagcli.verification.claims.rest import RestPlace, conditions, held_at
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, size, solve
 
@@ -72,7 +72,7 @@ def _misjudged(
     verdict = motion.verdict
     bowl, grows = square > NOTHING, square < -NOTHING
     minimum = [near.at(place) > 0 for place in conditions(x, what, verdict.minimum or ())]
-    unstable = [near.at(place) > 0 for place in conditions(x, what, verdict.unstable)]
+    unstable = held_at(x, what, near, verdict.unstable)
     if grows and (verdict.stable or (minimum and all(minimum))):
         return "a disturbance grows where none is said to"
     if bowl and (verdict.stable is False or any(unstable)):

@@ -269,6 +269,12 @@ def conditions(x: Examination, what: str, where: Sequence[Above]) -> list[int]:
     return [program.sum(a, program.negative(b)) for a, b in pairs]
 
 
+def held_at(x: Examination, what: str, near: LinearMotion, where: Sequence[Above]) -> list[bool]:
+    """Which printed inequalities hold there, each with those beside it."""
+    places = [conditions(x, what, (each, *each.besides)) for each in where]
+    return [bool(each) and all(near.at(place) > 0 for place in each) for each in places]
+
+
 def _has_sign(assume: str, x: arb) -> bool:
     return not ((assume == "positive" and x <= 0) or (assume == "negative" and x >= 0))
 

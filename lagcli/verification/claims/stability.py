@@ -8,7 +8,7 @@ from flint import arb
 
 from lagcli.statements.motions import Above, Verdict
 from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues
-from lagcli.verification.claims.rest import conditions
+from lagcli.verification.claims.rest import conditions, held_at
 from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import size
@@ -96,7 +96,7 @@ def refutes(
         return "a frequency is not real where all are said to be"
     if spectrum is False and judged.imaginary and judged.distinct:
         return "all frequencies are real where they are said not to be"
-    unstable = [near.at(place) > 0 for place in conditions(x, what, verdict.unstable)]
+    unstable = held_at(x, what, near, verdict.unstable)
     if any(unstable) and (bowl or judged.oscillating):
         return "no disturbance grows where one is said to"
     return ""
