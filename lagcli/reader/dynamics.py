@@ -253,8 +253,7 @@ def read_by_coordinate(
         return {}
     for key, value in entries:
         if file.scope.kinds.get(key.label) != "coordinate":
-            along = re.sub(r"^[FQf]_?", "", key.label.rstrip("'"))
-            along = coordinates[0] if not along and len(coordinates) == 1 else along
+            along = file.coordinate_meant(key.label.rstrip("'"))
             hint = f"write {along}" if along in coordinates else ""
             hint = hint or did_you_mean(key.label, coordinates)
             pointed = ", or as 'force' of a point" if section == "forces" else ""

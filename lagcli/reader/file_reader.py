@@ -144,7 +144,7 @@ class FileReader:
     ) -> Iterator[tuple[Scalar, DocumentNode]]:
         """The entries of a map; a mistake when it is none."""
         if isinstance(node, Mapping):
-            yield from node.entries
+            yield from self._with_decimals(node)
         else:
             is_word = isinstance(node, Scalar) and node.value.casefold() in {
                 "none",
@@ -170,6 +170,21 @@ class FileReader:
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
             if what in MAPS:
                 self.scope.refused.append("")  # whatever was to be declared
+
+    def _with_decimals(self, node: Mapping) -> Iterator[tuple[Scalar, DocumentNode]]:
+        """The entries of a map; a mistake at `{g: 9,81}`, and at the quotes of `{'x: 1, x': 0}`."""
+        before = ""
+        text = node.text.source.text
+        for key, value in node.entries:
+            if key.in_flow and key.label.isdigit() and value.is_empty:
+                hint = f"a decimal point is written '.': write {before}.{key.label}"
+                self.error("a comma ends a value", key.span, hint if before else hint[:31])
+            elif key.style and re.search(r"\w'*: ", key.label):
+                whole = text[node.start : key.start] + text[key.start + 1 : node.end]
+                self.error("a quote begins within the map", key.span, f"write {whole}")
+            else:
+                yield key, value
+            before = f"{key.label}: {source_of(value)}"
 
     def named(
         self, node: DocumentNode, what: str, attributes: tuple[str, ...], hint: str
@@ -206,7 +221,7 @@ class FileReader:
             return "leave it out: what is not given is 0"
         names = list(self.scope.of_kind("coordinate")) or ["x"]
         written = node.text.source.text[node.start : node.end].strip("[] \n")
-        stated = [(self._meant(name), value) for name, value in _GIVEN.findall(written)]
+        stated = [(self.coordinate_meant(name), value) for name, value in _GIVEN.findall(written)]
         if len(stated) == 1 and isinstance(node, Scalar) and stated[0][0] in names:
             return "write {}: {}".format(*stated[0])
         if len(stated) > 1 or (stated and isinstance(node, Sequence)):
@@ -230,7 +245,7 @@ class FileReader:
         pairs = zip(names, values, strict=True) if fits else [(names[0], "…")]
         return "write " + ", ".join(f"{name}: {value}" for name, value in pairs)
 
-    def _meant(self, name: str) -> str:
+    def coordinate_meant(self, name: str) -> str:
         """The coordinate of a force that is called `F`, `F_x` or `Q_x`; the velocity v."""
         coordinates = list(self.scope.of_kind("coordinate"))
         bare = re.sub(r"^[FQf]_?", "", name)
@@ -238,6 +253,9 @@ class FileReader:
             return bare
         if not bare and len(coordinates) == 1:
             return coordinates[0]
+        if bare.isdigit() and 0 < int(bare) <= len(coordinates):
+            by_index = (x for x in coordinates if re.search(rf"\D{bare}$", x))
+            return next(by_index, coordinates[int(bare) - 1])
         from lagcli.reader.foreign.words import Vocabulary, rate_meant
 
         rate = rate_meant(name, Vocabulary(tuple(coordinates), frozenset()))
@@ -355,7 +373,8 @@ class FileReader:
         """A mistake at a key; the one that was meant, where that is clear."""
         written = value.value if isinstance(value, Scalar) else ""
         meant = key_meant(key.label, names)
-        other = "" if key.label == "t" else key.label.casefold()  # the time is not T
+        is_time = key.label == "t" and "'" not in written
+        other = "" if is_time else key.label.casefold()  # the time is not T
         alike = [name for name in names if name.casefold() == other]
         meant = alike[0] if len(alike) == len(key.label) == 1 else meant
         forceless = meant == "dissipation" and "'" not in written
@@ -413,9 +432,7 @@ class FileReader:
         if "=" in key.label:
             hint = f"write {name_meant(key.label)}"
         elif key.in_flow and value.is_empty:
-            is_number = key.label.isdigit()
             hint = "inside { } a comma ends the value: put a text with commas in quotes"
-            hint = "a decimal point is written '.'" if is_number else hint
         if "parameters" in names and is_constant(key.label, written):
             self.scope.refused.append(key.label)
         self.error(f"unknown key '{key.label}' in {what}", key.span, hint)

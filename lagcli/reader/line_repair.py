@@ -96,6 +96,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"^(\s*)-\s+(?=[^\W\d]\w*:\s)", r"\1", line),
     lambda line: re.sub(r"^(\s*[^\W\d]\w*);\s", r"\1: ", line),
     lambda line: re.sub(r"'(\w+)'('+)(?=\s*:)", r"\1\2", line),
+    lambda line: re.sub(r"(?<=[{,\s])['\"](?=[^\W\d]\w*'*:\s)", "", line),
     _paired,
     lambda line: line.replace(";", ",") if re.search(r"[\[{].*;", line) else line,
     lambda line: re.sub(r"\s+(?://|%|--|;)\s*(?=\S)", "  # ", line, count=1),

@@ -242,7 +242,9 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         polar = next((x for x in coordinates if x in {"theta", "θ"} and x != along[1]), "")
         sine = f"*sin({polar})" if polar and along[1] in {"phi", "φ", "ϕ"} else ""
         return f"the speed along {along[1]} is {radius}{sine}*{along[1]}'"
-    hint = "" if rate else did_you_mean(name, scope.usable(role))
+    known = [*coordinates, *scope.definitions] if primes else scope.usable(role)
+    known = [each for each in known if each != "pi" or name not in GREEK]  # phi is not pi
+    hint = "" if rate else did_you_mean(name, known)
     if not hint and role.time and name[-1] == "t" and (len(name) == 2 or name[:-1] in GREEK):
         return f"did you mean {name[:-1]}*t?"
     if re.fullmatch(r"_?\d+", name.removeprefix(closest(name, scope.usable(role)))):

@@ -199,7 +199,9 @@ def _declared(
         file.scope.refused.append("")
         return
     if isinstance(node, Mapping):
-        entries = _within(file, file.of_section(node.entries, section, attributes), attributes)
+        entries = _within(
+            file, file.of_section(file.entries(node, section), section, attributes), attributes
+        )
     elif isinstance(node, Sequence):
         names = [file.scalar(item, "a name") for item in node.items]
         entries = [(name, None) for name in names if name is not None]
@@ -219,10 +221,7 @@ def _declared(
         file.scope.refused += [key.label for key, _ in entries]
         return
     for key, value in entries:
-        if is_decimal_part(key, value):
-            message = f"'{key.label}' is not a name"
-            file.error(message, key.span, "a decimal point is written '.'")
-        elif broken := re.fullmatch(r"(\w+)\s*=?\s*(\{.*)", key.label):
+        if broken := re.fullmatch(r"(\w+)\s*=?\s*(\{.*)", key.label):
             whole = f"{broken[1]}: {broken[2]}: {'' if value is None else source_of(value)}"
             file.error(f"a ':' is missing behind '{broken[1]}'", key.span, f"write {whole}")
             file.scope.refused.append(broken[1])
@@ -270,11 +269,6 @@ def _with_unit(key: Scalar, value: DocumentNode | None) -> str:
         return ""
     given = f"value: {value.value}, " if isinstance(value, Scalar) and value.value else ""
     return f"write {found[1]}: {{{given}unit: {found[2]}}}"
-
-
-def is_decimal_part(key: Scalar, value: DocumentNode | None) -> bool:
-    """Whether an entry is the `81` of `{g: 9,81}`."""
-    return key.in_flow and key.label.isdigit() and value is not None and value.is_empty
 
 
 def _list_advice(text: str) -> str:

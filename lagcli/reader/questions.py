@@ -21,7 +21,6 @@ from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end, source_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar
 from lagcli.reader.number_units import run_mistake
-from lagcli.reader.quantities import is_decimal_part
 from lagcli.reader.scope import INITIAL, NUMBERS, POSITION, QUESTION, Role
 from lagcli.reader.suggest import did_you_mean
 
@@ -63,10 +62,6 @@ def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]
         return {}
     for key, value in entries:
         what = f"the initial '{key.label}'"
-        if is_decimal_part(key, value):
-            message = f"'{key.label}' is not a coordinate"
-            file.error(message, key.span, "a decimal point is written '.'")
-            continue
         name = _state_name(file, key, value, coordinates)
         if name is None:
             continue

@@ -62,8 +62,8 @@ def with_whole(
     if stated or too_large or all(each.hint.startswith("did you mean '") for each in found):
         return found
     if _PROSE.fullmatch(node.value.strip()) and _is_strange(node.value, scope):
-        is_equation = read is read_equation
-        hint = "write left = right, as in x' = R*theta'" if is_equation else "write a formula"
+        hint = "write a formula" if role.order > 0 else "write a number or a parameter"
+        hint = "write left = right, as in x' = R*theta'" if read is read_equation else hint
         return [Diagnostic("a sentence is no formula", node.span, hint)]
     for written in _written(node.value, scope, equation=read is not read_expression):
         try:

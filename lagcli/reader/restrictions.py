@@ -24,8 +24,11 @@ _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RE
 _MOVED = re.compile(
     r"(\w+)\s*(?:->|→|↦|=>|=)\s*\1\s*([-+])\s*(?:eps(?:ilon)?|ε|s|delta|a|alpha)\b\s*\*?\s*([^,;]*)"
 )
-#: `eps*y`, a change with its small parameter.
-_SCALED = re.compile(r"\s*(eps(?:ilon)?|ε|s|delta|lambda|lam|alpha|a)(?:\s*\*\s*(\S.*?))?\s*")
+#: `eps*y`, a change with its small parameter, and `x - eps*y` behind x.
+_SCALED = re.compile(
+    r"\s*(?P<sign>[-+]?)\s*(?P<parameter>eps(?:ilon)?|ε|s|delta|lambda|lam|alpha|a)"
+    r"(?:\s*\*\s*(?P<change>\S.*?))?\s*"
+)
 #: `x*cos(alpha)`, of a finite rotation.
 _TURNED = re.compile(r"\b(?:cos|sin|cosh|sinh|exp)\(\s*-?([^\W\d]\w*)\s*\)")
 _WORDS = frozenset("yes no true false True False none None null auto".split())
@@ -158,14 +161,20 @@ def _is_finite(file: FileReader, node: DocumentNode) -> bool:
 
 
 def _without_parameter(file: FileReader, node: DocumentNode) -> str:
-    """`{x: x, y: 1}` for `{x: s*x, y: s}` with a parameter s that is not declared; else nothing."""
+    """`{x: -y, y: 1}` for `{x: x - s*y, y: s}` with a parameter s that is not declared."""
     entries = node.entries if isinstance(node, Mapping) else []
-    found = [(k.label, _SCALED.fullmatch(v.value)) for k, v in entries if isinstance(v, Scalar)]
-    given = [(name, each[1], each[2] or "1") for name, each in found if each is not None]
-    parameters = {parameter for _, parameter, _ in given}
-    if len(given) < len(entries) or len(parameters) != 1 or parameters & file.scope.kinds.keys():
+    changes, parameters = {}, set()
+    for key, value in entries:
+        written = value.value if isinstance(value, Scalar) else ""
+        alone = re.sub(rf"^\s*{re.escape(key.label)}\s*(?=[-+])", "", written)
+        found = _SCALED.fullmatch(alone)
+        if found is None:
+            return ""
+        changes[key.label] = found["sign"].replace("+", "") + (found["change"] or "1")
+        parameters.add(found["parameter"])
+    if len(parameters) != 1 or parameters & file.scope.kinds.keys():
         return ""
-    return f"{{{', '.join(f'{name}: {change}' for name, _, change in given)}}}"
+    return f"{{{', '.join(f'{name}: {change}' for name, change in changes.items())}}}"
 
 
 def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...]:

@@ -77,8 +77,8 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
         if start == "expression" and re.search(r"<[^<>]+>", excerpt.value):
             hint = "group with parentheses ( ), without '<' and '>'"
         return Diagnostic(message, _span(token, excerpt), hint)
-    is_last = place + 1 == len(tokens)
-    message, hint = _unexpected(token, previous, tokens[:place], start, is_last=is_last)
+    following = tokens[place + 1] if place + 1 < len(tokens) else None
+    message, hint = _unexpected(token, previous, tokens[:place], start, following)
     return Diagnostic(message, _span(token, excerpt), hint)
 
 
@@ -194,7 +194,7 @@ def _missing_product(
 
 
 def _unexpected(
-    token: Token, previous: Token | None, before: list[Token], start: str, *, is_last: bool
+    token: Token, previous: Token | None, before: list[Token], start: str, following: Token | None
 ) -> tuple[str, str]:
     """Sentence and advice for a token that cannot stand where it stands."""
     inside = _open_parenthesis(before)
@@ -224,8 +224,11 @@ def _unexpected(
             return "a formula has no cases", CASE
         if inside is not None and not _called(before):
             return "a list is no value", "write one value, without parentheses"
-        is_decimal = previous.type == "NUMBER" and not is_last
-        hint = "a decimal point is written '.'" if is_decimal else "leave out ','"
+        hint = "leave out ','"
+        if previous.type == "NUMBER" and following is not None:
+            hint = f"a decimal point is written '.': write {previous}.{following}"
+            grouped = f", or {previous}{following} for thousands"
+            hint += grouped if re.fullmatch(r"\d{3}", following) else ""
         return "a comma stands only between the arguments of a function", hint
     if previous is None:
         return f"nothing stands before '{token}'", f"leave out '{token}'"

@@ -158,9 +158,7 @@ def one_for_undeclared(
     moving = {each.message.split("'")[1] for each in diagnostics if each.hint == COORDINATE}
     diagnostics = [
         replace(each, hint=COORDINATE)
-        if (named := _NAME.fullmatch(each.message))
-        and named[1] in moving
-        and UNDECLARED in each.hint
+        if (named := _NAME.fullmatch(each.message)) and named[1] in moving
         else each
         for each in diagnostics
     ]
