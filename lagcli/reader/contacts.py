@@ -9,6 +9,7 @@ from lagcli.expression import ZERO, Equation
 from lagcli.problem_data import Contact
 from lagcli.reader.file_reader import Required
 from lagcli.reader.habits import name_meant
+from lagcli.reader.misshapen import is_sentence
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.scope import POSITION, VALUES, Kind, name_mistake
@@ -121,6 +122,8 @@ def _gap(file: FileReader, node: DocumentNode, what: str) -> Equation:
         gap = Equation(left, right, span=node.span)
     elif isinstance(node, Scalar) and "=" in node.value:
         hint = f"write {re.sub('=+', '>=', node.value.strip())}"
+        if is_sentence(node.value.partition("=")[0], file.scope.kinds):
+            hint = "write {gap: y >= 0, restitution: 0.8}"
         file.error(f"{what} is an inequality", node.span, hint)
         return Equation(ZERO, ZERO, span=node.span)
     else:

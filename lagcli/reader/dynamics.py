@@ -184,7 +184,8 @@ def read_components(
         return []
     if isinstance(node, Scalar) and not node.is_empty:
         hint = f"write {as_list(_shown(node.value))}"
-        if written := components(node.value, known, length):
+        alone = re.sub(r"^\s*\w+\s*=(?!=)\s*", "", node.value)
+        if written := components(alone, known, length):
             file.error(f"{what} must be a list, not a text", node.span, _listed(written))
             return []
         if length > 1 and "," not in node.value:

@@ -30,7 +30,9 @@ from lagcli.reader.misshapen import (
     as_list,
     as_map,
     as_text,
+    behind_words,
     by_its_name,
+    is_sentence,
     key_by_shape,
     one_sum,
     source_of,
@@ -217,16 +219,22 @@ class FileReader:
         """How a list or a text of values is written as a map by coordinate."""
         if isinstance(node, Mapping):
             return ""
-        if isinstance(node, Scalar) and _AT_REST.search(node.value) and "=" not in node.value:
-            return "leave it out: what is not given is 0"
         names = list(self.scope.of_kind("coordinate")) or ["x"]
+        if isinstance(node, Scalar) and _AT_REST.search(node.value) and "=" not in node.value:
+            number = re.search(r"\d+(?:\.\d+)?", node.value)
+            begin = f"write {{{names[0]}: {number[0]}}}" if number else "leave it out"
+            return f"{begin}: what is not given is 0"
         written = node.text.source.text[node.start : node.end].strip("[] \n")
+        written = behind_words(written, self.scope.kinds)
         stated = [(self.coordinate_meant(name), value) for name, value in _GIVEN.findall(written)]
         if len(stated) == 1 and isinstance(node, Scalar) and stated[0][0] in names:
             return "write {}: {}".format(*stated[0])
         if len(stated) > 1 or (stated and isinstance(node, Sequence)):
             return "write {" + ", ".join(f"{name}: {value}" for name, value in stated) + "}"
         given = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+        given = [] if is_sentence(written, self.scope.kinds) else given
+        if len(given) == 1 and isinstance(node, Scalar):
+            given = [behind_words(given[0], self.scope.kinds)]
         if not given:
             state = [*names, *(f"{name}'" for name in names)]
             return "write {" + ", ".join(f"{name}: …" for name in state) + "}"

@@ -35,6 +35,7 @@ SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegat
          "!=": "nonzero", "≠": "nonzero"}  # fmt: skip
 _WISHES = {"yes", "true", "True", "on", "all", "find", "?"}
 COMMENT = "a comment begins with '#'"
+PROGRAM = "a problem has keys with their values, as in coordinates: [x], and no program"
 CASES = frozenset("if for when where else otherwise piecewise Piecewise".split())
 #: At least three words with one that is no quantity, at the end of a formula.
 REMARK = re.compile(
@@ -139,7 +140,12 @@ def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
 
 def colon_advice(line: str) -> str:
     """`write V: k*x` for a line such as `V k*x`, `V = k*x`, `V:k*x` or `V：k*x`."""
-    found = re.match(r"\s*([^\W\d]\w*)(?:\s*(?:<-|←|[=:]?[=:：])\s*|\s+)([^-+*/^<].*)", line)
+    found = re.match(
+        r"\s*([^\W\d]\w*)(?:\s*(?:<-|←|[-=]>|→|[=:]?[=:：])\s*|\s+)([^-+*/^<>].*)", line
+    )
+    values = re.findall(r"(\w+)\s*=\s*([-\d.e/]+)\s*(?:[;,]|$)\s*", line)
+    if values and line[0] != " " and "; ".join(map(" = ".join, values)) == line.strip(" ;"):
+        return f"write parameters: {{{', '.join(map(': '.join, values))}}}"
     for pattern, advice in habits()["begins"]:
         if begun := re.match(pattern, line):
             return begun.expand(advice)
@@ -183,6 +189,10 @@ def name_meant(name: str, *, one: bool = False) -> str:
         return declared[1]
     if given := re.fullmatch(r"\s*(\w+'*)\s*(?:=>|[=:：]|:=|[-=]>|→|⇒)\s*(\S+)\s*", name):
         return f"{given[1]}: {given[2]}"
+    words = re.findall(r"[^\W\d]\w*", name)
+    letters = [each for each in words if len(each.partition("_")[0]) == 1 and each != "a"]
+    if len(words) > 2 and len(letters) == 1:  # m is the mass
+        return str(letters[0])
     typed = re.fullmatch(r"(?:[Pp]arameter\s+|const\s+|final\s+)?(?:\w+\s+)?(\w+)", name)
     if typed and _TYPES & set(name.split()[:-1]):
         return typed[1]

@@ -132,6 +132,7 @@ def repaired_line(
         _GENERAL | {hint for *_, hint in habits()["yaml"]} | {f"write {shown}", colon_advice(shown)}
     )
     other = mistake.hint == "indent with spaces" or "U+" in mistake.message
+    other |= mistake.hint.startswith("write parameters: ")
     if len(text) > _LONGEST or other or not (mistake.hint in general or re.match(r"-\w", shown)):
         return mistake
     for number, line in _tried(lines, first):

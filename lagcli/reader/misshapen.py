@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Container, Iterable
 from typing import get_args
 
+from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
 from lagcli.reader.habits import CASE, MAPS, is_constant, key_meant, unit_behind
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
@@ -19,6 +20,26 @@ FOUND = frozenset(
 SEVERAL = "one value each, with a name of its own; several are run by lagcli sweep --vary"
 ALREADY_FOUND = "leave it out: equilibria, frequencies and charges are found"
 WITHOUT_HYPHENS = "leave out the '-' before each key"
+
+
+#: At least two words.
+_WORDS = re.compile(r"[^\W\d_]+(?:[ ,]+[^\W\d_]+)+[.,: ]*")
+#: Words before a formula: the force of `a harmonic force F0*cos(w*t)`.
+_BEFORE_FORMULA = re.compile(r"\s*((?:[^\W\d_]+[ ,:]+)+)(?=[\w.]+'*\s*[*/^(])")
+
+
+def is_sentence(text: str, known: Container[str]) -> bool:
+    """Whether a text is words, more of them unknown than known, and not letters of quantities."""
+    words = re.findall(r"\w+", text)
+    strange = [each for each in words if each not in known and each not in GREEK]
+    is_long = max(map(len, strange), default=0) >= 5
+    return _WORDS.fullmatch(text.strip()) is not None and is_long and 2 * len(strange) > len(words)
+
+
+def behind_words(text: str, known: Container[str]) -> str:
+    """The formula without the words before it."""
+    found = _BEFORE_FORMULA.match(text)
+    return text[found.end() :] if found and is_sentence(found[1], known) else text
 
 
 def as_list(written: str) -> str:
@@ -143,6 +164,8 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
         return f"write {{until: {known[1]}}}"
     if isinstance(node, Sequence) and all(isinstance(each, Mapping) for each in node.items):
         return WITHOUT_HYPHENS
+    if names[0] == "until" and isinstance(node, Scalar) and not re.search(r"\d", written):
+        return "write {until: 10}, with the time of the end"
     fits = {"until": Scalar, "position": Sequence}.get(names[0])
     if fits and isinstance(node, fits) and written:
         return f"write {{{names[0]}: {written}}}"

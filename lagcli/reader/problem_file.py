@@ -141,10 +141,12 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
         file.error(message, span, hint)
         return None
     inner = [value for _, value in root.entries]
-    if len(inner) == 1 and isinstance(inner[0], Mapping) and _is_problem(inner[0]):
+    if all(isinstance(each, Mapping) and _is_problem(each) for each in inner):
         key = root.entries[0][0]
         message = f"the problem stands under '{key.label}'"
-        file.error(message, key.span, "its keys begin the lines; the name is title: …")
+        hint = "its keys begin the lines; the name is title: …"
+        hint = f"each problem has a file of its own: {hint}" if inner[1:] else hint
+        file.error(message, key.span, hint)
         return None
     file.sections = frozenset(key.label for key, _ in root.entries)
     given = file.attributes(root, "the problem", KEYS)

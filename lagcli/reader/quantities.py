@@ -274,10 +274,10 @@ def _with_unit(key: Scalar, value: DocumentNode | None) -> str:
 def _list_advice(text: str) -> str:
     """`[x, y]` for `x, y` and for `symbols("x y")`, and `m: 1` for `m = 1`."""
     text = re.sub(r"^(?:.*=)?\s*(?:\w+\.)?\w+\(\s*(['\"])(.*)\1.*\)\s*$", r"\2", text)
-    given = re.findall(r"(\w+)\s*[=:]\s*((?:[^\s,;()}]|\([^()]*\))+)", text)
+    given = re.findall(r"(\w+)(?:\s*[=:]\s*|\s+(?=[\d.]))((?:[^\s,;()}]|\([^()]*\))+)", text)
     if given:
         listed = ", ".join(f"{name}: {value}" for name, value in given)
-        return f"write {{{listed}}}" if "," in text else f"write {listed.split(', ')[0]}"
+        return f"write {{{listed}}}" if given[1:] else f"write {listed}"
     if text.strip().casefold() in {"none", "null", "no", "~"}:
         return "leave out the key, or write such as [x, y]"
     if meant := system_meant(text):

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, Source
 from lagcli.expression import Equation, Expression
-from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Inequality
 from lagcli.reader.expressions import read_equation, read_expression
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import Unclear, Vocabulary
 from lagcli.reader.habits import name_meant
+from lagcli.reader.misshapen import behind_words, is_sentence
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.text import Mistake
@@ -28,8 +28,6 @@ if TYPE_CHECKING:
 _LONGEST, _LONGEST_GIVEN = 600, 1800
 #: Characters of a formula in which neighbours are exchanged.
 _LONGEST_EXCHANGED = 160
-#: At least two words.
-_PROSE = re.compile(r"[^\W\d_]+(?:[ ,]+[^\W\d_]+)+\.?")
 #: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
 _LEFT_SIDE = re.compile(r"^\s*(?:T\s*[-−]\s*V|[^\W\d][\w ]*(?:\(\w+\))?)\s*:?=(?!=)")
 
@@ -61,7 +59,7 @@ def with_whole(
     too_large = "the limit is" in found[0].hint
     if stated or too_large or all(each.hint.startswith("did you mean '") for each in found):
         return found
-    if _PROSE.fullmatch(node.value.strip()) and _is_strange(node.value, scope):
+    if is_sentence(node.value, scope.kinds):
         hint = "write a formula" if role.order > 0 else "write a number or a parameter"
         hint = "write left = right, as in x' = R*theta'" if read is read_equation else hint
         return [Diagnostic("a sentence is no formula", node.span, hint)]
@@ -88,22 +86,17 @@ def with_whole(
             return found
         if refused := [each for each in wrong if each.message.startswith("the acceleration ")]:
             return [replace(each, span=node.span) for each in refused]
-        guess = found[0].hint.endswith("?")
+        has_words = behind_words(node.value, scope.kinds) != node.value
+        guess = found[0].hint.endswith("?") and not has_words
         hint = f"did you mean {whole}?" if guess else f"write {whole}"
         spans = {each.message: each.span for each in reversed(found)}
         undeclared = {each.message for each in wrong}
         first = next((each for each in found if each.message not in undeclared), found[0])
         rest = [replace(each, span=spans.get(each.message, node.span)) for each in wrong]
-        return [replace(first, hint=hint), *rest]
+        message = "words are no part of a formula" if has_words else first.message
+        return [replace(first, message=message, hint=hint), *rest]
     exchanged = _exchanged(node.value, scope, role, what, read)
     return [replace(found[0], hint=f"did you mean {exchanged}?")] if exchanged else found
-
-
-def _is_strange(text: str, scope: Scope) -> bool:
-    """Whether more words of a text are unknown than known, among them a long one."""
-    words = re.findall(r"\w+", text)
-    strange = [each for each in words if each not in scope.kinds and each not in GREEK]
-    return 2 * len(strange) > len(words) and max(map(len, strange), default=0) >= 5
 
 
 def _exchanged(
@@ -149,6 +142,7 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     sides = re.split("==?", value)
     if equation and len(sides) == 3 and re.fullmatch(r"\s*\w+\([\w, ]*\)\s*", sides[0]):
         return ["=".join(sides[1:])]  # f(x, y) = … = 0
+    value = behind_words(value, scope.kinds)
     return [value] if equation else [value, _LEFT_SIDE.sub("", value)]
 
 

@@ -127,7 +127,8 @@ def _with_value(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
     last: Diagnostic | None = None
     for each in diagnostics:
         meant = re.search(r"the key is (\w+)$", last.hint) if last is not None else None
-        shape = meant and re.match(rf"'?{meant[1]}'? (?:must be|is one)\b", each.message)
+        begins = rf"'?{meant[1]}'? (?:must be|is one)\b" if meant else ""
+        shape = re.match(begins, each.message) or each.hint.startswith("write ")
         if last is not None and meant and shape and each.hint and _next_to(last, each):
             last = replace(last, hint=f"{last.hint}; {each.hint}")
             continue

@@ -12,6 +12,7 @@ from lagcli.reader.habits import (
     COMMENT,
     KEYS,
     MAPS,
+    PROGRAM,
     SIGNS,
     colon_advice,
     habits,
@@ -64,7 +65,9 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
             foreign_line = text.span(begin, begin + len(each.strip()))
             hint = "a key is written without brackets: key: value"
             if not foreign[1].startswith("["):
-                hint = COMMENT if foreign[2] else colon_advice(each)
+                has_keys = any(_BEFORE.match(line) and ":" in line for line in lines)
+                hint = COMMENT if has_keys else f"{COMMENT}; {PROGRAM}"
+                hint = hint if foreign[2] else colon_advice(each)
             return Diagnostic("this line is none of the file", foreign_line, hint)
     if assigned := re.match(
         r"\s*([\w.]+\s*=\s*(?:dict\()?)\{?\s*$", next(filter(str.strip, lines), "")
