@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from itertools import cycle
+from itertools import cycle, groupby, islice
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -189,24 +189,26 @@ def are_felt(outcome: Outcome, modes: Modes, others: Modes, accuracy: float, uni
     n, columns = len(run.peaks) // 2, len(others.setup.nodes)
     least = [peak / others.setup.request.until for peak in run.peaks[n:]]
     sizes, changes = least, [0.0] * n
-    moves = [0.0] * columns
-    for mark in looks:
-        key = run.phases[mark.phase].mode.key
+    moves, is_driven = [0.0] * columns, modes.first.motion.equations.depends_on_time
+    for key, marks in groupby(looks, key=lambda mark: run.phases[mark.phase].mode.key):
         mode, beside = modes.mode(*key), others.mode(*key)
-        t, q, v = float(mark.t), [*map(float, mark.q)], [*map(float, mark.v)]
-        state, later = (t, *q, *v), t * _LATER
-        try:
-            here, there = mode.motion.accelerations(*state), beside.motion.accelerations(*state)
-            then = mode.motion.accelerations(t + later, *q, *v)
-        except (ArithmeticError, ValueError):
-            continue
-        for j, (a, b, c) in enumerate(zip(here, there, then, strict=True)):
-            sizes[j] = max(sizes[j], abs(a) + abs(c - a) / _LATER)
-            changes[j] = max(changes[j], abs(b - a))
-        usual, moved = mode.tabulate(t, q, v), beside.tabulate(t, _turned(q, 1), _turned(v, -1))
-        for j, (x, y) in enumerate(zip(usual[:columns], moved[:columns], strict=True)):
-            if x is not None and y is not None:
-                moves[j] = max(moves[j], unit * abs(y - x))
+        states = [(float(m.t), [*map(float, m.q)], [*map(float, m.v)]) for m in marks]
+        for t, q, v in states:
+            try:
+                here = mode.motion.accelerations(t, *q, *v)
+                there = beside.motion.accelerations(t, *q, *v)
+                then = mode.motion.accelerations(t + t * _LATER, *q, *v) if is_driven else here
+            except (ArithmeticError, ValueError):
+                continue
+            for j, (a, b, c) in enumerate(zip(here, there, then, strict=True)):
+                sizes[j] = max(sizes[j], abs(a) + abs(c - a) / _LATER)
+                changes[j] = max(changes[j], abs(b - a))
+        usual = mode.tabulate.along(states)
+        moved = beside.tabulate.along([(t, _turned(q, 1), _turned(v, -1)) for t, q, v in states])
+        pairs = zip(zip(*usual, strict=True), zip(*moved, strict=True), strict=True)
+        for j, (these, those) in enumerate(islice(pairs, columns)):
+            known = ((x, y) for x, y in zip(these, those, strict=True) if None not in (x, y))
+            moves[j] = max(moves[j], *(unit * abs(y - x) for x, y in known), 0.0)
     limit = _TIMES * _CLOCK
     return any(d > limit * size for d, size in zip(changes, sizes, strict=True)) or any(
         d > _COLUMN * accuracy * scale for d, scale in zip(moves, outcome.scales, strict=True)
