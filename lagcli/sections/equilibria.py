@@ -17,7 +17,14 @@ from lagcli.statements.answers import Answers, EquilibriaSection, Equilibrium
 from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.plus_minus import once
 from lagcli.statements.stability import at_the_limit, holding, stability
-from lagcli.statements.wording import State, alike_blocks, conditions, listed, none_found
+from lagcli.statements.wording import (
+    State,
+    alike_blocks,
+    capitalized,
+    conditions,
+    listed,
+    none_found,
+)
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
@@ -29,6 +36,8 @@ def derive(statements: Statements) -> EquilibriaSection:
     from lagcli.mechanics.oscillations.small_oscillations import equilibria
 
     section = equilibria(statements.dynamics)
+    if section.everywhere:
+        return section
     if section.equilibria is None:
         statements.lacks("the equilibria", section.reason)
     elif not section.complete:
@@ -48,7 +57,9 @@ _NO_VALUE = " Without a value there: "
 
 def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
     """Word each equilibrium with its stability."""
-    if section.equilibria is None:
+    if section.everywhere:
+        yield Paragraph((f"{capitalized(section.reason)}.",))
+    elif section.equilibria is None:
         yield Paragraph((f"Not found: {section.reason}" + (":" if section.open else "."),))
     elif not section.equilibria:
         complete, edge, where = section.complete, section.edge, section.where

@@ -250,7 +250,7 @@ class EquilibriaSection:
     else all solve that each of `open` is 0 (where these are not long).  Where there are none, there
     may be some for values of the parameters for which each of `unless` vanishes; None: for special
     values that are not known; and at the `edge` 0 of coordinates that are assumed positive.
-    `where` restricts what was sought, in words.
+    `where` restricts what was sought, in words.  They are not listed where they are `everywhere`.
     """
 
     equilibria: tuple[Equilibrium, ...] | None
@@ -261,6 +261,7 @@ class EquilibriaSection:
     unless: tuple[Expression, ...] | None = ()
     edge: tuple[str, ...] = ()
     where: str = ""
+    everywhere: bool = False
 
 
 @record

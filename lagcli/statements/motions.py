@@ -103,7 +103,7 @@ class OneFreedom:
     positive: bool = False
     turning_energies: tuple[tuple[Expression, Expression], ...] = ()
     turning_where: tuple[tuple[Above, ...], ...] = ()
-    one_sided: bool = True
+    one_sided: int = 1
     signed: tuple[str, ...] = ()
     regular: bool = True
     oscillates: bool = True

@@ -174,7 +174,10 @@ def _demands(motion: OneFreedom) -> tuple[list[Part], str]:
     several = len(motion.signed) > 1
     signed: list[Part] = [f"the assumed sign{'s' * several} of ", *listed(motion.signed)]
     if motion.one_sided:
-        return ["the one-sided constraints", *([" and ", *signed] * bool(motion.signed))], " hold"
+        contacts = f"the one-sided constraint{'s' * (motion.one_sided > 1)}"
+        alone = motion.one_sided == 1 and not motion.signed
+        verb = " holds" if alone else " hold"
+        return [contacts, *([" and ", *signed] * bool(motion.signed))], verb
     return signed, " hold" if several else " holds"
 
 

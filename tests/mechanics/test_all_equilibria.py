@@ -15,6 +15,7 @@ from sympy import Rational, cos, expand, lambdify, pi, sin, symbols
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.systems import solve_system
 from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.statements.answers import EquilibriaSection
 
@@ -451,3 +452,30 @@ def test_a_half_angle_that_is_squared_has_one_turn():
     points, complete = _found("sin(x/2)^2 + abs(sin(x/2))^3 + y^2")
     assert complete
     assert sorted(round(x, 9) for x, _ in points) == [0, round(math.pi, 9)]
+
+
+@pytest.mark.parametrize(
+    "constraints",
+    ["{a: (x - y)^2 + z^2 = 1, b: x*y*z + z^3 = k}", "{a: x^2 + y^2 = 1, b: z^2 + x*z = 1 + k^2}"],
+)
+@pytest.mark.parametrize(("force", "everywhere"), [("0", True), ("x*y'", True), ("-x^2", False)])
+def test_without_a_force_every_position_is_an_equilibrium(constraints, force, everywhere):
+    """Statics: a body that no force acts on rests where it is put; gyroscopic ones need motion."""
+    dynamics = derive(
+        "coordinates: [x, y, z]\nparameters: {m: {assume: positive}, k: {assume: positive}}\n"
+        f"L: m*(x'^2 + y'^2 + z'^2)/2 + {force}\nconstraints: {constraints}\n"
+    ).dynamics
+    section = equilibria(dynamics)
+    assert section.everywhere is everywhere
+    assert section.reason.startswith("no force acts at rest") is everywhere
+    assert modes(dynamics).reason.startswith("no force acts at rest") is everywhere
+
+
+def test_where_contacts_are_open_or_closed_every_position_is_one_without_a_force():
+    dynamics = derive("""
+coordinates: [x, y, z]
+parameters: {m: {assume: positive}}
+T: m*(x'^2 + y'^2 + z'^2)/2
+constraints: {a: "x^2*y + y^3 + x = 2", b: {equation: "x*z + z^3 + y = 0", multiplier: N, holds_while: N >= 0}}
+""").dynamics
+    assert equilibria(dynamics).everywhere

@@ -285,3 +285,20 @@ def test_the_equation_of_one_coordinate_is_the_equation_itself(V):
     assert list(found.equations) == ["r"]
     shown = to_grammar(found.equations["r"])
     assert shown == to_grammar(found.hamiltonian) + " - E"
+
+
+@pytest.mark.parametrize(
+    ("constraint", "why"),
+    [
+        ("x'*sin(a) - y'*cos(a) = 0", "there are constraints on the velocities"),
+        ("x^2 + y^2 = (1 + t)^2", "the constraints depend explicitly on the time"),
+        ("x^2 + x*y^3 = 1", "the constraints are not solved for coordinates"),
+    ],
+)
+def test_why_constraints_leave_no_equation(constraint, why):
+    derivation = derive(
+        f"coordinates: [x, y, a]\nL: (x'^2 + y'^2 + a'^2)/2\nconstraints: {{c: \"{constraint}\"}}\n"
+    )
+    separation = Separation(derivation)
+    assert separation.hamiltonian is None
+    assert separation.reason == why

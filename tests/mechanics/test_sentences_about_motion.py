@@ -274,7 +274,7 @@ def test_a_contact_that_is_closed_at_the_minimum_is_not_called_a_constraint(wall
     text = f"coordinates: [x]\nT: x'^2/2\nV: x^2/2 + x\ncontacts: {{wall: {wall}}}\n"
     found = answered(text, "reduction")
     assert ("contacts are not open" in found) == (wall == "x >= 0")
-    assert "one-sided constraints do not hold" not in found
+    assert "one-sided constraint does not hold" not in found
 
 
 @pytest.mark.parametrize(
@@ -289,7 +289,7 @@ def test_a_turning_point_that_a_stop_never_reaches_needs_no_condition(contact, p
         "reduction",
     )
     assert ("±" in found) == (points == 2)
-    assert found.count("one-sided constraints hold") == conditions
+    assert found.count("one-sided constraint holds") == conditions
 
 
 @pytest.mark.parametrize("n", random.Random(5).sample(range(1, 9), 2))
@@ -356,7 +356,7 @@ def test_what_rests_on_a_moving_wire_is_not_called_an_equilibrium(V, motor):
 @pytest.mark.parametrize("n", random.Random(29).sample(range(1, 7), 2))
 @pytest.mark.parametrize(("sided", "subject"), [
     (False, "The assumed sign of y holds there"),
-    (True, "The one-sided constraints and the assumed sign of y hold there"),
+    (True, "The one-sided constraint and the assumed sign of y hold there"),
 ])  # fmt: skip
 def test_an_assumed_sign_is_not_called_a_one_sided_constraint(n, sided, subject):
     """A rod of length c with one end on a floor, its centre at y = c cos(th) >= 0."""

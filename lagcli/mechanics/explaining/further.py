@@ -105,6 +105,9 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
                    " without velocities, with the opposite sign:")  # fmt: skip
         shown = effective_potential(-still, (), explainer.system.order, explainer.system.V)
         yield shows(Label("V", ("eff",)), shown)
+    if states.everywhere:
+        yield says(f"Here {states.reason}.")
+        return
     if found is None:
         yield says(f"These were not solved: {states.reason}.")
         return

@@ -43,7 +43,13 @@ from lagcli.mechanics.oscillations.normal_modes import (
 )
 from lagcli.mechanics.oscillations.reduced_verdict import ReducedVerdict
 from lagcli.mechanics.rest.characteristic import Characteristic
-from lagcli.mechanics.rest.equilibria import NO_CLOSED_SOLUTION, REACHED, TIMED, RestPoints
+from lagcli.mechanics.rest.equilibria import (
+    EVERYWHERE,
+    NO_CLOSED_SOLUTION,
+    REACHED,
+    TIMED,
+    RestPoints,
+)
 from lagcli.mechanics.rest.exceptions import unless_written
 from lagcli.mechanics.rest.held import HeldCombination, held
 from lagcli.mechanics.rest.linearization import Linearization, Matrix
@@ -87,6 +93,8 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     oscillations = SmallOscillations(dynamics)
     rest, order = oscillations.rest, dynamics.system.order
     places = oscillations.places
+    if rest.reason == EVERYWHERE:
+        return EquilibriaSection(equilibria=None, reason=EVERYWHERE, everywhere=True)
     alone = rest.reason == NO_CLOSED_SOLUTION and len(oscillations.held) == 1
     is_solved = oscillations.complete or (places is None and not alone)
     unsolved = () if is_solved else rest.conditions
@@ -111,6 +119,8 @@ def modes(dynamics: Dynamics) -> ModesSection:
     """The normal modes about the equilibria that are not unstable, else about all."""
     oscillations = SmallOscillations(dynamics)
     places = oscillations.places
+    if oscillations.rest.reason == EVERYWHERE:  # with every frequency 0
+        return ModesSection(modes=(), reason=EVERYWHERE)
     if places is None:
         return ModesSection(
             modes=None, reason=f"no equilibrium is known ({oscillations.rest.reason})"

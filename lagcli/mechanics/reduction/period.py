@@ -115,7 +115,9 @@ class Periods:
             pressed = self.motion.contacts.where_pressed(point.values)
             if pressed is None and sign(simplify(at(curvature, point.values))) != -1:
                 contacts = self.motion.contacts.routh.given.problem.contacts
-                held = "contacts are not open" if contacts else "one-sided constraints do not hold"
+                several = self.motion.contacts.one_sided > 1
+                held = "constraints do not hold" if several else "constraint does not hold"
+                held = "contacts are not open" if contacts else f"one-sided {held}"
                 self.reason = f"the {held} at a minimum of U_eff"
             if point.free or pressed is None:
                 continue

@@ -29,6 +29,7 @@ from sympy import Add, Expr, S, Symbol
 from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.factors import factors_of
+from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.minimal import minimal
 from lagcli.mechanics.reduction.driven import Driven, driven
@@ -82,6 +83,15 @@ def levi_civita(
     return (None if open_ else True), None
 
 
+def _why_constrained(constraints: Constraints) -> str:
+    """Why constraints leave no H of independent coordinates without t."""
+    if any(kind != "holonomic" for kind in constraints.kinds.values()):
+        return "there are constraints on the velocities"
+    if any(is_zero(e.drift) is not True for e in constraints.equations):
+        return "the constraints depend explicitly on the time"
+    return "the constraints are not solved for coordinates"
+
+
 class Separation:
     """The separation of one Hamiltonian.
 
@@ -108,7 +118,7 @@ class Separation:
         """H(q, p); None with a reason where there is none of that kind."""
         dynamics, system = self.derivation.dynamics, self.system
         if dynamics.constraints.equations:
-            self.reason = "there are constraints that are not solved"
+            self.reason = _why_constrained(dynamics.constraints)
         elif not system.q:
             self.reason = "the constraints leave no coordinate"
         elif any(is_zero(force) is not True for force in system.applied_forces):

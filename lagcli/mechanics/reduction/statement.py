@@ -247,7 +247,7 @@ class _Statement:
             turning_where=tuple(
                 conditions(each, order, motion.bounds) for each in motion.turning_where
             ),
-            one_sided=motion.contacts.any_one_sided,
+            one_sided=motion.contacts.one_sided,
             signed=motion.contacts.signed,
             regular=sign(motion.mass) == 1,
             oscillates=not periods.excluded,

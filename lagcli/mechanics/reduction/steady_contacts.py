@@ -60,9 +60,9 @@ class SteadyContacts:
         return tuple(q.name for q, known in signs.items() if known is None)
 
     @property
-    def any_one_sided(self) -> bool:
-        """Whether the file has one-sided constraints or contacts."""
-        return bool(one_sided(self.routh.given.dynamics))
+    def one_sided(self) -> int:
+        """How many one-sided constraints and contacts the file has."""
+        return len(one_sided(self.routh.given.dynamics))
 
     def standing(self, motion: Steady) -> Steady | None:
         """The motion where every one-sided contact holds; None where one does not."""

@@ -33,6 +33,8 @@ _MAX_EVIDENT = 64  # six angles at 0 or pi
 NO_VALUE_AT_REST = "a force has no value at rest, as v/|v| has none"
 #: Why none is given where there may be some.
 NO_CLOSED_SOLUTION = "no closed solution of the conditions of equilibrium was found"
+#: Why none is listed where all are.
+EVERYWHERE = "no force acts at rest, so every position that the constraints allow is an equilibrium"
 #: Why nothing is solved for that is constant.
 TIMED = "the equations depend explicitly on the time"
 REACHED = "a contact moves, and may reach it"
@@ -108,6 +110,9 @@ class RestPoints(RestConditions):
             or at_cusps(-self.system.L.xreplace(still), self.system.q)
         )
         self.complete &= not (lost or kinks or (found and self.goes_beyond_one_turn))
+        if not self.complete and self.rests_everywhere:
+            self.reason = EVERYWHERE
+            return None
         if not self.complete:
             known = [{**dict.fromkeys(p.free), **p.values} for p in found]
             evident = (

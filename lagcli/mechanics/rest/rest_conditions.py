@@ -135,6 +135,13 @@ class RestConditions:
         return tuple(f.xreplace(still) for f in self.forcing)
 
     @property
+    def rests_everywhere(self) -> bool:
+        """Whether no force acts at rest, wherever fixed holonomic constraints allow it to be."""
+        equations = self.dynamics.constraints.equations
+        fixed = all(e.holonomic and is_zero(e.drift) is True for e in equations)
+        return fixed and all(is_zero(f) is True for f in self.forces_at_rest)
+
+    @property
     def has_no_value(self) -> bool:
         """Whether a force is 0/0 or infinite in every state of rest."""
         return self.without_value({})

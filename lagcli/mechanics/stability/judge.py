@@ -39,6 +39,9 @@ GRAZES = "nothing presses on the contact, which may open"
 DRIFTS = "a velocity constraint has a term without velocities that depends on the place"
 #: Of a system without a degree of freedom.
 EXCLUDED = "the constraints exclude every displacement"
+_OPEN_INERTIA = (
+    "every position along them is an equilibrium, and the kinetic energy may be negative"
+)
 _EVERYWHERE = "every position along them is an equilibrium, and the kinetic energy does not grow"
 _POWERS = "all roots are 0, and to first order displacements grow in proportion to a power of t"
 NO_MOTION = "the equations of motion are singular there"
@@ -60,7 +63,7 @@ def judge(linear: Linearization, characteristic: Characteristic | None = None) -
             return _among_equilibria(near) or undecided(reason)
         found = by_a_growing_root(near) or _judged(near)
         open_ = found.is_open or (found.exact and found.across and not linear.damped)
-        return _among_equilibria(near) or found if open_ else found
+        return _among_equilibria(near, found.reason) or found if open_ else found
     except ZeroDivisionError:
         return undecided(NO_MOTION)
 
@@ -118,11 +121,16 @@ def _without_polynomial(near: Near) -> str:
     return ""
 
 
-def _among_equilibria(near: Near) -> Stability | None:
-    """Stable along them, where every position is one and the kinetic energy never grows."""
+def _among_equilibria(near: Near, reason: str = "") -> Stability | None:
+    """Stable along them, where every position is one and the kinetic energy never grows.
+
+    Where that is not known to be positive, this is the better `reason` of an open verdict.
+    """
     stays = near.kinetic_energy_stays or not near.hypotheses.lacking
-    if not (stays and near.rests_everywhere):
+    if not near.rests_everywhere:
         return None
+    if not stays:
+        return undecided(_OPEN_INERTIA) if near.has_energy and reason == NO_FORCE else None
     return Stability(stable=True, reason=_EVERYWHERE, across=True, minimum=())
 
 
