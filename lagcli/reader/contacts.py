@@ -48,7 +48,10 @@ def declared(
         if isinstance(value, Mapping)
         else []
     )
-    formula = next((each for each in inner if re.search("[-+*/^=]", each)), "left = right")
+    written = (
+        each for each in inner if re.search("[-+*/^=]", each) and not re.search("[<>]", each)
+    )
+    formula = next(written, "left = right")
     equation = formula if "=" in formula else f"{formula} = 0"
     what, hint = "constraint", f"write {key.label}: {{equation: {equation}}}"
     if known == _ATTRIBUTES:
@@ -69,6 +72,8 @@ def declared(
         what = f"the {what} '{key.label}'"
         found = file.attributes(value, what, known, Required(known[0], key.span, hint))
         attributes = {name: attribute for name, (_, attribute) in found.items()}
+        if not attributes:
+            file.scope.refused.append("")
         if "multiplier" in attributes:
             text = file.scalar(attributes["multiplier"], "'multiplier'")
             if text is not None:

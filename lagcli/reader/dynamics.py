@@ -191,6 +191,8 @@ def read_components(
         if length > 1 and "," not in node.value:
             axes = ", ".join(["0"] * (length - 1) + [node.value.strip()])
             hint = f"one component for each of the position's, as in [{axes}]"
+    elif isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
+        hint = _listed([key.label for key, _ in node.entries] or ["x", "y"])
     elif isinstance(node, Mapping) and {key.label for key, _ in node.entries} <= {*"xyz"}:
         given = {key.label: source_of(value) for key, value in node.entries}
         size = length or max(("xyz".index(axis) + 1 for axis in given), default=2)
@@ -212,6 +214,8 @@ def _position(file: FileReader, node: DocumentNode, name: str) -> tuple[Expressi
     what = f"the position of '{name}'"
     before = len(file.diagnostics)
     items = read_components(file, node, what, _CARTESIAN)
+    if not items:
+        file.scope.refused.append("points")
     if isinstance(node, Sequence) and not 1 <= len(items) <= 3 and len(file.diagnostics) == before:
         message = f"{what} has {len(items)} components, it may have 1 to 3"
         file.error(message, node.span, _CARTESIAN)

@@ -46,7 +46,7 @@ CASE = "(1 + sign(x))/2 is 1 for x > 0, else 0"
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
 #: A number with a unit behind it, as in `10 kg` and `9.81 m/s^2`.
 _WITH_UNIT = re.compile(
-    r"[-+]?[\d.]+(?:[eE][-+]?\d+)?\s*(?:[,;]\s+)?"
+    r"[-+]?[\d.]+(?:[eE][-+]?\d+|/\d+)?\s*(?:[,;]\s+)?"
     r"(?P<unit>(?:[kmcµu]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa)|rad|deg|rpm|min|h|mol)(?:[ \^*/].*)?)"
 )
 #: Words for a kind of number, before a name in other languages.

@@ -108,6 +108,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: line.rstrip() + "," if re.match(r"\s+[\w\"']+:.*[^:,]$", line) else line,
     lambda line: re.sub(r"([\]}\"'])\s*[;,.]\s*$", r"\1", line),
     _quoted,
+    lambda line: re.sub(r"([\]}])\s*=\s*[^\s,\]}]+", r"\1", line),
 )
 
 

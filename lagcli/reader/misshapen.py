@@ -24,13 +24,17 @@ WITHOUT_HYPHENS = "leave out the '-' before each key"
 
 #: At least two words.
 _WORDS = re.compile(r"[^\W\d_]+(?:[ ,]+[^\W\d_]+)+[.,: ]*")
+#: Words of relations: y is 0, N is positive.
+_OF_RELATIONS = frozenset(
+    "is equals equal to positive nonnegative greater larger less than".split()
+)
 #: Words before a formula: the force of `a harmonic force F0*cos(w*t)`.
 _BEFORE_FORMULA = re.compile(r"\s*((?:[^\W\d_]+[ ,:]+)+)(?=[\w.]+'*\s*[*/^(])")
 
 
 def is_sentence(text: str, known: Container[str]) -> bool:
     """Whether a text is words, more of them unknown than known, and not letters of quantities."""
-    words = re.findall(r"\w+", text)
+    words = [each for each in re.findall(r"\w+", text) if each not in _OF_RELATIONS]
     strange = [each for each in words if each not in known and each not in GREEK]
     is_long = max(map(len, strange), default=0) >= 5
     return _WORDS.fullmatch(text.strip()) is not None and is_long and 2 * len(strange) > len(words)

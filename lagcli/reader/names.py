@@ -162,7 +162,9 @@ def _name(
             elif node.primes:
                 yield Diagnostic(f"{thing} has no primes", node.span)
         case "function":
-            hint = f"write {node}(…)"
+            coordinates = [*scope.of_kind("coordinate")]
+            fits = scope.arity.get(name) == len(coordinates)
+            hint = f"write {node}({', '.join(coordinates) if fits else '…'})"
             yield Diagnostic(f"'{name}' is a function and needs arguments", node.span, hint)
         case None:
             yield from _other_name(node, scope, role, what)
@@ -180,7 +182,7 @@ def _derivative(
         message = f"{node} contains {article} {kind}, which cannot stand in {what}"
     else:
         message = f"the {kind} {node} cannot stand in {what}"
-    yield Diagnostic(message, node.span, role.why)
+    yield Diagnostic(message, node.span, role.why.replace("p_x", f"p_{node.name}"))
 
 
 def _uses_later(node: Name, *, itself: bool) -> Diagnostic:

@@ -30,7 +30,7 @@ def unit_mistake(
     hint = f"write {number}: numbers are in the units of the file"
     factor, base = _in_base_units(unit)
     if abs(factor - 1) > 1e-9 and number.count(".") < 2:
-        value = f"{float(number) * factor:.6g}"
+        value = f"{float(Fraction(number)) * factor:.6g}"
         hint = (
             f"numbers are in the units of the file: write {number} with {unit}, {value} with {base}"
         )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from lagcli.expression import Expression
 from lagcli.problem_data import Point, Scenery
 from lagcli.reader.dynamics import read_components
@@ -45,7 +47,7 @@ def _places(
         if key.label in taken:
             file.error(f"{what} has the name of a point", key.span)
         items = read_components(file, value, what, "write [x, y]", size or 0)
-        if size is not None and items and len(items) != size:
+        if size and items and len(items) != size:
             file.error(f"{what} has {len(items)} components, the points have {size}", value.span)
         found[key.label] = tuple(file.expression(item, what, POSITION) for item in items)
     return found
@@ -57,8 +59,11 @@ def _pairs(
     found = []
     inner = node.items if isinstance(node, Sequence) else []
     ends_alone = [each.value for each in inner if isinstance(each, Scalar)]
-    if len(ends_alone) == len(inner) == 2:
-        hint = f"write [[{', '.join(ends_alone)}]]"
+    joined = [re.split(r"\s*[-–—~]+>?\s*|\s+(?:to\s+)?", each) for each in ends_alone]
+    are_pairs = all(len(each) == 2 for each in joined)
+    if inner and len(ends_alone) == len(inner) and (are_pairs or len(inner) == 2):
+        ends_meant = joined if are_pairs else [ends_alone]
+        hint = f"write [{', '.join(f'[{one}, {other}]' for one, other in ends_meant)}]"
         file.error(f"{key} is a list of pairs", node.span, hint)
         return ()
     hint = "write [[O, bob], [bob, ball]]"

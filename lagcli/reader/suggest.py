@@ -48,7 +48,7 @@ def closest(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
 
     if len(name) > _LONGEST:
         return ""
-    spelled = {_spelled_out(known): known for known in reversed(names) if len(known) <= _LONGEST}
+    spelled = {spelled_out(known): known for known in reversed(names) if len(known) <= _LONGEST}
     if len(name) > 1:  # m is not near to mu
         spelled = {spelling: known for spelling, known in spelled.items() if len(spelling) > 1}
     if len(name) == 1:  # one letter is near to those that begin with it
@@ -57,12 +57,13 @@ def closest(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
     return spelled[near[0]] if near else ""
 
 
-def _spelled_out(name: str) -> str:
+def spelled_out(name: str) -> str:
     """Greek letters by their names: `theta` for θ, and `theta_1` for θ_1."""
     return "".join(BY_LETTER.get(letter, letter) for letter in name)
 
 
 def _folded(name: str) -> str:
-    """Look-alikes in one form: µ and μ, X and x, ϕ and φ and phi, a Cyrillic х and x."""
+    """Look-alikes in one form: µ and μ, X and x, ϕ and φ and phi, w and ω, a Cyrillic х and x."""
     latin = str.maketrans(_CYRILLIC)
-    return _spelled_out(unicodedata.normalize("NFKC", name).casefold().translate(latin))
+    folded = spelled_out(unicodedata.normalize("NFKC", name).casefold().translate(latin))
+    return "omega" if folded == "w" else folded

@@ -112,7 +112,7 @@ def _unexpected_end(tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
     open_ = _open_parenthesis(tokens)
     if open_ is not None:
         hint = "a ')' is missing"
-        if excerpt.in_flow:
+        if excerpt.in_flow and re.match(r"\s*,", excerpt.text.source.text[excerpt.offsets[-1] :]):
             hint = "inside { } and [ ] a comma ends the value: put it in quotes"
         return Diagnostic("this parenthesis is never closed", _span(open_, excerpt), hint)
     hint = "such as N >= 0"

@@ -161,6 +161,18 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
     above = None if place is None else _BEFORE.match(lines[place])
     if here is not None and above is not None and place is not None:
         start = text.line_starts[line - 1] + len(here["indent"])
+        outer = re.match(r"(\s*)(\w+):\s*$", lines[place - 1]) if place else None
+        if outer and outer[1] == above["indent"] and above["key"] in SECTIONS:
+            begin = text.line_starts[place] + len(above["indent"])
+            message = f"'{above['key']}' stands below '{outer[2]}', but not in it"
+            span = text.span(begin, begin + len(above["key"]))
+            return Diagnostic(message, span, "begin the line with more blanks")
+        is_name = re.fullmatch(r"\s*\w+\s*", lines[place])
+        if is_name and len(above["indent"]) < len(here["indent"]):
+            begin = text.line_starts[place] + len(above["indent"])
+            key = above["key"].strip()
+            span = text.span(begin, begin + len(key))
+            return Diagnostic(f"a ':' is missing behind '{key}'", span, f"write {key}:")
         if above["colon"] and len(above["indent"]) < len(here["indent"]):
             message = f"'{here['key']}' is indented further than '{above['key']}' above it"
             hint = f"begin the line where '{above['key']}' begins"

@@ -308,6 +308,38 @@ HABITS = [
     (text(forces="a harmonic force k*cos(t)"), "write {x: k*cos(t)}"),
     (text(V="the energy of the spring k*x^2/2"), "write k*x^2/2"),
     (text(simulation="ten seconds"), "write {until: 10}"),
+    (text(constraints="{rest: x is 0}"), "did you mean x = 0?"),
+    (
+        text(constraints="{rod: {equation: x = 1, multiplier: N, holds_while: N is positive}}"),
+        "did you mean N >= 0?",
+    ),
+    (text(parameters="{m: 1/2 kg, k: 2}"), "write {value: 1/2, unit: kg}"),
+    (text(forces="{x: k*sin(w*t)}", parameters="{m: 1, k: 2, omega: 3}"), "did you mean 'omega'?"),
+    (text(functions="{U: [x]}", V="U"), "write U(x)"),
+    (text(coordinates="[phi]", T=None, V=None, H="pφ^2/(2*m)"), "write p_phi^2/(2*m)"),
+    (text(coordinates="[r]", T=None, V=None, H="m*r'^2/2"), "has momenta p_r, no velocities"),
+    (text(points="{bob: {position: {x, 2*x}, mass: m}}", T=None), "write [x, 2*x]"),
+    (
+        text(points="{a: {position: [x]}, b: {position: [x]}}", picture="{rods: [a-b, b - a]}"),
+        "write [[a, b], [b, a]]",
+    ),
+    (text(simulation="{until: 10^(3}"), "a ')' is missing"),
+    (
+        text(observables="{J: x*p_x}", brackets="{zero: [J, x] = 0}"),
+        "write brackets: {zero: [J, x]}",
+    ),
+    (text(constraints="\n  rod\n    equation: x = 1"), "a ':' is missing behind 'rod'; write rod:"),
+    (
+        text(constraints="\n  rod:\n  equation: x = 1\n    multiplier: N"),
+        "'equation' stands below 'rod', but not in it; begin the line with more blanks",
+    ),
+    (
+        text(
+            constraints="{rod: {multiplier: N, holds_while: N >= 0}}",
+            find="{n: {value: N, in_terms_of: [x]}}",
+        ),
+        "write rod: {equation: left = right}",
+    ),
     (text(dynamics="[m*x'' = -k*x]"), "the equations of motion are derived"),
     (text(T=None, V=None, Lagrangian="L = m*x'^2/2"), "the key is L; write m*x'^2/2"),
     (text(points="{bob: {position: r = x i + 2 j, mass: m}}", T=None), "write [x, 2]"),

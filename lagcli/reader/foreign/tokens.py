@@ -57,6 +57,13 @@ _BETWEEN = re.compile(
     rf"(?:\\?\|){{1,2}}\s*{_VECTOR}(?P<one>\d)\}}?"
     rf"(?:\s*[-−]\s*{_VECTOR}(?P<two>\d)\}}?)?\s*(?:\\?\|){{1,2}}"
 )
+#: Relations in words: y is 0, N is positive, x is less than l.
+_RELATIONS = (
+    (re.compile(r"\s+(?:is\s+|stays\s+|remains\s+)?(?:positive|nonnegative)\s*$"), ">= 0"),
+    (re.compile(r"\s+(?:is\s+)?(?:greater|larger|bigger|more)\s+than\s+"), ">"),
+    (re.compile(r"\s+(?:is\s+)?(?:less|smaller)\s+than\s+"), "<"),
+    (re.compile(r"\s+(?:is\s+equal\s+to|is|equals?)\s+(?=[-\w(])"), "="),
+)
 #: `self.` before a name.
 _OWNER = re.compile(r"\b([A-Za-z]\w*)\.(?=[A-Za-z_](?!iff\b))")
 
@@ -73,6 +80,8 @@ def prepared(text: str, names: Vocabulary) -> str:
     """With the marks of web pages, v² and Leibniz' derivatives in the notation of a file."""
     text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
     text = re.sub(r"\\(?:begin|end)\s*\{\w+\*?\}|\\[()\[\]]", " ", text)
+    for words, sign in _RELATIONS:
+        text = words.sub(f" {sign} ", text)
     behind = re.search(r"\[([^\[\]]+)\]\s*$", text)
     if behind and unit_behind(f"1 {behind[1]}"):
         raise Unclear  # m*g*y [J]

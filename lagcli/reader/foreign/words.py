@@ -10,7 +10,7 @@ from typing import NamedTuple
 from lagcli.expression import FUNCTIONS
 from lagcli.notation.greek import BY_NAME
 from lagcli.reader.habits import is_angle, meanings
-from lagcli.reader.suggest import alike
+from lagcli.reader.suggest import alike, spelled_out
 
 _DOTS = {"\u0307": 1, "\u0308": 2}
 #: Before a coordinate; the speed along an angle is r theta', where there is an r.
@@ -111,12 +111,14 @@ def function_named(word: str, names: Vocabulary) -> str:
 
 def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
     """`x` and 1 for xdot, dx, vx, v_x, omega and the like."""
+    word = spelled_out(word)
     radial = any(x.partition("_")[0] in {"r", "rho", "ρ", "s"} for x in names.coordinates)
     found = {
         (x, order)
         for x in names.dependent
-        for order, forms in enumerate(_rates(x), start=1)
-        if word in forms and not (radial and is_angle(x) and word in {p + x for p in _SPEEDS})
+        for order, forms in enumerate(_rates(spelled_out(x)), start=1)
+        if word in forms
+        and not (radial and is_angle(x) and word.removesuffix(spelled_out(x)) in _SPEEDS)
     }
     alone = len(names.coordinates) == 1
     if word in VELOCITIES and (names.related or alone):
@@ -126,7 +128,7 @@ def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
     if names.momenta and alone and word in {"p", "P"}:
         found.add((f"p_{names.coordinates[0]}", 0))
     if names.momenta:
-        found |= {(f"p_{x}", 0) for x in names.coordinates if word in _momenta(x)}
+        found |= {(f"p_{x}", 0) for x in names.coordinates if word in _momenta(spelled_out(x))}
     return found.pop() if len(found) == 1 else None
 
 
