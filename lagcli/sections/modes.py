@@ -87,7 +87,7 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
                 yield Equations(rows)
             if not rows or mode.is_open:
                 yield Paragraph((_without_rows(mode),))
-            if mode.pole is not None and mode.multiplicity > 1:
+            if mode.pole is not None and (mode.shape or {}).get(mode.pole.radius, ZERO) != ZERO:
                 yield Paragraph(
                     ("in the direction of any ", Name(next(iter(mode.pole.turning))), ".")
                 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+from fractions import Fraction
 
 import pytest
 
@@ -105,16 +106,31 @@ constraints: {{sphere: {radius}{held}}}
     assert found == pytest.approx(sorted([g / R, g / R, *([] if held else [c])]))
 
 
-@pytest.mark.parametrize("bends", ["r = 2 + theta^2", "r = 2 + z*theta^2", "r = 2*cos(theta)"])
-def test_a_surface_that_bends_at_a_pole_is_left_alone(bends):
-    problem = lagcli.loads(f"""
+SURFACE = """
 coordinates: [z, r, theta, phi]
 T: (r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2 + z'^2)/2
-V: -r*cos(theta) + z^2/2
+V: -{g}*r*cos(theta) + z^2/2
 constraints: {{surface: {bends}}}
-""")
+"""
+
+
+@pytest.mark.parametrize("bends", ["r = 2 + theta^2*cos(phi)^2", "r = 2 + theta", "r = 2 + z"])
+def test_a_surface_that_is_no_disk_about_a_pole_is_left_alone(bends):
+    problem = lagcli.loads(SURFACE.format(g=3, bends=bends))
     modes = lagcli.solve(problem, "modes")._answers.sections["modes"].modes
     assert not [mode for mode in modes or () if mode.at["theta"] == ZERO and mode.pole]
+
+
+@pytest.mark.parametrize(("g", "k"), [(3, -1), (2, "-1/2"), (5, "3/4")])
+def test_a_surface_of_revolution_has_the_frequency_of_its_curvature(g, k):
+    """r = 2 + k th²/2: V = -g r cos(th) = -2 g + g (2 - k) th²/2, T = 2 (th'² + th² phi'²)."""
+    problem = lagcli.loads(SURFACE.format(g=g, bends=f"r = 2 + {k}*(1 - cos(theta))"))
+    modes = lagcli.solve(problem, "modes")._answers.sections["modes"].modes
+    low = [mode for mode in modes if mode.at["theta"] == ZERO]
+    found = sorted(
+        finite_value(mode.frequency) ** 2 for mode in low for _ in range(mode.multiplicity)
+    )
+    assert found == pytest.approx(sorted([g * (2 - float(Fraction(k))) / 4] * 2 + [1]))
 
 
 @pytest.mark.parametrize("seed", range(3))

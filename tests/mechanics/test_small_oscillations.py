@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from random import Random
 
 import numpy as np
@@ -12,7 +13,7 @@ from sympy import Expr, Matrix, acos
 
 import lagcli
 from lagcli.evaluation import FUNCTIONS, evaluated
-from lagcli.expression import Expression
+from lagcli.expression import ZERO, Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import Dynamics
@@ -20,6 +21,7 @@ from lagcli.mechanics.oscillations.normal_modes import beats
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.reader import read_problem
 
+from .derived import derive
 from .formulas import formula, formulas, normal
 
 
@@ -512,3 +514,44 @@ dissipation: {drag}
 """
     found = lagcli.solve(lagcli.loads(text), sections=["modes"])
     assert any(f"closed form of all {said}" in each for each in found.warnings) is bool(said)
+
+
+@pytest.mark.parametrize(
+    "bowl", ["z = c*r^2", "z = c*r^2 + k*r^4", "z + r^2*z^2 = c*r^2", "z = c*r^2 - z^3"]
+)
+def test_at_the_bottom_of_a_bowl_a_charge_has_the_modes_of_the_plane(bowl):
+    """z = c r² to second order: m w² ± B w - 2 m g c = 0 (Larmor; Landau and Lifshitz, Fields, 22)."""
+    dynamics = derive(
+        "coordinates: [r, phi, z]\n"
+        "parameters: {m: {assume: positive}, g: {assume: positive}, c: {assume: positive}, "
+        "B: {assume: positive}, k: {assume: positive}}\n"
+        "L: m*(r'^2 + r^2*phi'^2 + z'^2)/2 - m*g*z + B*r^2*phi'/2\n"
+        f"constraints: {{bowl: {bowl}}}\n"
+    ).dynamics
+    known = {"m": 1.3, "g": 9.7, "c": 0.6, "B": 2.1, "k": 0.4}
+    found = [
+        evaluated(mode.frequency, known, FUNCTIONS)
+        for mode in modes(dynamics).modes
+        if mode.at["r"] == ZERO and mode.at["z"] == ZERO
+    ]
+    root = math.sqrt(known["B"] ** 2 + 8 * known["m"] ** 2 * known["g"] * known["c"])
+    expected = [(root + side * known["B"]) / (2 * known["m"]) for side in (-1, 1)]
+    assert sorted(found) == pytest.approx(expected)
+
+
+def test_a_constraint_that_turns_with_the_azimuth_leaves_no_regular_form():
+    """z = r² (1 + cos²(phi)) has another curvature in each direction: nothing is given."""
+    dynamics = derive(
+        "coordinates: [r, phi, z]\nL: (r'^2 + r^2*phi'^2 + z'^2)/2 - z\n"
+        "constraints: {bowl: z = r^2*(1 + cos(phi)^2)}\n"
+    ).dynamics
+    assert not modes(dynamics).modes
+
+
+def test_an_unstable_top_on_a_smooth_floor_falls_alike_in_all_directions():
+    """A th'' = m g l th: the height l cos(th) changes in second order alone."""
+    problem = lagcli.load("symmetric-top-on-smooth-floor")
+    found = modes(Derivation(problem).dynamics).modes
+    assert [(to_grammar(m.frequency_squared), m.multiplicity) for m in found] == [
+        ("-m*g*l/A", 2), ("0", 3),
+    ]  # fmt: skip

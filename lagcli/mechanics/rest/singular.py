@@ -16,7 +16,6 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 import mpmath
-import sympy
 from mpmath import mpf
 from sympy import Dummy, Expr, S, Symbol
 
@@ -110,12 +109,12 @@ def at_pole(linear: Linearization) -> AtPole | None:
     """The motion in regular coordinates; None where it is no pole of one angle that is cyclic."""
     whole, null = OnMeridians(linear), nullspace(linear.M)
     system, lagrange = linear.system, linear.dynamics.lagrange
-    fixed = _fixed(linear)
-    if len(null) != 1 or fixed is None or any(force != 0 for force in system.applied_forces):
+    if len(null) != 1 or any(force != 0 for force in system.applied_forces):
         return None
     turning = [dot(null[0], components) for components in zip(*linear.basis, strict=True)]
     turned = [q for q, x in zip(system.q, turning, strict=True) if x != 0]
-    if any(is_zero(system.L.diff(q)) is not True for q in turned):
+    fixed = _fixed(linear, turned)
+    if fixed is None or any(is_zero(system.L.diff(q)) is not True for q in turned):
         return None
 
     def here(expression: Expr) -> Expr:
@@ -130,24 +129,23 @@ def at_pole(linear: Linearization) -> AtPole | None:
         return None
     r = curved[0][0]
     radius = system.q.index(r)
-    flat = [here(x.diff(r)) for x in (*across, dot(turning, lagrange.momenta).xreplace(still))]
+    momentum = dot(turning, lagrange.momenta).xreplace(still)
+    flat = [here(x.diff(r)) for x in (*across, momentum)]
+    flat += [here(x.diff(q)) for x in (around, momentum) for q in fixed]  # q - q0 is as r²
     round_ = bends[r, r] - here(lagrange.mass_matrix_at_rest[radius][radius])
     if any(is_zero(x) is not True for x in (*flat, round_)):
         return None
     return AtPole(whole, turning, radius)
 
 
-def _fixed(linear: Linearization) -> set[Symbol] | None:
-    """The coordinates that constraints q = c fix; None where there are others, which may bend."""
+def _fixed(linear: Linearization, turned: Sequence[Symbol]) -> set[Symbol] | None:
+    """The coordinates that constraints fix to first order; None where others turn or bend."""
     fixed: set[Symbol] = set()
     for equation in linear.dynamics.constraints.equations:
-        given = [q for q, a in zip(linear.system.q, equation.row, strict=True) if a != 0]
+        row = [at(a, linear.point.values) for a in equation.row]
+        given = [q for q, a in zip(linear.system.q, row, strict=True) if is_zero(a) is not True]
         constant = equation.holonomic and is_zero(equation.drift) is True
-        if (
-            len(given) != 1
-            or not constant
-            or not free_of(sympy.Add(*equation.row), linear.system.q)
-        ):
+        if len(given) != 1 or not constant or not free_of(equation.f, turned):
             return None
         fixed |= {*given}
     return fixed
