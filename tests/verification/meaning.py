@@ -16,7 +16,7 @@ from itertools import product
 from random import Random
 from typing import Any, Literal
 
-from mpmath import mpf
+from mpmath import mp, mpf
 
 #: Prose, which no arithmetic verifies.
 PROSE = {"reason", "warnings", "ansatz", "note", "title", "source", "name_of"}
@@ -27,6 +27,8 @@ SETS = {
 }  # fmt: skip
 #: Inequalities that hold together; of `unstable` one of them.
 CONDITIONS = {"where", "minimum", "hurwitz", "spectrum", "unstable"}
+#: What tells the points of a circle from each other.
+_CIRCLE = ("cos", "sin")
 #: States at which lists of them are compared: a factor of 2 in one is seen at some of them.
 _SEPARATING = 36
 
@@ -74,7 +76,8 @@ class Meaning:
         elif key in CONDITIONS and a and b and self.values.hold_together(key, a, b):
             return
         elif isinstance(a, dict) and isinstance(b, dict):
-            yield from self._differ_as_objects(path, a, b)
+            if not (key == "at" and self._same_place(a, b)):
+                yield from self._differ_as_objects(path, a, b)
         elif isinstance(a, list | tuple) and isinstance(b, list | tuple):
             yield from self._differ_as_lists(path, key, list(a), list(b))
         elif not (isinstance(a, str) and isinstance(b, str) and self._same_text(key, a, b)):
@@ -109,6 +112,17 @@ class Meaning:
                 yield Difference(f"{path}/{key}", "wrong")  # claimed everywhere
             else:
                 yield from self._differ(f"{path}/{key}", key, one, other)
+
+    def _same_place(self, a: Any, b: Any) -> bool:
+        """Whether coordinates have the same values, or angles that are whole turns apart."""
+
+        def same(name: str) -> bool:
+            same_point = all(
+                self.values.equal(f"{f}({a[name]})", f"{f}({b[name]})") for f in _CIRCLE
+            )
+            return same_point and self.values.recurs(name)
+
+        return a.keys() == b.keys() and all(self.values.equal(a[n], b[n]) or same(n) for n in a)
 
     def _same_to_lower_order(self, a: Any, b: Any) -> bool:
         """Whether the second series of a period is the beginning of the first one."""
@@ -383,6 +397,21 @@ class _Values:
             for i in range(len(p))
             for j in range(i)
         )
+
+    def recurs(self, name: str) -> bool:
+        """Whether L, the forces and what constrains are the same a turn of a coordinate further."""
+        from tests.oracle.examine import agree
+
+        reference, problem = self.reference, self.reference.problem
+        place = reference.names.index(name)
+        bounds = [reference.value(each) for each in (*problem.constraints, *problem.contacts)]
+
+        def felt(moment: Any) -> list[Any]:
+            held = [f(moment) for f in bounds]
+            return [reference.lagrangian(moment), *reference.applied(moment), *held]
+
+        pairs = ((felt(m), felt(m.shifted(0, {place: 2 * mp.pi}))) for m in self.moments)
+        return bool(self.moments) and all(all(map(agree, *each)) for each in pairs)
 
     def oscillates(self, mode: Any) -> bool:
         """Whether a printed normal mode solves the equations of motion to first order."""

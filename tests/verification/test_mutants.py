@@ -38,10 +38,14 @@ def test_a_known_change_is_noticed(file: str, text: str, change: str) -> None:
     assert found.kind != "escaped", found.escaped
 
 
-def differences(before: dict[str, object], after: dict[str, object]) -> list[str]:
+def differences(
+    before: dict[str, object],
+    after: dict[str, object],
+    name: str = "chains/coupled-pendulums",
+) -> list[str]:
     from lagcli import load
 
-    problem = load(ROOT / "problems/chains/coupled-pendulums.yaml")
+    problem = load(ROOT / f"problems/{name}.yaml")
     sheets = ({"warnings": [], **each} for each in (before, after))
     return [f"{d.kind} {d.path}" for d in Meaning(problem, *sheets).differences()]
 
@@ -106,6 +110,27 @@ def test_answers_are_compared_by_meaning(
     before: dict[str, object], after: dict[str, object], found: list[str]
 ) -> None:
     assert differences(before, after) == found
+
+
+@pytest.mark.parametrize(
+    ("name", "coordinate", "before", "after", "same"),
+    [
+        ("classics/spherical-pendulum", "theta", "0", "-2*pi", True),
+        ("classics/spherical-pendulum", "theta", "pi", "3*pi", True),
+        ("classics/spherical-pendulum", "theta", "pi", "0", False),
+        ("steady/bead-on-rotating-hoop", "theta", "acos(1/3)", "-acos(1/3)", False),
+        ("steady/bead-on-rotating-hoop", "theta", "acos(g/(R*w^2))", "acos(g/(R*w^2)) - 2*pi", True),
+        ("classics/spherical-pendulum", "phi", "0", "6*pi", True),
+        ("driven/pendulum-horizontal-drive", "theta", "0", "2*pi", True),
+        ("hoop", "theta", "0", "2*pi", False),  # x = R theta
+        ("oscillations/coupled-oscillators", "x1", "0", "2*pi", False),
+    ],
+)  # fmt: skip
+def test_angles_that_are_whole_turns_apart_are_one_place(
+    name: str, coordinate: str, before: str, after: str, *, same: bool
+) -> None:
+    sheets = ({"equilibria": [{"at": {coordinate: x}, "stable": True}]} for x in (before, after))
+    assert (differences(*sheets, name=name) == []) is same
 
 
 @pytest.mark.hours
