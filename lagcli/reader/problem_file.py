@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import islice
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -44,6 +45,8 @@ if TYPE_CHECKING:
     from lagcli.expression import Expression
 
 
+#: Where a stretch of the file begins and ends, and what fits there.
+_Place = tuple[int, int, str]
 #: Places of a file at which a prime is tried; each takes a reading of the file.
 _TRIALS = 100
 
@@ -228,41 +231,66 @@ def _dimension_mistakes(problem: Problem, *, alone: bool) -> list[Diagnostic]:
     from lagcli.dimensions.check import check_dimensions, one_wrong_unit
 
     found = check_dimensions(problem, MISTAKES)
-    if len(found) < 2 or not alone:
+    if not found or not alone:
         return found
-    causes = [_one_prime(problem, found), one_wrong_unit(problem, found[0])]
-    known = [each for each in causes if each is not None]
+    text = SourceText.of(problem.source)
+    place = _missing_primes(problem, text, found)
+    if not found[1:]:
+        return [found[0] if place is None else _with_term(found[0], place, text)]
+    causes = [] if place is None else [_prime_elsewhere(found[0], place, text)]
+    unit = one_wrong_unit(problem, found[0])
+    known = causes if unit is None else [*causes, unit]
     return known if len(known) == 1 else found
 
 
-def _one_prime(problem: Problem, mistakes: list[Diagnostic]) -> Diagnostic | None:
-    """The only place where a prime more or less lets every term fit; None for none or several."""
-    text = SourceText.of(problem.source)
-    written = problem.source.text
+def _prime_elsewhere(first: Diagnostic, place: _Place, text: SourceText) -> Diagnostic:
+    """The one place that explains several terms that do not fit."""
+    start, end, better = place
+    message = f"{text.source.text[start:end]} stands where {better} fits"
+    related = ((first.span, first.message),)
+    return Diagnostic(message, text.span(start, end), f"write {better}", related=related)
+
+
+def _with_term(mistake: Diagnostic, place: _Place, text: SourceText) -> Diagnostic:
+    """The mistake with its term as it fits in the hint, where the prime is within the term."""
+    begin, stop = text.offsets(mistake.span)
+    start, end, better = place
+    if not begin <= start <= end <= stop:
+        return mistake
+    written = text.source.text
+    whole = written[begin:start] + better + written[end:stop]
+    return replace(mistake, hint=f"write {whole}: {mistake.hint}")
+
+
+def _missing_primes(
+    problem: Problem, text: SourceText, mistakes: list[Diagnostic]
+) -> _Place | None:
+    """The only place where a prime more or less lets every term fit; None for none or several.
+
+    It is one name, or a term all of whose coordinates lack their primes.
+    """
+    written = text.source.text
     names = "|".join(re.escape(each.name) for each in problem.coordinates)
-    found: list[tuple[Span, str]] = []
-    near = {each.span.line: None for each in mistakes} | dict.fromkeys(
-        range(1, written.count("\n") + 1)
-    )
-    trials = _TRIALS
-    for line in near:
-        begin = text.line_starts[line - 1]
-        end = (written + "\n").index("\n", begin)
-        for name in re.finditer(rf"(?<![\w.'])(?:{names})(?![\w(])('?)", written[begin:end]):
-            at = begin + name.end()
-            changed = written[: at - 1] if name[1] else f"{written[:at]}'"
-            whole = Source(problem.source.name, changed + written[at:])
-            trials -= 1
-            if trials > 0 and len(found) < 2 and not _read_source(whole, alone=False).diagnostics:
-                found.append((text.span(begin + name.start(), at), name[0]))
-    if len(found) != 1 or trials < 0:
-        return None
-    [(span, name_)] = found
-    better = name_[:-1] if name_.endswith("'") else f"{name_}'"
-    related = ((mistakes[0].span, mistakes[0].message),)
-    return Diagnostic(
-        f"{name_} stands where {better} fits", span, f"write {better}", related=related
-    )
+    name = re.compile(rf"(?<![\w.'])(?:{names})(?![\w(])('?)")
+
+    def fits(place: _Place) -> bool:
+        start, end, better = place
+        changed = Source(text.source.name, written[:start] + better + written[end:])
+        return not _read_source(changed, alone=False).diagnostics
+
+    ends = [*text.line_starts[1:], len(written)]
+    lines = dict.fromkeys([*(each.span.line - 1 for each in mistakes), *range(len(ends))])
+    places = [
+        (place.start(), place.end(), place[0][:-1] if place[1] else f"{place[0]}'")
+        for line in lines
+        for place in name.finditer(written, text.line_starts[line], ends[line])
+    ]
+    for each in mistakes:
+        start, end = text.offsets(each.span)
+        whole, count = name.subn(lambda m: m[0] + "'" * (not m[1]), written[start:end])
+        places += [(start, end, whole)] if count > 1 else []
+    found = list(islice(filter(fits, places[:_TRIALS]), 2))
+    return found[0] if len(found) == 1 and not places[_TRIALS:] else None
 
 
 def _stem(name: str) -> str:

@@ -40,6 +40,11 @@ class SourceText(NamedTuple):
         line = bisect_right(self.line_starts, offset)
         return line, offset - self.line_starts[line - 1] + 1
 
+    def offsets(self, span: Span) -> tuple[int, int]:
+        """The offsets of the begin and the end of a stretch."""
+        start = self.line_starts[span.line - 1] + span.column - 1
+        return start, self.line_starts[span.end_line - 1] + span.end_column - 1
+
     def span(self, start: int, end: int) -> Span:
         """The stretch from offset `start` up to, not including, `end`."""
         return Span(*self.position(start), *self.position(end))

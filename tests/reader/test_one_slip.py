@@ -227,3 +227,21 @@ def test_letters_of_velocities_in_a_rolling_constraint(coordinates, wrong, right
     kinetic = " + ".join(f"{x}'^2" for x in re.findall(r"\w+", coordinates))
     [found] = errors(f"{begin}T: {kinetic}\nconstraints:\n  rolling: {wrong}\n")
     assert found.hint == f"write {right}"
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_term_that_lacks_its_primes_is_written_out(seed):
+    draw = random.Random(seed)
+    while True:
+        text, place = drawn(draw, r"^(?:T|L): .*'.*$")
+        term = place[0].replace("'", "") if draw.random() < 0.5 else place[0].replace("'", "", 1)
+        changed = text[: place.start()] + term + text[place.end() :]
+        found = errors(changed)
+        if len(found) == 1 and " is missing; " in found[0].hint and ": a" in found[0].hint:
+            break
+    [only] = found
+    lines = changed.split("\n")
+    row, begin, end = only.span.line - 1, only.span.column - 1, only.span.end_column - 1
+    whole = only.hint.removeprefix("write ").partition(": a")[0]
+    lines[row] = lines[row][:begin] + whole + lines[row][end:]
+    assert errors("\n".join(lines)) == []
