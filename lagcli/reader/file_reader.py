@@ -12,14 +12,9 @@ from lagcli.expression import ZERO, Equation, Expression, Name
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import (
-    KEYS,
     LISTS,
     MAPS,
-    is_constant,
-    key_advice,
     key_meant,
-    key_of_stem,
-    name_meant,
     unit_at_end,
     unit_behind,
 )
@@ -33,7 +28,6 @@ from lagcli.reader.misshapen import (
     behind_words,
     by_its_name,
     is_sentence,
-    key_by_shape,
     one_sum,
     source_of,
 )
@@ -41,8 +35,9 @@ from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import unit_mistake
 from lagcli.reader.scope import INITIAL, VALUES, Kind, Role, Scope, name_mistake
-from lagcli.reader.suggest import closest, did_you_mean
+from lagcli.reader.suggest import closest
 from lagcli.reader.text import Mistake
+from lagcli.reader.unknown_keys import unknown_key
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
@@ -52,8 +47,6 @@ if TYPE_CHECKING:
 
 _T = TypeVar("_T")
 
-#: The likeness of a key and its misspelling: another word of as many letters is less like it.
-_NEAR = 0.7
 #: What stands for an expression that could not be read; the file is refused anyway.
 UNREADABLE = ZERO
 #: Places where a number stands, without its unit.
@@ -345,9 +338,10 @@ class FileReader:
                 self.scope.refused.append(key.label)
             else:
                 assert isinstance(node, Mapping)
-                meant = self._unknown_key(key, value, what, names, node)
-                if meant and meant not in given:
-                    found[meant] = (key, value)  # what is in it is read on
+                wrong = unknown_key(key, value, what, names, node, self.scope)
+                self.error(wrong.message, key.span, wrong.hint)
+                if wrong.meant and wrong.meant not in given:
+                    found[wrong.meant] = (key, value)  # what is in it is read on
         return found
 
     def _without_split_lists(
@@ -374,91 +368,6 @@ class FileReader:
             self.error(f"'{name}' must be a list", value.span, hint)
             kept = [(k, v) for k, v in kept if k.label != name]
         return kept
-
-    def _unknown_key(
-        self, key: Scalar, value: DocumentNode, what: str, names: tuple[str, ...], around: Mapping
-    ) -> str | None:
-        """A mistake at a key; the one that was meant, where that is clear."""
-        written = value.value if isinstance(value, Scalar) else ""
-        meant = key_meant(key.label, names)
-        is_time = key.label == "t" and "'" not in written
-        other = "" if is_time else key.label.casefold()  # the time is not T
-        alike = [name for name in names if name.casefold() == other]
-        meant = alike[0] if len(alike) == len(key.label) == 1 else meant
-        forceless = meant == "dissipation" and "'" not in written
-        advice = key_advice("friction" if forceless else key.label, written, names)
-        advice = f"the key is {meant}" if meant and not forceless else advice
-        hint = advice or did_you_mean(key.label, names, _NEAR)
-        stem = None if advice else key_of_stem(key.label, names)
-        if stem and stem != closest(key.label, names):
-            meant, hint = stem, f"the key is {stem}"
-        known = {*names, *(f"{name}s" for name in names), *(name.rstrip("s") for name in names)}
-        is_outer = len(key.label) > 2 and not advice and key.label not in known
-        outer = key_meant(key.label, KEYS) if is_outer else None
-        outer = outer if outer in {key.label, "initial", "parameters"} else None
-        if outer is not None and what != "the problem":
-            hint = f"a key of the problem: write {outer}: {source_of(value)} on a line of its own"
-        plural = f"{key.label}s" in names
-        parts = {k.label: v for k, v in around.entries if isinstance(v, Scalar)}
-        shape = key_by_shape(value, around) if what == "the problem" and not plural else None
-        near = meant or closest(key.label, names)
-        if (
-            shape
-            and near != key.label.casefold()
-            and (
-                not hint
-                or (
-                    near in MAPS - {shape}
-                    and (isinstance(value, Sequence) or shape == "parameters")
-                )
-            )
-        ):
-            meant, hint = shape, f"the key is {shape}"
-        if meant in {"T", "V"} and meant in parts and what == "the problem" and written:
-            hint = f"it is one sum: write {meant}: {parts[meant].value.strip()} + {written}"
-        elif meant in {each.label for each, _ in around.entries} and hint == f"the key is {meant}":
-            hint = f"the key is {meant}, which is given already: its entries stand there"
-        if "at" in names and key.label in self.scope.of_kind("coordinate"):
-            hint = f"write at: {{{key.label}: {written}}}"
-        if not hint and what == "the problem" and self._is_used(key, value, around):
-            hint = f"a formula with a name stands under definitions: {key.label}: {written}"
-            self.scope.refused.append(key.label)
-        if not hint and isinstance(value, Mapping) and value.entries:
-            inner = [each.label for each, _ in value.entries]
-            hint = f"leave it out: {inner[0]} begins a line" if {*inner} <= {*names} else ""
-        part = re.match(r"[TV](?=\d|_)", key.label)
-        if not advice and part and part[0] in parts and what == "the problem":  # V2, V_spring
-            hint = f"it is one sum: write {part[0]}: {parts[part[0]].value.strip()} + {written}"
-        hint = hint or f"known are {', '.join(names)}"
-        if broken := re.fullmatch(r"(\w+)\s*([\[{].*)", key.label):
-            self.error(
-                f"a ':' is missing behind '{broken[1]}'",
-                key.span,
-                f"write {broken[1]}: {broken[2]}: {source_of(value)}",
-            )
-            return None
-        if "=" in key.label:
-            hint = f"write {name_meant(key.label)}"
-        elif key.in_flow and value.is_empty:
-            hint = "inside { } a comma ends the value: put a text with commas in quotes"
-        if "parameters" in names and is_constant(key.label, written):
-            self.scope.refused.append(key.label)
-        self.error(f"unknown key '{key.label}' in {what}", key.span, hint)
-        guessed = hint.startswith("did you mean")
-        return meant or (closest(key.label, names, _NEAR) if guessed else None)
-
-    def _is_used(self, key: Scalar, value: DocumentNode, around: Mapping) -> bool:
-        """Whether an entry is the formula of a name that stands in other formulas of the file."""
-        if not _NAME.fullmatch(key.label) or not isinstance(value, Scalar) or value.is_empty:
-            return False
-        text = around.text.source.text
-        elsewhere = text[: key.start] + text[value.end :]
-        used = re.search(rf"(?<![\w.]){re.escape(key.label)}(?!\w|\s*:)", elsewhere)
-        try:
-            read_expression(value.excerpt())
-        except Mistake:
-            return False
-        return used is not None
 
     # Formulas.
 

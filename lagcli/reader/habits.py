@@ -11,9 +11,7 @@ import re
 import unicodedata
 from functools import cache
 from pathlib import Path
-from typing import Any, get_args
-
-from lagcli.problem_data import Assumption
+from typing import Any
 
 #: The keys of a problem.
 KEYS = (
@@ -33,7 +31,6 @@ DERIVED = "the equations of motion are derived: give T and V, or L"
 #: An assumption by the relation to zero that it is.
 SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegative",
          "!=": "nonzero", "≠": "nonzero"}  # fmt: skip
-_WISHES = {"yes", "true", "True", "on", "all", "find", "?"}
 COMMENT = "a comment begins with '#'"
 PROGRAM = "a problem has keys with their values, as in coordinates: [x], and no program"
 CASES = frozenset("if for when where else otherwise piecewise Piecewise".split())
@@ -96,46 +93,6 @@ def key_of_stem(word: str, known: tuple[str, ...]) -> str | None:
     """The key whose stem is in a word: T for `E_kin`."""
     found = [key for stem, key in habits()["stems"].items() if stem in word.casefold()]
     return found[0] if found and found[0] in known else None
-
-
-def key_advice(word: str, value: str, known: tuple[str, ...]) -> str:
-    """What to write instead of an unknown key with its value; nothing where that is unclear."""
-    if word in get_args(Assumption) and word != "real" and "assume" in known:
-        return f"write assume: {word}"
-    for neighbour, words, advice in habits()["advice"]:
-        if word in words and neighbour in known:
-            return str(advice.format(word=word))
-    if word == "t" and "simulation" in known:
-        return f"write simulation: {{until: {value.strip()}}}"
-    start = re.fullmatch(r"(d|v)?_?(q|r|x|y|z|theta|phi)?(?:dot)?_?0", word)
-    if start and (start[1] or start[2]) and "initial" in known:
-        value = re.sub(r"([\d.]+)\s*°", r"\1*pi/180", value.strip())
-        rate = "'" if start[1] or "dot" in word else ""
-        return f"write initial: {{{start[2] or 'x'}{rate}: {value}}}"
-    along = re.fullmatch(r"[QF](?:_(?=\w)|(?=[xyz]$|\w\d$))(\w+)", word)
-    if along and "forces" in known:
-        return f"write forces: {{{along[1]}: {value.strip()}}}"
-    if word in {"initial", "start", "init"} and "symbol" in known and "value" not in known:
-        return "a state stands under initial, as in initial: {x: 1}"
-    if "accelerations" in known and word.endswith("''"):
-        return f"write accelerations: {{{word[:-2]}: {value.strip()}}}"
-    if "source" in known and len(value.split()) > 1 and re.fullmatch(r"[\w\s,.;-]*", value):
-        return f"write description: {word}: …, with quotes around it"
-    key = meanings("keys").get(word.replace("-", "_"), word)
-    if value.strip() == "t":
-        return "leave it out: t is the time"
-    part = meanings("parts").get(key)
-    if part == "expect" and part in known and value in _WISHES:
-        return f"an option, not a key: lagcli solve FILE --show {key}"
-    if part in known:
-        return f"write {part}: {{{key}: {value or '…'}}}"
-    if "parameters" in known and is_constant(word, value):
-        number, unit = number_and_unit(value)
-        given = f"{{value: {number}, unit: {unit}}}" if unit else number
-        return f"a constant stands under parameters: write parameters: {{{word}: {given}}}"
-    if word.casefold() in {"gravity", "gravitation", "weight", "spring", "field"} and "V" in known:
-        return "it has a potential energy: write V: m*g*y"
-    return ""
 
 
 def colon_advice(line: str) -> str:

@@ -1,0 +1,208 @@
+"""A key that a section does not have: what was meant, and what to write instead."""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+from typing import TYPE_CHECKING, NamedTuple, get_args
+
+from lagcli.problem_data import Assumption
+from lagcli.reader.expressions import read_expression
+from lagcli.reader.habits import (
+    KEYS,
+    MAPS,
+    habits,
+    is_constant,
+    key_meant,
+    key_of_stem,
+    meanings,
+    name_meant,
+    number_and_unit,
+)
+from lagcli.reader.misshapen import key_by_shape, source_of
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.suggest import closest, did_you_mean
+from lagcli.reader.text import Mistake
+
+if TYPE_CHECKING:
+    from lagcli.reader.scope import Scope
+
+#: The likeness of a key and its misspelling: another word of as many letters is less like it.
+_NEAR = 0.7
+_PROBLEM = "the problem"
+_WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
+_FRICTION = "friction"
+
+
+class UnknownKey(NamedTuple):
+    """The sentence on a key, its advice, and the key of the section that was meant."""
+
+    message: str
+    hint: str
+    meant: str | None = None
+
+
+@cache
+def advice_in(section: str) -> dict[str, str]:
+    """What to write instead of each word that a section does not have."""
+    tables = (table for names, table in habits()["advice"].items() if section in names.split())
+    return {word: advice for table in tables for advice, words in table.items() for word in words}
+
+
+def unknown_key(
+    key: Scalar,
+    value: DocumentNode,
+    what: str,
+    names: tuple[str, ...],
+    around: Mapping,
+    scope: Scope,
+) -> UnknownKey:
+    """What is wrong with a key.
+
+    Parameters
+    ----------
+    key, value
+        The entry.
+    what
+        The section, as in "the parameter 'm'".
+    names
+        The keys that the section has.
+    around
+        The map in which the entry stands.
+    scope
+        The names of the file; one that cannot be declared for this key is noted as refused.
+    """
+    word, written = key.label, value.value if isinstance(value, Scalar) else ""
+    if broken := re.fullmatch(r"(\w+)\s*([\[{].*)", word):
+        hint = f"write {broken[1]}: {broken[2]}: {source_of(value)}"
+        return UnknownKey(f"a ':' is missing behind '{broken[1]}'", hint)
+    meant, hint = _meant(word, written, what, names)
+    if what == _PROBLEM:
+        meant, hint = _meant_of_problem(key, value, around, meant, hint, scope)
+    elif not hint or hint.startswith("did you mean"):
+        hint = _outer(key, value, names) or hint
+    given = {each.label for each, _ in around.entries}
+    if meant in given and hint == f"the key is {meant}":
+        hint = f"the key is {meant}, which is given already: its entries stand there"
+    if "at" in names and word in scope.of_kind("coordinate"):
+        hint = f"write at: {{{word}: {written}}}"
+    if not hint and isinstance(value, Mapping) and value.entries:
+        inner = [each.label for each, _ in value.entries]
+        hint = f"leave it out: {inner[0]} begins a line" if {*inner} <= {*names} else ""
+    if "=" in word:
+        hint = f"write {name_meant(word)}"
+    elif key.in_flow and value.is_empty:
+        hint = "inside { } a comma ends the value: put a text with commas in quotes"
+    if "parameters" in names and is_constant(word, written):
+        scope.refused.append(word)
+    if hint.startswith("did you mean"):
+        meant = meant or closest(word, names, _NEAR)
+    hint = hint or f"known are {', '.join(names)}"
+    return UnknownKey(f"unknown key '{word}' in {what}", hint, meant)
+
+
+def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[str | None, str]:
+    """The key that a word stands for, and the hint; the advice for the word where it has none."""
+    is_time = word == "t" and "'" not in written
+    other = "" if is_time else word.casefold()  # the time is not T
+    alike = [name for name in names if name.casefold() == other]
+    meant = alike[0] if len(alike) == len(word) == 1 else key_meant(word, names)
+    if meant == "dissipation" and "'" not in written:  # a coefficient
+        return meant, _advice(_FRICTION, written, what, names)
+    if meant:
+        return meant, f"the key is {meant}"
+    if advice := _advice(word, written, what, names):
+        return None, advice
+    stem = key_of_stem(word, names)
+    if stem and stem != closest(word, names):
+        return stem, f"the key is {stem}"
+    return None, did_you_mean(word, names, _NEAR)
+
+
+def _meant_of_problem(
+    key: Scalar, value: DocumentNode, around: Mapping, meant: str | None, hint: str, scope: Scope
+) -> tuple[str | None, str]:
+    """The same for a key of the problem, whose value and neighbours tell what it is."""
+    word, written = key.label, value.value if isinstance(value, Scalar) else ""
+    shape = None if f"{word}s" in KEYS else key_by_shape(value, around)
+    near = meant or closest(word, KEYS)
+    is_list = isinstance(value, Sequence) or shape == "parameters"
+    if shape and near != word.casefold() and (not hint or (near in MAPS - {shape} and is_list)):
+        meant, hint = shape, f"the key is {shape}"
+    parts = {k.label: v.value.strip() for k, v in around.entries if isinstance(v, Scalar)}
+    energy = meant if meant in {"T", "V"} and written else None
+    if energy is None and not advice_in("problem").get(word):
+        numbered = re.match(r"[TV](?=\d|_)", word)  # V2, V_spring
+        energy = numbered[0] if numbered else None
+    if energy in parts:
+        return meant, f"it is one sum: write {energy}: {parts[energy]} + {written}"
+    if not hint and _is_used(key, value, around):
+        scope.refused.append(word)
+        return meant, f"a formula with a name stands under definitions: {word}: {written}"
+    return meant, hint
+
+
+def _outer(key: Scalar, value: DocumentNode, names: tuple[str, ...]) -> str:
+    """The advice for a key of the problem that stands in one of its sections."""
+    known = {*names, *(f"{name}s" for name in names), *(name.rstrip("s") for name in names)}
+    outer = key_meant(key.label, KEYS) if len(key.label) > 2 and key.label not in known else None
+    if outer not in {key.label, "initial", "parameters"}:
+        return ""
+    return f"a key of the problem: write {outer}: {source_of(value)} on a line of its own"
+
+
+def _is_used(key: Scalar, value: DocumentNode, around: Mapping) -> bool:
+    """Whether an entry is the formula of a name that stands in other formulas of the file."""
+    if not re.fullmatch(r"[^\W\d]\w*", key.label) or not isinstance(value, Scalar):
+        return False
+    if value.is_empty:
+        return False
+    text = around.text.source.text
+    elsewhere = text[: key.start] + text[value.end :]
+    used = re.search(rf"(?<![\w.]){re.escape(key.label)}(?!\w|\s*:)", elsewhere)
+    try:
+        read_expression(value.excerpt())
+    except Mistake:
+        return False
+    return used is not None
+
+
+def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
+    """What to write instead of a key with its value; nothing where that is unclear."""
+    section = what.removeprefix("the ").partition(" ")[0]
+    if word in get_args(Assumption) and word != "real" and "assume" in known:
+        return f"write assume: {word}"
+    if advice := advice_in(section).get(word):
+        return advice.replace("{word}", word)
+    if section == "expect" and word.endswith("''"):
+        return f"write accelerations: {{{word[:-2]}: {value.strip()}}}"
+    return _advice_in_problem(word, value.strip()) if section == "problem" else ""
+
+
+def _advice_in_problem(word: str, value: str) -> str:
+    if word == "t":
+        return f"write simulation: {{until: {value}}}"
+    start = re.fullmatch(r"(d|v)?_?(q|r|x|y|z|theta|phi)?(?:dot)?_?0", word)
+    if start and (start[1] or start[2]):
+        value = re.sub(r"([\d.]+)\s*°", r"\1*pi/180", value)
+        rate = "'" if start[1] or "dot" in word else ""
+        return f"write initial: {{{start[2] or 'x'}{rate}: {value}}}"
+    if along := re.fullmatch(r"[QF](?:_(?=\w)|(?=[xyz]$|\w\d$))(\w+)", word):
+        return f"write forces: {{{along[1]}: {value}}}"
+    if len(value.split()) > 1 and re.fullmatch(r"[\w\s,.;-]*", value):
+        return f"write description: {word}: …, with quotes around it"
+    if value == "t":
+        return "leave it out: t is the time"
+    key = meanings("keys").get(word.replace("-", "_"), word)
+    part = meanings("parts").get(key)
+    if part == "expect" and value in _WISHES:
+        return f"an option, not a key: lagcli solve FILE --show {key}"
+    if part:
+        return f"write {part}: {{{key}: {value or '…'}}}"
+    if is_constant(word, value):
+        number, unit = number_and_unit(value)
+        given = f"{{value: {number}, unit: {unit}}}" if unit else number
+        return f"a constant stands under parameters: write parameters: {{{word}: {given}}}"
+    if word.casefold() in {"gravity", "gravitation", "weight", "spring", "field"}:
+        return "it has a potential energy: write V: m*g*y"
+    return ""
