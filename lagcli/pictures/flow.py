@@ -17,7 +17,7 @@ from collections.abc import Iterator
 from lagcli.expression import Expression, Name, Negative, signed
 from lagcli.graph.nodes import mask_of
 from lagcli.numerics.equations.contact import with_contacts
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import Progress, RunRequest
 from lagcli.pictures.contours import grid, quiet, roots
@@ -67,7 +67,7 @@ class Flow:
 
     def __init__(self, problem: Problem, labels: Labels) -> None:
         self.problem, self.labels = problem, labels
-        e = Equations(with_contacts(problem))
+        e = EquationsOfMotion(with_contacts(problem))
         name = e.q[0].name
         mask = mask_of((*(x for row in e.mass for x in row), *e.forcing))
         if len(e.q) != 1 or e.rows or mask & e.t.mask:

@@ -17,7 +17,7 @@ from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Reduced
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.pictures.contours import quiet
 from lagcli.pictures.drawing import CannotDraw
@@ -57,7 +57,7 @@ class RemainingFreedom:
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
-        self._equations = Equations(problem)
+        self._equations = EquationsOfMotion(problem)
         self._name = ""
         name, energy, momenta = self._reduced()
         self.coordinate: Coordinate = next(c for c in problem.coordinates if c.name == name)

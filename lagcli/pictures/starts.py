@@ -18,7 +18,7 @@ from lagcli.graph.nodes import Node
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.contact import with_contacts
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.start import initial_state
 from lagcli.pictures.contours import first_root, quiet
@@ -91,7 +91,9 @@ def other_starts(
         yield replace(problem, initial={name: signed(x) for name, x in values.items()})
 
 
-def begun(e: Equations, further: Sequence[Node] = ()) -> tuple[Motion, list[float], list[float]]:
+def begun(
+    e: EquationsOfMotion, further: Sequence[Node] = ()
+) -> tuple[Motion, list[float], list[float]]:
     """The motion in doubles with its state at t = 0; its constants are those of `further` too."""
     initial = [e.form.read(value) for value in e.problem.initial.values()]
     needed = [*(x for row in e.mass for x in row), *e.forcing, *initial, *further]
@@ -143,7 +145,7 @@ def _inverse(number: int, base: int) -> float:
 
 def _started(problem: Problem) -> tuple[Motion, dict[Name, float]]:
     """The motion, and its state at t = 0."""
-    e = Equations(with_contacts(problem))
+    e = EquationsOfMotion(with_contacts(problem))
     motion, q, v = begun(e, [e.energy])
     names = [Name(s.name, s.primes) for s in (*e.q, *e.qdot)]
     return motion, dict(zip(names, map(float, (*q, *v)), strict=True))

@@ -13,7 +13,7 @@ from lagcli.graph.nodes import Node
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.contact import with_contacts
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.pictures.contours import Contours, grid, quiet
 from lagcli.pictures.drawing import Piece, Point
@@ -87,7 +87,7 @@ def _mapped(
     low: tuple[float, ...],
     high: tuple[float, ...],
 ) -> tuple[Piece, ...]:
-    e = Equations(with_contacts(problem))
+    e = EquationsOfMotion(with_contacts(problem))
     nodes: list[Node] = [e.form.read(formula) for formula in (gap, *track.position)]
     arithmetic = Doubles()
     function = straight_line(

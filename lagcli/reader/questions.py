@@ -116,11 +116,11 @@ def _state_name(
 def _translated(name: str, coordinates: list[str]) -> str:
     """`x'` for dx/dt, v, xdot and x'(0); nothing for other names."""
     from lagcli.reader.foreign.translation import translated
-    from lagcli.reader.foreign.words import Unclear, Vocabulary
+    from lagcli.reader.foreign.words import UnclearText, Vocabulary
 
     try:
         meant = translated(name, Vocabulary(tuple(coordinates), frozenset()))
-    except Unclear:
+    except UnclearText:
         return ""
     return meant if meant.rstrip("'") in coordinates else ""
 

@@ -11,7 +11,7 @@ from lagcli.expression import Equation, Expression
 from lagcli.problem_data import Inequality
 from lagcli.reader.expressions import read_equation, read_expression
 from lagcli.reader.foreign.translation import translated
-from lagcli.reader.foreign.words import Unclear, Vocabulary
+from lagcli.reader.foreign.words import UnclearText, Vocabulary
 from lagcli.reader.habits import name_meant
 from lagcli.reader.misshapen import behind_words, is_sentence
 from lagcli.reader.names import name_mistakes
@@ -72,7 +72,7 @@ def with_whole(
                 hint = f"a one-sided contact stands under contacts, as in floor: {gap}"
                 return [replace(found[0], hint=hint)]
             sides = _sides(read(Excerpt.whole(Source("", whole))))
-        except (Unclear, Mistake):
+        except (UnclearText, Mistake):
             continue
         wrong = [each for side in sides for each in name_mistakes(side, scope, role, what)]
         words = set(re.findall(r"\w+", re.sub(r"_?[\[{](\w+)[\]}]", r"_\1", node.value)))

@@ -14,7 +14,7 @@ from lagcli.numerics.compiled.machine import Machine
 from lagcli.numerics.compiled.numbers import DOUBLE, EXTENDED, QUADRUPLE
 from lagcli.numerics.equations.arithmetic import Balls, Doubles
 from lagcli.numerics.equations.constants import constants_of
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.hybrid.compiled_taylor import CompiledTaylor
 from lagcli.numerics.integrators.steps import Tolerance
@@ -49,7 +49,7 @@ def chain(n):
 
 
 def motions(text):
-    equations = Equations(problem_of(text))
+    equations = EquationsOfMotion(problem_of(text))
     nodes = [*(entry for row in equations.mass for entry in row), *equations.forcing]
     return [
         Motion(equations, constants_of(equations, nodes, numbers), numbers)

@@ -11,7 +11,7 @@ from lagcli.numerics.compiled.machine import Machine
 from lagcli.numerics.compiled.numbers import DOUBLE
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.constants import constants_of
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.null_space import held_motion
 from lagcli.numerics.equations.regular import regular_motion
@@ -96,7 +96,7 @@ initial: {{{start}, a0': 1, a1': -1}}
 @pytest.mark.long
 def test_the_loop_gives_the_accelerations_that_the_null_space_gives():
     n = 26
-    equations = Equations(problem_of(closed_chain(n)))
+    equations = EquationsOfMotion(problem_of(closed_chain(n)))
     assert equations.eliminated is None
     nodes = [*equations.forcing, *(entry for row in equations.mass for entry in row)]
     motion = Motion(equations, constants_of(equations, nodes, Doubles()), Doubles())

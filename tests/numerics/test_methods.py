@@ -9,7 +9,7 @@ import pytest
 
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.constants import constants_of
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.integrators.dop853 import Dop853
@@ -24,7 +24,7 @@ from .running import problem_of, simulated
 
 
 def motion_of(text):
-    equations = Equations(problem_of(text))
+    equations = EquationsOfMotion(problem_of(text))
     nodes = [*(x for row in equations.mass for x in row), *equations.forcing]
     return Motion(equations, constants_of(equations, nodes, Doubles()), Doubles())
 
@@ -84,7 +84,7 @@ def test_accelerations_are_those_of_the_definitions(path):
     """Against jets and a numeric KKT system that share no code with the graph."""
     problem = with_lagrangian(problem_of(path.read_text("utf-8")))
     states = random_states(Reference(problem), 2)
-    equations = Equations(with_lagrangian(problem))
+    equations = EquationsOfMotion(with_lagrangian(problem))
     for state in states:
         if not state.regular:
             continue

@@ -6,7 +6,7 @@ import pytest
 
 from lagcli.numerics.certified.methods import METHODS
 from lagcli.numerics.equations.arithmetic import Doubles
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.jacobian import jacobian
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.integrators.collocation import gauss, radau
@@ -35,7 +35,7 @@ initial: {x: 1}
 
 
 def motion_of(text):
-    return Motion(Equations(problem_of(text)), {}, Doubles())
+    return Motion(EquationsOfMotion(problem_of(text)), {}, Doubles())
 
 
 def error(change, steps, until=2.0):
@@ -93,7 +93,7 @@ def test_the_coefficients_are_the_book_s():
 
 def test_the_jacobian_is_the_slope():
     problem = problem_of(CHAIN)
-    equations = Equations(problem)
+    equations = EquationsOfMotion(problem)
     symbols = {
         equations.graph.symbol(p.name): 1.0 + 0.1 * k for k, p in enumerate(problem.parameters)
     }
@@ -174,8 +174,8 @@ def test_constraints_are_held(method):
 
 def test_what_does_not_separate_says_so():
     magnetic = "{coordinates: [x, y], L: x'^2/2 + y'^2/2 + x*y', initial: {x: 1, y: 0}}"
-    assert not separates(Equations(problem_of(magnetic)))
-    assert separates(Equations(problem_of(KEPLER)))
+    assert not separates(EquationsOfMotion(problem_of(magnetic)))
+    assert separates(EquationsOfMotion(problem_of(KEPLER)))
     found = simulated(magnetic, 1, 1e-6, method="yoshida8")
     assert found.method == "dop853"
     assert "not yoshida8: it does not separate" in found.reason

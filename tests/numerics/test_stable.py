@@ -10,7 +10,7 @@ from lagcli.graph.reading import GraphReader
 from lagcli.graph.stable import Stable, stable_dynamics
 from lagcli.numerics.equations.arithmetic import Doubles
 from lagcli.numerics.equations.constants import constants_of
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.straight_line import straight_line
 
@@ -79,7 +79,7 @@ L: (p'^2 + (1 - cos(p)^2)*f'^2)/2 + cos(p)
 
 
 def accelerations(text, *state):
-    equations = Equations(problem_of(text))
+    equations = EquationsOfMotion(problem_of(text))
     nodes = [*(entry for row in equations.mass for entry in row), *equations.forcing]
     motion = Motion(equations, constants_of(equations, nodes, Doubles()), Doubles())
     return motion.accelerations(0.0, *state)

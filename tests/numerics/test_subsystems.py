@@ -6,7 +6,7 @@ import pytest
 
 from lagcli.numerics.certified.model import model_section
 from lagcli.numerics.equations.coupling import coupling, groups
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.pipeline import with_lagrangian
 from tests.numerics.running import column, problem_of, simulated
 
@@ -100,5 +100,5 @@ def test_a_part_that_ends_ends_the_whole():
 )
 def test_what_is_coupled_moves_together(kinetic, potential, constraint, expected):
     text = f"coordinates: [a, b, c]\nT: {kinetic}\nV: {potential}\n{constraint}\n"
-    e = Equations(with_lagrangian(problem_of(text)))
+    e = EquationsOfMotion(with_lagrangian(problem_of(text)))
     assert groups(*coupling(e.graph, e.q, e.mass, e.forcing, e.constraints)) == expected

@@ -17,7 +17,7 @@ from lagcli.formatters.grammar import to_grammar
 from lagcli.library import entries
 from lagcli.reader import parse_text, read_problem
 from lagcli.reader.foreign.translation import translated
-from lagcli.reader.foreign.words import Unclear, Vocabulary
+from lagcli.reader.foreign.words import UnclearText, Vocabulary
 
 WRITERS = {
     "LaTeX": sp.latex,
@@ -64,7 +64,7 @@ def test_what_sympy_prints_for_another_language_is_translated_back(language):
         text = WRITERS[language](written).replace("&\n", "")
         try:
             back = plain(parse_text(translated(text, names)))
-        except Unclear:
+        except UnclearText:
             unclear += 1
             continue
         values = {name: draw.uniform(0.2, 0.9) for name in given.free_symbols}
@@ -114,7 +114,7 @@ def test_a_formula_is_read_as_its_author_reads_it(text, meant):
      "a(t)", "x^2^2", "k*x if x > 0 else 0", "m*g*x [J]", "x'2"],
 )  # fmt: skip
 def test_what_may_mean_two_things_is_not_translated(text):
-    with pytest.raises(Unclear):
+    with pytest.raises(UnclearText):
         translated(text, NAMES)
 
 
@@ -125,7 +125,7 @@ def test_another_capital_is_another_name():
 def test_a_letter_for_the_velocity_beside_its_coordinate_is_not_translated():
     one = Vocabulary(("theta",), frozenset({"m", "t", "pi"}))
     assert translated("m ω²", one) == "m*theta'^2"
-    with pytest.raises(Unclear):
+    with pytest.raises(UnclearText):
         translated("m ω² θ²", one)
 
 

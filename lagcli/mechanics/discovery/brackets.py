@@ -78,7 +78,7 @@ class Structure:
     by_energy: list[list[Vector]] | None = None
 
 
-class Brackets:
+class ChargeBrackets:
     """Charges as functions on phase space, or on the surface of holonomic constraints there."""
 
     def __init__(self, charges: Sequence[Expr], dynamics: Dynamics, allowed: Allowance) -> None:

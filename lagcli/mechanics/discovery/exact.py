@@ -27,7 +27,7 @@ _POWERS = (-2, -1, 1, 2)
 
 
 @dataclass(frozen=True, slots=True)
-class _Monomial:
+class _ConstantMonomial:
     """Powers of constants, by the inverse of their value."""
 
     inverse: int
@@ -45,9 +45,9 @@ class ExactSolver:
     def __init__(self, points: ModularPoints) -> None:
         self.points = points
         self.field = points.field
-        self._monomials: list[_Monomial] | None = None
-        self._linear: list[_Monomial] | None = None
-        self._signed: dict[int, tuple[_Monomial, int]] = {}
+        self._monomials: list[_ConstantMonomial] | None = None
+        self._linear: list[_ConstantMonomial] | None = None
+        self._signed: dict[int, tuple[_ConstantMonomial, int]] = {}
 
     def of(
         self, vector: Mapping[int, int], column: Callable[[int], Sequence[Expr]]
@@ -87,7 +87,7 @@ class ExactSolver:
             return Rational(plain.numerator, plain.denominator)
         return self._multiple_of(self._constant_monomials(), value) or self._two_monomials(value)
 
-    def _multiple_of(self, monomials: Sequence[_Monomial], value: int) -> Expr | None:
+    def _multiple_of(self, monomials: Sequence[_ConstantMonomial], value: int) -> Expr | None:
         for monomial in monomials:
             fraction = small_fraction(value * monomial.inverse % PRIME, 128)
             if fraction is not None:
@@ -97,7 +97,7 @@ class ExactSolver:
     def _two_monomials(self, value: int) -> Expr | None:
         """A sum or difference of two monomials, as (m1 - m2)/m3."""
         if not self._signed:
-            for monomial in (_Monomial(1, (), ()), *self._constant_monomials()):
+            for monomial in (_ConstantMonomial(1, (), ()), *self._constant_monomials()):
                 plain = pow(monomial.inverse, -1, PRIME)
                 self._signed[plain] = monomial, 1
                 self._signed[PRIME - plain] = monomial, -1
@@ -114,7 +114,7 @@ class ExactSolver:
             self._linear = list(self._made(self._atoms(linear=True)))
         return self._multiple_of(self._linear, value)
 
-    def _constant_monomials(self) -> list[_Monomial]:
+    def _constant_monomials(self) -> list[_ConstantMonomial]:
         if self._monomials is None:
             self._monomials = list(self._made(self._atoms()[:_MOST_ATOMS]))
         return self._monomials
@@ -133,7 +133,7 @@ class ExactSolver:
         sums = [((a + b) % PRIME, x + y) for (a, x), (b, y) in pairs]
         return [*differences, *sums, *constants][:_MOST_LINEAR]
 
-    def _made(self, atoms: Sequence[tuple[int, Expr]]) -> Iterator[_Monomial]:
+    def _made(self, atoms: Sequence[tuple[int, Expr]]) -> Iterator[_ConstantMonomial]:
         """The shortest first."""
         inverses = [{power: pow(number, -power, PRIME) for power in _POWERS} for number, _ in atoms]
         for count in range(1, min(_TOGETHER, len(atoms)) + 1):
@@ -145,7 +145,7 @@ class ExactSolver:
                     for k, power in zip(chosen, powers, strict=True):
                         value = value * inverses[k][power] % PRIME
                     EFFORT.done += 20
-                    yield _Monomial(value, tuple(atoms[k][1] for k in chosen), powers)
+                    yield _ConstantMonomial(value, tuple(atoms[k][1] for k in chosen), powers)
 
     # -- by elimination -------------------------------------------------------------------
 

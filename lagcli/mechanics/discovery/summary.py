@@ -11,7 +11,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero
-from lagcli.mechanics.discovery.brackets import Brackets, NoState, Structure
+from lagcli.mechanics.discovery.brackets import ChargeBrackets, NoState, Structure
 from lagcli.mechanics.discovery.constrained import rank_on_surface
 from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.lie_algebra import name_of
@@ -93,7 +93,7 @@ def _free(discovery: Discovery) -> Summary:
         number = None if discovery.unsearched else 0
         return Summary(0, None, number, number, None)
     more = [*_squares(discovery), *_of_the_file(discovery)]
-    brackets = Brackets([*charges, *more], discovery.dynamics, Allowance())
+    brackets = ChargeBrackets([*charges, *more], discovery.dynamics, Allowance())
     everything = list(range(count))
     if not discovery.canonical:
         # with other forces than those of L the motion is no canonical flow
@@ -142,7 +142,7 @@ def _free(discovery: Discovery) -> Summary:
 
 
 def _over_energy(
-    brackets: Brackets, everything: list[int], points: int, energy: int | None
+    brackets: ChargeBrackets, everything: list[int], points: int, energy: int | None
 ) -> tuple[int, str | None]:
     """The algebra where coefficients depend on the energy (Kepler's); else of the points."""
     if energy is not None and all(brackets.commute(energy, k) for k in everything):
@@ -156,7 +156,7 @@ def _over_energy(
 
 
 def _name(
-    brackets: Brackets, chosen: Sequence[int], structure: Structure, energy: int | None = None
+    brackets: ChargeBrackets, chosen: Sequence[int], structure: Structure, energy: int | None = None
 ) -> str | None:
     """The name of the algebra; None where it is another one for other parameters."""
     name = name_of(structure)
@@ -178,7 +178,7 @@ def _squares(discovery: Discovery) -> list[Expr]:
               and discovery.system.t not in c.charge.free_symbols]  # fmt: skip
     if len(linear) < 3 or len(linear) > _MOST_FOR_SQUARES:
         return []
-    brackets = Brackets(linear, discovery.dynamics, Allowance())
+    brackets = ChargeBrackets(linear, discovery.dynamics, Allowance())
     found = []
     for triple in combinations(range(len(linear)), 3):
         structure = brackets.structure(triple)

@@ -42,7 +42,7 @@ from lagcli.numerics.certified.scales import (
     relative,
 )
 from lagcli.numerics.hybrid.run import Run
-from lagcli.numerics.integrators.steps import DEPENDENT, Explained, component_scales
+from lagcli.numerics.integrators.steps import DEPENDENT, StopWithReason, component_scales
 from lagcli.record import record, replace
 
 #: The runs' tolerances lie this far apart.
@@ -437,5 +437,5 @@ def ended(outcome: Outcome, place: RankPlace) -> Outcome:
     if good == outcome.good_rows:
         return outcome
     at, last = (place.begin + place.end) / 2, run.marks[good - 1]
-    run.stop = Explained(at, last.q, last.v, DEPENDENT)
+    run.stop = StopWithReason(at, last.q, last.v, DEPENDENT)
     return replace(outcome, reached=False, good_rows=good, reason=DEPENDENT)

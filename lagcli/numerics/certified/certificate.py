@@ -17,7 +17,7 @@ from lagcli.numerics.hybrid.events import Event
 from lagcli.numerics.hybrid.result import Certificate, Result
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.hybrid.setup import Setup
-from lagcli.numerics.integrators.steps import CannotGoOn, Explained, Grazes
+from lagcli.numerics.integrators.steps import CannotGoOn, Grazes, StopWithReason
 from lagcli.record import replace
 
 #: A motion that is known up to this part of the time at which its run stops, stops there.
@@ -210,7 +210,7 @@ def _is_known(outcome: Outcome, holds_until: float) -> bool:
 
 def why_stopped(motion: Motion, stop: CannotGoOn) -> str:
     """What ends the motion."""
-    if isinstance(stop, Explained):
+    if isinstance(stop, StopWithReason):
         return stop.reason
     names = [q.name for q in motion.equations.q]
     try:

@@ -22,7 +22,7 @@ from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.contact import with_contacts
 from lagcli.numerics.equations.coupling import coupling, groups
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.reduced_model import MOST, Reduction, cut
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import RunRequest
@@ -50,7 +50,7 @@ def model_section(problem: Problem) -> ModelSection:
 class _Model:
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
-        self.equations = e = Equations(with_contacts(problem))
+        self.equations = e = EquationsOfMotion(with_contacts(problem))
         self.constants = self._numbers()
         names = {name.name for name in problem.initial}
         given = frozenset(j for j, symbol in enumerate(e.q) if symbol.name in names)

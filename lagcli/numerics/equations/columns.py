@@ -16,7 +16,7 @@ from typing import Any
 from lagcli.expression import Expression, Name
 from lagcli.graph.nodes import Node, Symbol, mask_of
 from lagcli.graph.substitution import Substitution
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.motion import Function, Motion
 from lagcli.problem_data import JACOBI_FUNCTION
 
@@ -31,7 +31,7 @@ ENERGY = Name("energy")
 class Reading:
     """Turns expressions of the grammar into nodes of the equations' graph."""
 
-    def __init__(self, equations: Equations) -> None:
+    def __init__(self, equations: EquationsOfMotion) -> None:
         self.equations = equations
         graph = equations.graph
         self.accelerations = tuple(graph.symbol(q.name, 2) for q in equations.q)

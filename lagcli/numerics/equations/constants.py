@@ -7,14 +7,14 @@ from typing import Any
 from lagcli.diagnostics import Diagnostic
 from lagcli.graph.nodes import Node, Symbol, mask_of, with_values
 from lagcli.numerics.equations.arithmetic import Arithmetic
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.problem_data import Parameter
 
 
 def constants_of(
-    equations: Equations, wanted: list[Node], arithmetic: Arithmetic
+    equations: EquationsOfMotion, wanted: list[Node], arithmetic: Arithmetic
 ) -> dict[Symbol, Any]:
     """The values of the parameters that occur in nodes, and of those that these need.
 

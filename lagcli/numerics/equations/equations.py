@@ -33,7 +33,7 @@ _OF_ROWS = (
 )  # fmt: skip
 
 
-class Equations:
+class EquationsOfMotion:
     """M, forcing, A and what is eliminated from them.
 
     Parameters
@@ -61,7 +61,10 @@ class Equations:
     """
 
     def __init__(
-        self, problem: Problem, whole: Equations | None = None, held: frozenset[int] | None = None
+        self,
+        problem: Problem,
+        whole: EquationsOfMotion | None = None,
+        held: frozenset[int] | None = None,
     ) -> None:
         self.problem = problem
         self.whole = whole or self
@@ -96,24 +99,24 @@ class Equations:
             k for k, row in enumerate(self.constraints) if row.position is not None
         )
 
-    def holding(self, held: frozenset[int]) -> Equations:
+    def holding(self, held: frozenset[int]) -> EquationsOfMotion:
         """The equations while only these constraints act."""
-        return Equations(self.problem, self.whole, held)
+        return EquationsOfMotion(self.problem, self.whole, held)
 
-    def without_implied(self, independent: Sequence[int]) -> Equations:
+    def without_implied(self, independent: Sequence[int]) -> EquationsOfMotion:
         """The equations with these rows, which imply all others."""
         fewer = self._without_rows()
         fewer.hold({k: self.constraints[k] for k in independent}, self.declared)
         return fewer
 
-    def _without_rows(self) -> Equations:
+    def _without_rows(self) -> EquationsOfMotion:
         """A copy for which nothing is worked out of the constraints yet."""
         other = copy(self)
         for name in _OF_ROWS:
             other.__dict__.pop(name, None)
         return other
 
-    def sticking(self, k: int) -> Equations:
+    def sticking(self, k: int) -> EquationsOfMotion:
         """The equations while a switching function s(t, q, q') stays at 0, as a constraint."""
         graph, s = self.graph, self.kinks[k]
         row = tuple(partial(graph, v)(s) for v in self.qdot)

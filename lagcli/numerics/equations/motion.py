@@ -13,7 +13,7 @@ from typing import Any
 
 from lagcli.graph.nodes import Node, Symbol, mask_of
 from lagcli.numerics.equations.arithmetic import Arithmetic, UndefinedFunction
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.null_space import Held, held_motion
 from lagcli.numerics.equations.refusal import Refusal, reason_of
 from lagcli.numerics.equations.regular import regular_motion
@@ -54,7 +54,7 @@ class Motion:
 
     def __init__(
         self,
-        equations: Equations,
+        equations: EquationsOfMotion,
         constants: Mapping[Symbol, Any],
         arithmetic: Arithmetic,
         signs: list[float] | None = None,

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from lagcli.expression import Expression
 from lagcli.numerics.equations.arithmetic import Doubles, UndefinedFunction
 from lagcli.numerics.equations.constants import constants_of
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.refusal import Refusal, reason_of
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.problem_data import Problem
@@ -23,7 +23,7 @@ def numbers_of(
     Refusal
         Where a parameter has no value, or a formula is not defined.
     """
-    equations = Equations(problem)
+    equations = EquationsOfMotion(problem)
     nodes = [equations.form.read(formula) for formula in formulas]
     arithmetic = Doubles()
     constants = constants_of(equations, nodes, arithmetic)

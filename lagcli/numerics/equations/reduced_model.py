@@ -31,7 +31,7 @@ from lagcli.graph.nodes import Node, Symbol, ancestry, mask_of
 from lagcli.graph.substitution import Substitution
 from lagcli.mechanics.rates import ConstraintRow
 from lagcli.numerics.equations.coupling import coupling, needed
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.record import record
 
 #: More coordinates than these are held by their constraints as they are: eliminated, they
@@ -65,7 +65,7 @@ class Reduction:
 
     def __init__(
         self,
-        equations: Equations,
+        equations: EquationsOfMotion,
         constants: Mapping[Symbol, Any],
         wanted: frozenset[int],
         most: int | None = None,
@@ -245,7 +245,7 @@ class Reduction:
         return needed(*coupling(self.graph, q, mass, forcing, rows.values()), request)
 
 
-class CutEquations(Equations):
+class CutEquations(EquationsOfMotion):
     """The equations of some of the coordinates.
 
     Parameters
@@ -280,14 +280,14 @@ class CutEquations(Equations):
         }
         self.hold(held, e.declared)
 
-    def holding(self, held: frozenset[int]) -> Equations:
+    def holding(self, held: frozenset[int]) -> EquationsOfMotion:
         """The same: what is cut has no contacts."""
         del held
         return self
 
 
 def cut(
-    equations: Equations,
+    equations: EquationsOfMotion,
     constants: Mapping[Symbol, Any],
     request: Sequence[Node],
     given: frozenset[int],
@@ -319,7 +319,7 @@ def cut(
     return reduced, reduction
 
 
-def operations(equations: Equations) -> int:
+def operations(equations: EquationsOfMotion) -> int:
     """Of one evaluation of the accelerations; many, where they are left to loops."""
     eliminated = equations.eliminated
     if eliminated is None:

@@ -23,7 +23,7 @@ from lagcli.numerics.equations.assembly import assemblies
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.contact import with_contacts
 from lagcli.numerics.equations.determined import determined
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.polynomial import real_roots
 from lagcli.numerics.equations.refusal import Refusal, reason_of
@@ -89,7 +89,7 @@ def completed_state(problem: Problem) -> dict[str, float]:
     Refusal
         As `initial_state`, or when a parameter that is needed has no value.
     """
-    e = Equations(with_contacts(problem))
+    e = EquationsOfMotion(with_contacts(problem))
     if problem.contacts:
         e = e.holding(frozenset(range(len(problem.constraints))))
     entries = [entry for row in (*e.mass, *e.rows) for entry in row]

@@ -17,7 +17,7 @@ from typing import Any
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Constant, Graph, Node, Product, Sum, Symbol
 from lagcli.numerics.equations.arithmetic import Doubles
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.hybrid.mark import Mark
@@ -128,7 +128,7 @@ class Sizes:
     """
 
     def __init__(
-        self, equations: Equations, charges: Sequence[Node], constants: Mapping[Symbol, Any]
+        self, equations: EquationsOfMotion, charges: Sequence[Node], constants: Mapping[Symbol, Any]
     ) -> None:
         self._charges = len(charges)
         known: dict[Node, Node] = {}

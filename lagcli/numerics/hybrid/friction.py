@@ -20,7 +20,7 @@ from typing import Any
 from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Symbol
 from lagcli.numerics.equations.arithmetic import Arithmetic
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.motion import Function, Motion
 from lagcli.numerics.equations.null_space import NoMass, held_motion, solved
 
@@ -45,7 +45,7 @@ class StuckMotion(Motion):
 
     def __init__(
         self,
-        equations: Equations,
+        equations: EquationsOfMotion,
         constants: Mapping[Symbol, Any],
         arithmetic: Arithmetic,
         signs: list[float],

@@ -18,9 +18,9 @@ from lagcli.numerics.integrators.sight import seen_steps
 from lagcli.numerics.integrators.steps import (
     SMALL,
     CannotGoOn,
-    Explained,
     Method,
     Step,
+    StopWithReason,
     Stretch,
     Tolerance,
     component_scales,
@@ -184,7 +184,7 @@ class Run:
             recent = self._changes[-_AT_ONCE:]
             if len(recent) == _AT_ONCE and recent[0] == t:
                 reason = "event follows event without time passing"
-                raise Explained(t, turn.q, turn.v, reason)
+                raise StopWithReason(t, turn.q, turn.v, reason)
         surface = turn.mode.surface()
         if surface is not None:
             surface.measure(t, turn.q, turn.v)
@@ -331,7 +331,7 @@ class Run:
             self._progress(step.end / self._times[-1])
         if self.steps >= self.step_limit:
             reason = f"it takes more than {self.step_limit:,} steps"
-            raise Explained(step.end, step.q, step.v, reason)
+            raise StopWithReason(step.end, step.q, step.v, reason)
 
     def _errors(self) -> list[float]:
         """What each component may err by."""

@@ -10,7 +10,7 @@ from typing import Any
 from lagcli.graph.nodes import Node
 from lagcli.numerics.equations.columns import Reading
 from lagcli.numerics.equations.contact import OneSided, one_sided, with_contacts
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.equations.straight_line import straight_line
 from lagcli.numerics.hybrid.request import RunRequest
@@ -56,7 +56,7 @@ class Setup:
     problem: Problem
     request: RunRequest
     whole: Problem
-    equations: Equations
+    equations: EquationsOfMotion
     reading: Reading
     given: frozenset[int]
     contacts: Mapping[int, OneSided]
@@ -129,7 +129,7 @@ def setup_of(problem: Problem, request: RunRequest) -> Setup:
         When a column is not defined.
     """
     whole = with_contacts(problem)
-    equations = Equations(whole)
+    equations = EquationsOfMotion(whole)
     reading = Reading(equations)
     contacts = one_sided(whole, len(problem.constraints))
     try:
@@ -160,7 +160,7 @@ def setup_of(problem: Problem, request: RunRequest) -> Setup:
         raise Refusal(f"a column is not defined: {error}") from None
 
 
-def _gaps(equations: Equations, contacts: Mapping[int, OneSided]) -> dict[int, Node]:
+def _gaps(equations: EquationsOfMotion, contacts: Mapping[int, OneSided]) -> dict[int, Node]:
     """Of the contacts that can be open."""
     gaps = {}
     for k, contact in contacts.items():

@@ -13,7 +13,7 @@ from typing import Any
 
 from lagcli.numerics.compiled.machine import Machine
 from lagcli.numerics.equations.coupling import coupling, groups
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.reduced_model import CutEquations, Reduction, operations
 from lagcli.numerics.equations.surface import Surface
@@ -35,7 +35,7 @@ _MAKING, _PAYS = 4e6, 0.8
 MakeMachine = Callable[[Motion], Machine | str]
 
 
-def subsystems(equations: Equations) -> list[CutEquations]:
+def subsystems(equations: EquationsOfMotion) -> list[CutEquations]:
     """The parts that move without each other; none where all is coupled."""
     e = equations
     found = groups(*coupling(e.graph, e.q, e.mass, e.forcing, e.constraints))
@@ -50,7 +50,7 @@ def subsystems(equations: Equations) -> list[CutEquations]:
 
 
 @record
-class Part:
+class Subsystem:
     """A subsystem and its machine code."""
 
     equations: CutEquations
@@ -73,7 +73,7 @@ class Apart:
         Two or more.
     """
 
-    def __init__(self, mode: Mode, parts: Sequence[Part]) -> None:
+    def __init__(self, mode: Mode, parts: Sequence[Subsystem]) -> None:
         self.mode, self.parts = mode, parts
 
     def go(
@@ -186,7 +186,7 @@ def apart(
         own = make(motion)
         if isinstance(own, str):
             return None
-        parts.append(Part(equations, motion, own))
+        parts.append(Subsystem(equations, motion, own))
     return Apart(mode, parts)
 
 

@@ -12,7 +12,7 @@ from lagcli.numerics.hybrid.events import Event, Occurrence
 from lagcli.numerics.hybrid.friction import StuckMotion, stopped
 from lagcli.numerics.hybrid.impact import UNRESOLVED, Hinge, flight_of, rests
 from lagcli.numerics.hybrid.modes import Mode, Modes
-from lagcli.numerics.integrators.steps import Explained, Grazes
+from lagcli.numerics.integrators.steps import Grazes, StopWithReason
 from lagcli.record import field, record
 
 Vector = list[Any]
@@ -185,7 +185,7 @@ class Transitions:
             hinge = self._hinge(t, q, v)
         carried = hinge.carried(always, candidates)
         if carried is None:
-            raise Explained(t, q, v, "a force that contacts share is not determined")
+            raise StopWithReason(t, q, v, "a force that contacts share is not determined")
         if (gone := self._stopping((candidates & held) - carried)) is not None:
             return Turn(q=q, v=v, mode=None, events=(Event(t, gone, "contact lost"),))
         if lost is not None:
@@ -225,7 +225,7 @@ class Transitions:
         ratio = {k: self._restitution(k) if k in struck else 0.0 for k in struck | closed}
         found = hinge.struck(v, always, ratio)
         if found is None:
-            raise Explained(t, q, v, "an impact of several contacts is not determined")
+            raise StopWithReason(t, q, v, "an impact of several contacts is not determined")
         after = self._hinge(t, q, found[0])
         limit = {k: _STANDS * max(after.speeds[k], hinge.speeds[k]) for k in ratio}
         resting: dict[int, float] = {}

@@ -17,10 +17,10 @@ from lagcli.numerics.equations.refusal import reason_of
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.steps import (
     CannotGoOn,
-    Explained,
     Inside,
     Step,
     StepSize,
+    StopWithReason,
     Stretch,
     Tolerance,
 )
@@ -146,7 +146,7 @@ class Controlled(ABC):
                 if shorter is not None:  # the step is made again, up to the kink
                     size.h = shorter
                     if kinks.stuck(t + shorter, until):
-                        raise Explained(t, *state[:2], kinks.why())
+                        raise StopWithReason(t, *state[:2], kinks.why())
                     continue
             start, t = t, until if last else t + h
             state = q, v, rate

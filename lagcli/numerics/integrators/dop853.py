@@ -26,10 +26,10 @@ from lagcli.numerics.integrators.controlled import Controlled, State, Trial
 from lagcli.numerics.integrators.steps import (
     DEPENDENT,
     SINGULAR_MASS,
-    Explained,
     Inside,
     Method,
     MotionOfMode,
+    StopWithReason,
     moved,
 )
 from lagcli.numerics.integrators.tableau_853 import DENSE, ERROR_3, ERROR_5, NODES, STAGES, Row
@@ -80,11 +80,11 @@ class Dop853(Controlled):
         (mass, held), (q, v, _) = self.motion.pivots, state
         whole = mass(t, *q, *v)
         if any(abs(x) < _SINGULAR * abs(y) for x, y in zip(whole[::2], whole[1::2], strict=True)):
-            raise Explained(t, q, v, SINGULAR_MASS)
+            raise StopWithReason(t, q, v, SINGULAR_MASS)
         q_0, v_0, _, t_0 = self.stretch
         both = zip(held(t, *q, *v)[::2], held(t_0, *q_0, *v_0)[::2], strict=True)
         if any(abs(x) < _SINGULAR * abs(y) for x, y in both):
-            raise Explained(t, q, v, DEPENDENT)
+            raise StopWithReason(t, q, v, DEPENDENT)
 
     def tried(self, t: float, h: float, state: State) -> Trial:
         """A step."""

@@ -22,9 +22,9 @@ from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.dop853 import added
 from lagcli.numerics.integrators.steps import (
     CannotGoOn,
-    Explained,
     Inside,
     Step,
+    StopWithReason,
     Stretch,
     Tolerance,
     moved,
@@ -129,7 +129,7 @@ class FixedStep(ABC):
                 break
             h /= 2
         else:
-            raise Explained(begin, q, v, "it takes steps too short for one length")
+            raise StopWithReason(begin, q, v, "it takes steps too short for one length")
         return h, error if error > _ROUNDING else 0.0
 
     def _largest(self, stretch: Stretch, h: float) -> float:

@@ -107,11 +107,11 @@ class CannotGoOn(ArithmeticError):
         self.t, self.q, self.v, self.reason = float(t), list(q), list(v), reason
 
 
-class Explained(CannotGoOn):
+class StopWithReason(CannotGoOn):
     """The reason says all: the accelerations have nothing to add."""
 
 
-class Grazes(Explained):
+class Grazes(StopWithReason):
     """Whether a contact is struck is within the error."""
 
 

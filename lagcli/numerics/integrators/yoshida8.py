@@ -13,7 +13,7 @@ Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2nd ed., section V.3.
 from __future__ import annotations
 
 from lagcli.graph.nodes import mask_of
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.surface import Surface
 from lagcli.numerics.integrators.fixed_step import FixedStep, Vector
 from lagcli.numerics.integrators.steps import Method, MotionOfMode
@@ -54,7 +54,7 @@ class Yoshida8(FixedStep):
         return [*moved_q, *moved_v]
 
 
-def separates(equations: Equations) -> bool:
+def separates(equations: EquationsOfMotion) -> bool:
     """Whether q'' is a function of t and q: M constant, no force of q', no constraint."""
     mass = mask_of(entry for row in equations.mass for entry in row)
     return (

@@ -10,7 +10,7 @@ from lagcli.graph.derivative import partial
 from lagcli.graph.nodes import Call, Node, ancestry, mask_of
 from lagcli.graph.substitution import Substitution
 from lagcli.numerics.equations.columns import Values
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.setup import Setup
@@ -345,7 +345,7 @@ def _sign_of(x: Any) -> int:
     return 1 if x > 0 else -1 if x < 0 else 0
 
 
-def _without(equations: Equations, implied: frozenset[int]) -> Equations:
+def _without(equations: EquationsOfMotion, implied: frozenset[int]) -> EquationsOfMotion:
     if not implied:
         return equations
     kept = [place for k, place in equations.place.items() if k not in implied]

@@ -64,7 +64,7 @@ def prove(
     problem: Problem,
     request: RunRequest,
     progress: Progress = None,
-    attempts: type[Attempt] | None = None,
+    attempts: type[ProofAttempt] | None = None,
     work: float = _WORK,
 ) -> Proof:
     """Enclose a motion.
@@ -78,7 +78,7 @@ def prove(
     progress : function, optional
         Called with the part of the span that is enclosed.
     attempts : type, optional
-        `Attempt`, or `Shadowing`.
+        `ProofAttempt`, or `Shadowing`.
     work : float
         The most that is done, in the unit of _WORK.
 
@@ -99,7 +99,7 @@ def prove(
     bits = _BITS
     last = 0.0
     while True:
-        kind = attempts or Attempt
+        kind = attempts or ProofAttempt
         with ctx.workprec(bits + _GUARD):
             attempt = kind(setup, implied, bits, work, progress)
             found = attempt.proof()
@@ -111,7 +111,7 @@ def prove(
         last = 0.0 if attempt.short or attempt.excess > 1 else attempt.last
 
 
-class Attempt:
+class ProofAttempt:
     """One proof at a given precision, with the order that suits it."""
 
     def __init__(

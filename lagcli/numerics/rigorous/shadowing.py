@@ -35,7 +35,7 @@ from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.rigorous.enclosure import NotEnclosed, ShortSteps
 from lagcli.numerics.rigorous.modes import ProofMode
 from lagcli.numerics.rigorous.piece import Piece
-from lagcli.numerics.rigorous.proof import Attempt
+from lagcli.numerics.rigorous.proof import ProofAttempt
 from lagcli.numerics.rigorous.sets import LohnerSet, orthonormal
 from lagcli.record import record
 
@@ -66,7 +66,7 @@ class SplitStep:
     map: Any
 
 
-class Shadowing(Attempt):
+class Shadowing(ProofAttempt):
     """A shadow of one pseudo-orbit, at a given precision."""
 
     def _go(self) -> None:

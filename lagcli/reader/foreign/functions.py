@@ -8,7 +8,7 @@ from abc import abstractmethod
 from lagcli.expression import FUNCTIONS
 from lagcli.reader.foreign.sums import Part, Sums, raised
 from lagcli.reader.foreign.tokens import SIGNS, Token
-from lagcli.reader.foreign.words import Unclear, function_named
+from lagcli.reader.foreign.words import UnclearText, function_named
 from lagcli.reader.habits import POWERS, RATES, SQUARES, habits
 
 
@@ -34,14 +34,14 @@ class Functions(Sums):
         if power == "(-1)":
             function, power = f"a{function}", ""
             if function not in FUNCTIONS:
-                raise Unclear
+                raise UnclearText
         part = self.applied(function) if self.sign() == "(" else self.without_brackets(function)
         return Part(f"{part.text}^{power}", 2) if power else part
 
     def applied(self, function: str) -> Part:
         """A function with its arguments in brackets."""
         if self.sign() != "(":
-            raise Unclear
+            raise UnclearText
         arguments = self.arguments()
         if function == "atan" and len(arguments) == 2:
             function = "atan2"
@@ -55,17 +55,17 @@ class Functions(Sums):
         token = self.peek()
         if not self.is_name(token):
             if not text:
-                raise Unclear
+                raise UnclearText
             return Part(f"{function}({text[:-1]})", 3, is_call=True)
         part = self.power()
         if part.level < 3 or self.sign() in {"/", "^"} or (text and function == "sqrt"):
-            raise Unclear  # sin x^2, sin x/2
+            raise UnclearText  # sin x^2, sin x/2
         text += part.text
         time = self.peek()
         if time is not None and time.text == "t" and part.text not in self.names.coordinates:
             text += f"*{self.power().text}"  # cos ωt
         if part.text.rstrip("'") not in self.names.coordinates and self.is_name(self.peek()):
-            raise Unclear  # cos a x
+            raise UnclearText  # cos a x
         return Part(f"{function}({text})", 3, is_call=True)
 
     def is_name(self, token: Token | None) -> bool:
@@ -106,7 +106,7 @@ class Functions(Sums):
         """A function of other programs."""
         arguments = self.arguments()
         if not arguments:
-            raise Unclear
+            raise UnclearText
         grouped = [each if re.fullmatch(r"[\w.]+'*", each) else f"({each})" for each in arguments]
         if word in RATES:
             x = arguments[0]
@@ -128,7 +128,7 @@ class Functions(Sums):
             return Part(f"{grouped[0]}^{grouped[1]}", 2)
         form = habits()["written_out"].get(word, "")
         if len(set(re.findall(r"{\d}", form))) != len(arguments):
-            raise Unclear
+            raise UnclearText
         text = form.format(*(grouped if re.search(r"}[*^]|[/^]{", form) else arguments))
         if form == "{0}" and re.fullmatch(r"[\w.]+", text):
             return Part(text, 3)
@@ -140,7 +140,7 @@ class Functions(Sums):
     def partial(self, word: str, arguments: list[str]) -> Part:
         """A derivative by a name other than t."""
         if word not in {"diff", "D"} or len(arguments) != 2 or arguments[1] == "t":
-            raise Unclear
+            raise UnclearText
         return Part(f"diff({arguments[0]}, {arguments[1]})", 3, is_call=True)
 
     def order(self, arguments: list[str]) -> int:
@@ -149,7 +149,7 @@ class Functions(Sums):
             return max(1, len(arguments))
         if len(arguments) == 2 and arguments[0] == "t" and arguments[1].isdigit():
             return int(arguments[1])
-        raise Unclear
+        raise UnclearText
 
     def exponential(self) -> Part:
         """`exp(-a*x)` for e^(-a x)."""
@@ -157,7 +157,7 @@ class Functions(Sums):
         power = self.exponent()
         following = self.peek()
         if following is not None and not following.apart and self.begins(following):
-            raise Unclear  # e^2x
+            raise UnclearText  # e^2x
         return Part(f"exp({bare_text(power)})", 3, is_call=True)
 
     def called_by_time(self) -> bool:

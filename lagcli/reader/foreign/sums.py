@@ -8,7 +8,7 @@ from math import factorial
 from typing import NamedTuple
 
 from lagcli.reader.foreign.tokens import SIGNS, Token, prepared, tokens
-from lagcli.reader.foreign.words import Unclear, Vocabulary
+from lagcli.reader.foreign.words import UnclearText, Vocabulary
 from lagcli.reader.habits import fraction, superscript
 
 #: What stands behind an angle or a ratio, and what it multiplies it by.
@@ -50,10 +50,10 @@ class Sums(ABC):
         while self.sign() in {"=", ">=", "<=", ">", "<"}:
             sides += [self.take().text, self.sum().text]
         if self.at < len(self.tokens):
-            raise Unclear
+            raise UnclearText
         text = " ".join(SIGNS.get(each, each) for each in sides)
         if self.by_letter & {*re.findall(r"\b\w+\b(?!')", text)}:
-            raise Unclear  # ω beside θ may be a parameter
+            raise UnclearText  # ω beside θ may be a parameter
         return text
 
     # What comes next.
@@ -74,14 +74,14 @@ class Sums(ABC):
         """The next token, which is passed."""
         token = self.peek()
         if token is None:
-            raise Unclear
+            raise UnclearText
         self.at += 1
         return token
 
     def closed(self, sign: str) -> None:
         """Pass this sign."""
         if self.sign() != sign:
-            raise Unclear
+            raise UnclearText
         self.at += 1
 
     # Sums, products and powers.
@@ -123,7 +123,7 @@ class Sums(ABC):
                     or (token.apart and (self.sign() == "(" or "*" not in text.partition("/")[0]))
                 )
                 if token.kind == "number":
-                    raise Unclear  # x'2
+                    raise UnclearText  # x'2
                 part = self.power()
                 factor = part.text if _is_names(part.text) else part.within(2)
                 if not over or tells:
@@ -133,7 +133,7 @@ class Sums(ABC):
                     head = text[: len(text) - len(last.within(2))]
                     text = f"{head}({last.text}*{factor})"  # p^2/2m
                 else:
-                    raise Unclear
+                    raise UnclearText
             else:
                 return Part(text, level, first.is_call if level == 3 else False)
             last, level = part, 1
@@ -167,7 +167,7 @@ class Sums(ABC):
                 base = Part(base.text + _BEHIND[token.text], 1 if _BEHIND[token.text] else 3)
                 following = self.peek()
                 if "/100" in base.text and following is not None and self.begins(following):
-                    raise Unclear  # x % 2, or a comment of TeX
+                    raise UnclearText  # x % 2, or a comment of TeX
             else:
                 return base
 
@@ -177,7 +177,7 @@ class Sums(ABC):
         self.at += minus
         part = self.atom()
         if self.sign() == "^":
-            raise Unclear
+            raise UnclearText
         return f"(-{part.within(2)})" if minus else part.within(3)
 
     def primes(self) -> int:
@@ -192,7 +192,7 @@ class Sums(ABC):
         """`x'` for (x)' and x^2'."""
         primes = self.primes()
         if primes and not re.fullmatch(r"\w+'*", part.text):
-            raise Unclear
+            raise UnclearText
         return part._replace(text=part.text + "'" * primes)
 
     @abstractmethod
@@ -216,7 +216,7 @@ def raised(text: str) -> str:
     minus, digits = text.startswith("⁻"), text.lstrip("⁻")
     power = superscript(digits)
     if not power:
-        raise Unclear
+        raise UnclearText
     return f"^(-{power[1:]})" if minus else power
 
 

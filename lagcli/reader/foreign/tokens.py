@@ -8,7 +8,7 @@ from html import unescape
 from typing import NamedTuple
 
 from lagcli.notation.greek import BY_LETTER, BY_NAME
-from lagcli.reader.foreign.words import Unclear, Vocabulary, parts_of
+from lagcli.reader.foreign.words import UnclearText, Vocabulary, parts_of
 from lagcli.reader.habits import REMARK, unit_behind
 
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻½⅓⅔¼¾⅛"
@@ -84,9 +84,9 @@ def prepared(text: str, names: Vocabulary) -> str:
         text = words.sub(f" {sign} ", text)
     behind = re.search(r"\[([^\[\]]+)\]\s*$", text)
     if behind and unit_behind(f"1 {behind[1]}"):
-        raise Unclear  # m*g*y [J]
+        raise UnclearText  # m*g*y [J]
     if _NO_FORMULA.search(text) or REMARK.search(text):
-        raise Unclear
+        raise UnclearText
     if "arc" not in names.known:
         text = re.sub(r"\b(ar[ck]?)\s+(?=(?:sin|cos|tan|cot)h?\b)", "arc", text)
     text = "".join(map(_on_the_keyboard, _RATE_OF_VECTOR.sub(r"\\vec{v}", text)))

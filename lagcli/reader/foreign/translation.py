@@ -7,7 +7,7 @@ import re
 from lagcli.reader.foreign.functions import Functions, bare
 from lagcli.reader.foreign.sums import Part
 from lagcli.reader.foreign.tokens import SIGNS, Token
-from lagcli.reader.foreign.words import VELOCITIES, Unclear, Vocabulary, function_named, meant
+from lagcli.reader.foreign.words import VELOCITIES, UnclearText, Vocabulary, function_named, meant
 from lagcli.reader.habits import CASES, foreign_function, fraction
 
 _DEEPEST = 30
@@ -33,7 +33,7 @@ class _Translation(Functions):
         """A number, a name, a call or a group."""
         self.depth += 1
         if self.depth > _DEEPEST:
-            raise Unclear
+            raise UnclearText
         token = self.take()
         part = self._atom(token)
         self.depth -= 1
@@ -60,13 +60,13 @@ class _Translation(Functions):
             return Part(f"abs({inner.text})", 3, is_call=True)
         if sign == "√":
             return Part(f"sqrt({bare(self.atom())})", 3, is_call=True)
-        raise Unclear
+        raise UnclearText
 
     def number(self, token: Token) -> Part:
         """With a decimal point, without groups of digits, and e for 6.67d-11 and 6.67*^-11."""
         text = re.sub(r"[dD]|\*\^", "e", re.sub(r"[' _fF]", "", token.text)).removesuffix("e0")
         if "," in text and self.depth > 1:
-            raise Unclear  # f(1,234.5)
+            raise UnclearText  # f(1,234.5)
         if "," in text and text.index(",") < text.find("."):  # 1,234.5
             text = text.replace(",", "")
         elif "," in text:  # 1.234,5
@@ -75,7 +75,7 @@ class _Translation(Functions):
         if comma is None or comma.text != "," or self.depth > 1 or "." in text or digits is None:
             return Part(text, 3)
         if digits.kind != "number" or digits.apart or len(digits.text) == 3:
-            raise Unclear
+            raise UnclearText
         self.at += 2
         return Part(f"{text}.{digits.text}", 3)
 
@@ -125,7 +125,7 @@ class _Translation(Functions):
     def named(self, word: str, primes: int = 0) -> Part:
         """A name with its primes and arguments."""
         if word in CASES or (word == "Σ" and word not in self.names.known):
-            raise Unclear
+            raise UnclearText
         primes += self.primes()
         function = function_named(word, self.names)
         if function and not primes:
@@ -147,7 +147,7 @@ class _Translation(Functions):
             self.by_letter.add(name)
         if self.called_by_time():
             if name not in self.names.dependent or (more and "dot" not in word):
-                raise Unclear
+                raise UnclearText
             primes += self.primes()
         while self.sign() == "." and (method := self.peek(1)) and method.text in METHODS:
             self.at += 2
@@ -173,10 +173,10 @@ class _Translation(Functions):
         if self.sign() != "(" or opening is None or opening.apart or inside is None:
             return
         if word not in self.names.known and len(word) > 2:
-            raise Unclear
+            raise UnclearText
         alone = self.sign(2) == ")"
         if alone != (inside.text == "t") and (alone or word in self.names.coordinates):
-            raise Unclear
+            raise UnclearText
 
 
 def _indexed(name: str) -> str:

@@ -24,7 +24,7 @@ VELOCITIES = frozenset({"v", "velocity", "speed", "omega", "ω"})
 _LONGEST, _LETTERS = 40, 8
 
 
-class Unclear(Exception):
+class UnclearText(Exception):
     """The text means nothing that is known, or may mean two things."""
 
 

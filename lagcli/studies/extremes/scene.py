@@ -12,7 +12,7 @@ from lagcli.graph.nodes import Node, Symbol, mask_of, with_values
 from lagcli.numerics.equations.arithmetic import Balls, Doubles
 from lagcli.numerics.equations.constants import constants_of
 from lagcli.numerics.equations.contact import with_contacts
-from lagcli.numerics.equations.equations import Equations
+from lagcli.numerics.equations.equations import EquationsOfMotion
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.null_space import held_motion
 from lagcli.numerics.equations.refusal import Refusal
@@ -72,7 +72,7 @@ class ExtremeScene:
     def __init__(self, problem: Problem, state: tuple[Vector, Vector] | None = None) -> None:
         self.problem = problem
         given = frozenset(range(len(problem.constraints)))
-        whole = Equations(with_contacts(problem))
+        whole = EquationsOfMotion(with_contacts(problem))
         self.equations = e = whole if not problem.contacts else whole.holding(given)
         parameters: list[Node] = [e.graph.symbol(p.name) for p in problem.parameters]
         self.constants: Mapping[Symbol, float] = constants_of(e, parameters, Doubles())
