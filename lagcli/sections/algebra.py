@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
 
 #: Names of algebras that are the same for frequencies that are not real.
-_AS_WELL = ("R^", "Heisenberg", "Galilei")
+_AS_WELL = ("R^", "R with", "Heisenberg", "Galilei")
 
 
 def derive(statements: Statements) -> AlgebraSection | None:

@@ -71,6 +71,8 @@ def test_sheared_by_any_power_a_plane_is_flat(power):
 CHANGING = (
     "(1 + {a}*t)*x'^2/2",
     "x'^2/2 - {a}*x^2/(2*(1 + {b}*t)^2)",
+    "x'^2/2 - {a}*x^2/(2*(1 + {b}*t)^4)",
+    "x'^2/2 + {a}*x^2/(2*(3 + {b}*t)^4)",
     "cosh({a}*t)^2*x'^2/2",
     "exp({a}*t)*(x'^2/2 - {a}*x^2 + {b}*x*exp(-{b}*t))",
 )

@@ -208,6 +208,8 @@ CHANGING = {
     "t^4*x'^2/2 - 35*t^2*x^2/32": "Euler, with a growing mass",
     "m*(x'^2/2 + 5*x^2/(2*(2*t + 3)^2))": "Euler, irrational powers",
     "t^3*(m*x'^2/2 - k*x^2/(2*t^2))": "Euler, any strength",
+    "m*x'^2/2 - k*x^2/(2*t^4)": "inverted time",
+    "t*(m*x'^2/2 - k*x^2/(2*t^4) + m*x^2/(8*t^2))": "the same, with a growing mass",
 }
 
 

@@ -14,6 +14,7 @@ Levy-Leblond, *Group Theory and its Applications* II (1971) 221 (Galilei).
 
 from __future__ import annotations
 
+import random
 from collections.abc import Sequence
 
 import mpmath
@@ -24,6 +25,7 @@ from lagcli.algebra.row_rank import rank
 from lagcli.mechanics.discovery.brackets import Structure, Vector
 
 _SMALL = mpf(10) ** -12  # measured: zeros are below 4e-38, others above 4e-1
+_OF_BLOCK = mpf(10) ** -8  # an eigenvalue 0 of a Jordan block of 3 is 1e-17
 #: What stands after the name of an algebra that contains the constants beside its generators.
 MODULO_CONSTANTS = ", modulo constants"
 #: Algebras with a centre that the constants make up: dimensions 2 d + 1 of h(d), and so on.
@@ -104,7 +106,61 @@ def _name(C: list[list[Vector]], central: Sequence[Vector]) -> str | None:
         quotient = _without(C, central, centre)
         inner = _name(*quotient)
         return None if inner is None else f"{inner} + {_abelian(len(centre))}"
-    return _direct_sum(C, central)
+    return _direct_sum(C, central) or _with_translations(C, central)
+
+
+def _with_translations(C: list[list[Vector]], central: Sequence[Vector]) -> str | None:
+    """What acts on an ideal h(d), which commutes but for constants K without a null vector.
+
+    With v_s in it that has the constants of s, {v_s, x} = K_sx, s - v_s acts without any, and these
+    close: their brackets have none either, and K has no null vector.
+    """
+    for ideal in _commuting(C, [a for a in range(len(C)) if _squares_to_0(C, a)]):
+        others = [a for a in range(len(C)) if a not in ideal]
+        form = mpmath.matrix([[central[a][b] for b in ideal] for a in ideal])
+        inside = all(abs(C[a][s][c]) < _SMALL for a in ideal for s in range(len(C)) for c in others)
+        if (
+            not ideal
+            or not inside
+            or rank([[central[a][b] for b in ideal] for a in ideal]) < len(ideal)
+        ):
+            continue
+        rows = [mpmath.matrix([central[s][b] for b in ideal]) for s in others]
+        shifts = [mpmath.lu_solve(form.T, row) for row in rows]
+        inner = [
+            [central[s][r] - (shifts[i].T * form * shifts[k])[0] for k, r in enumerate(others)]
+            for i, s in enumerate(others)
+        ]
+        acting = _name([[[C[a][b][c] for c in others] for b in others] for a in others], inner)
+        if acting is not None and "Heisenberg" not in acting:
+            return f"{acting} with Heisenberg h({len(ideal) // 2})"
+    return None
+
+
+def _squares_to_0(C: list[list[Vector]], a: int) -> bool:
+    """Whether {a, {a, b}} is a constant for all b: translations do nothing to what they give."""
+    n = len(C)
+    return all(
+        abs(mpmath.fsum(C[a][b][c] * C[a][c][d] for c in range(n))) < _SMALL
+        for b in range(n) for d in range(n)
+    )  # fmt: skip
+
+
+def _commuting(C: list[list[Vector]], chosen: list[int], most: int = 16) -> list[list[int]]:
+    """Sets of these basis vectors that commute, the largest first."""
+    found: list[list[int]] = []
+    left = [chosen]
+    while left and most:
+        most -= 1
+        part = left.pop(0)
+        pair = next(
+            ((a, b) for a in part for b in part if any(abs(x) > _SMALL for x in C[a][b])), None
+        )
+        if pair is None:
+            found.append(part)
+        else:
+            left += [[x for x in part if x != gone] for gone in pair]
+    return sorted(found, key=len, reverse=True)
 
 
 def _direct_sum(C: list[list[Vector]], central: Sequence[Vector]) -> str | None:
@@ -159,14 +215,15 @@ def _whole(C: list[list[Vector]], n: int, derived: int, *, extended: bool) -> st
         else:
             kinds = {(0, 1): "e(2)", (1, 0): "Poincaré iso(1,1)"}
         return kinds.get((plus, minus))
-    if n == 8 and (plus, minus, derived) == (3, 1, 7) and extended:
+    if n == 8 and (plus, minus, derived) == (3, 1, 7) and extended and _nullity(C) == 2:
         return "sl(2,R) + so(1,1) with Heisenberg h(2)"
     for d in range(1, 5):
         turns = d * (d - 1) // 2
         turned = turns if d > 2 else 0  # so(2) is no bracket
         perfect = derived == n and d > 1 and not extended
         found = (n, plus, minus, derived)
-        if extended and found == (3 + turns + 2 * d, 2, 1 + turns, 3 + turned + 2 * d):
+        schroedinger = (3 + turns + 2 * d, 2, 1 + turns, 3 + turned + 2 * d)
+        if extended and found == schroedinger and _nullity(C) == 1 + d // 2:
             rotations = f" + so({d})" if d > 1 else ""
             return f"Schrödinger sch({d}): sl(2,R){rotations} with Heisenberg h({d})"
         # brackets give the momenta; with rotations the boosts too
@@ -180,6 +237,22 @@ def _whole(C: list[list[Vector]], n: int, derived: int, *, extended: bool) -> st
         if perfect and d > 2 and n == turns + d and (plus, minus) == (0, turns):
             return f"e({d})"
     return None
+
+
+def _nullity(C: list[list[Vector]]) -> int:
+    """How often ad_x has the eigenvalue 0, for a general x of the derived algebra.
+
+    Of sl(2,R) that acts on all of h(d), the ranks of sl(2,R) and of the rotations; where it acts on
+    a part alone, the rest comes to it.
+    """
+    n, source = len(C), random.Random("derived")
+    weights = {(a, b): mpf(source.randint(-9, 9)) for a in range(n) for b in range(a)}
+    x = [mpmath.fsum(w * C[a][b][c] for (a, b), w in weights.items()) for c in range(n)]
+    ad = mpmath.matrix(
+        [[mpmath.fsum(x[a] * C[a][b][c] for a in range(n)) for b in range(n)] for c in range(n)]
+    )
+    sizes = [abs(z) for z in mpmath.eig(ad, left=False, right=False)]
+    return sum(size < _OF_BLOCK * max(sizes) for size in sizes)
 
 
 def _is_unimodular(C: list[list[Vector]]) -> bool:

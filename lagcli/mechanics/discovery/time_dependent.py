@@ -162,10 +162,20 @@ def _elementary(I: Expr, t: Symbol, p: Expr) -> list[Expr]:  # noqa: E741
 
 
 def _of_square(K: Expr, Q: Expr, t: Symbol) -> list[Expr]:
-    """sqrt(Q) sin, cos of s theta, theta' = 1/Q, s^2 = K + D/4, for I = K/Q^2, D = 4 a c - b^2."""
+    """sqrt(Q) sin, cos of s theta, theta' = 1/Q, s^2 = K + D/4, for I = K/Q^2, D = 4 a c - b^2.
+
+    For D = 0, Q = a (t - t0)^2, theta is -2/Q', and sqrt(Q) a multiple of Q'.
+    """
     a, b, c = sympy.Poly(Q, t).all_coeffs()
     D = simplify(4 * a * c - b**2)
     square = simplify(K + D / 4)
+    if D == 0:
+        linear = sympy.factor(Q.diff(t))
+        if square.is_negative:
+            inside = 2 * sympy.sqrt(-square) / linear
+            return [linear * sympy.exp(inside), linear * sympy.exp(-inside)]
+        inside = 2 * sympy.sqrt(square) / linear
+        return [linear * sympy.sin(inside), linear * sympy.cos(inside)]
     if not (D.is_positive and square.is_positive):
         return []
     root = sympy.sqrt(D)

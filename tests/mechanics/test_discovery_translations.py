@@ -1,0 +1,100 @@
+"""Algebras in which linear functions of q and p are an ideal: what acts on it is named beside it.
+
+Folland, *Harmonic Analysis in Phase Space*, section 4.1: quadratic forms act on linear ones as
+matrices of sp(2 d), and the commutators with the constants are those of h(d).
+"""
+
+from random import Random
+
+import pytest
+import sympy
+from mpmath import mpf
+
+from lagcli.mechanics.discovery.brackets import Structure
+from lagcli.mechanics.discovery.lie_algebra import name_of
+from lagcli.mechanics.discovery.summary import summary
+
+from .derived import derive
+
+Q, P = sympy.symbols("x y z"), sympy.symbols("p q r")
+X, Y, Z, U, V, W = (*Q, *P)
+TURNS = [X * V - Y * U, Y * W - Z * V, Z * U - X * W]
+
+
+def structure(functions):
+    """C and K of polynomials whose brackets are combinations of them and of 1."""
+
+    def bracket(f, g):
+        return sum(f.diff(a) * g.diff(b) - f.diff(b) * g.diff(a) for a, b in zip(Q, P, strict=True))
+
+    n = len(functions)
+    unknowns = sympy.symbols(f"c:{n + 1}")
+    C, K = [], []
+    for f in functions:
+        rows, constants = [], []
+        for g in functions:
+            difference = bracket(f, g) - sum(
+                c * h for c, h in zip(unknowns, [*functions, 1], strict=True)
+            )
+            [found] = sympy.linsolve(
+                sympy.Poly(difference, *Q, *P).coeffs(), unknowns
+            ) if difference != 0 else [(0,) * (n + 1)]  # fmt: skip
+            rows.append([mpf(x.p) / x.q for x in map(sympy.Rational, found[:n])])
+            constants.append(mpf(found[n].p) / found[n].q if found[n] else mpf(0))
+        C.append(rows)
+        K.append(constants)
+    return Structure(C, K)
+
+
+FAMILIES = {
+    "R": ([X**2 + 2 * U**2 + 3 * Y**2 - V**2], 2),
+    "R^2": ([X**2 + U**2, 3 * Y**2 + V**2 + Y * V], 2),
+    "so(3)": (TURNS, 3),
+    "so(3) + R": ([*TURNS, U**2 + V**2 + W**2 + 5 * (X**2 + Y**2 + Z**2)], 3),
+    "sl(2,R) + R": ([U**2, X**2, X * U, Y**2 + V**2], 2),
+}
+
+
+@pytest.mark.parametrize("name", FAMILIES)
+@pytest.mark.parametrize("seed", range(2))
+def test_what_acts_on_linear_functions_is_named_beside_them(name, seed):
+    """Whatever linear terms and constants the generators have, and in whatever order they come."""
+    acting, d = FAMILIES[name]
+    random = Random(f"{name} {seed}")
+    linear = [*Q[:d], *P[:d]]
+    moved = [f + sum(random.randint(-2, 2) * x for x in [*linear, 1]) for f in acting]
+    sums = [x + sum(random.randint(-1, 1) * y for y in linear[:k]) for k, x in enumerate(linear)]
+    functions = [*moved, *sums]
+    random.shuffle(functions)
+    assert name_of(structure(functions)) == f"{name} with Heisenberg h({d}), modulo constants"
+
+
+def test_a_schroedinger_algebra_dilates_all_coordinates():
+    everywhere = [U**2 + V**2, X**2 + Y**2, X * U + Y * V, TURNS[0], X, Y, U, V]
+    assert name_of(structure(everywhere)).startswith("Schrödinger sch(2)")
+    hyperbolic = [U * V, X * Y, X * U + Y * V, X * U - Y * V, X, Y, U, V]
+    assert name_of(structure(hyperbolic)).startswith("sl(2,R) + so(1,1) with Heisenberg h(2)")
+    in_a_part = [U**2, X**2, X * U, V**2 - Y**2, X, Y, U, V]
+    assert "sch(1)" in name_of(structure(in_a_part))
+
+
+def test_without_the_boosts_the_momenta_are_no_heisenberg_algebra():
+    """Rotations and momenta of the plane are e(2); with p_z and z beside them h(1) stands apart."""
+    assert name_of(structure([TURNS[0], U, V])) == "e(2)"
+    assert name_of(structure([X * U - Y * V, U, V])) == "Poincaré iso(1,1)"
+
+
+LINEAR = {  # two springs in a uniform field, a Penning trap with its energy and L_z, crossed fields
+    "(x'^2 + y'^2 + z'^2 - a*x^2 - b*y^2 - c*z^2)/2 + x": "R with Heisenberg h(3)",
+    "(x'^2 + y'^2 + z'^2)/2 + c*(x*y' - y*x') + a^2*(x^2 + y^2 - 2*z^2)/4":
+        "R^2 with Heisenberg h(3)",
+    "(x'^2 + y'^2 + z'^2)/2 + c*(x*y' - y*x') + a*x": "R^2 with Heisenberg h(3)",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("L", "name"), LINEAR.items())
+def test_energy_and_rotations_act_on_the_solutions_of_linear_equations(L, name):
+    given = ", ".join(f"{each}: {{assume: positive}}" for each in "abc")
+    text = f"coordinates: [x, y, z]\nparameters: {{{given}}}\nL: {L}\n"
+    found = summary(derive(text).discovery)
+    assert found.name == f"{name}, modulo constants"
