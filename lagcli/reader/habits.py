@@ -98,7 +98,8 @@ def key_of_stem(word: str, known: tuple[str, ...]) -> str | None:
 def colon_advice(line: str) -> str:
     """`write V: k*x` for a line such as `V k*x`, `V = k*x`, `V:k*x` or `V：k*x`."""
     found = re.match(
-        r"\s*([^\W\d]\w*)(?:\s*(?:<-|←|[-=]>|→|[=:]?[=:：])\s*|\s+)([^-+*/^<>].*)", line
+        r"\s*([^\W\d]\w*)(?:\s*(?:<-|←|[-=]>|→|[=:]?[=:：])\s*(?=[^+*/^<>])|\s+(?![-+*/^<>]))(.+)",
+        line,
     )
     values = re.findall(r"(\w+)\s*=\s*([-\d.e/]+)\s*(?:[;,]|$)\s*", line)
     if values and line[0] != " " and "; ".join(map(" = ".join, values)) == line.strip(" ;"):

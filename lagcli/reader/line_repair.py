@@ -139,7 +139,9 @@ def repaired_line(
     for number, line in _tried(lines, first):
         changed = "\n".join([*lines[:number], line, *lines[number + 1 :]])
         is_read, found = read(Source("", changed))
-        here = [each for each in found if each.span.line == number + 1 and each.is_error]
+        is_moved = line.strip() == lines[number].strip()
+        near = {number + 1, number + 1 - is_moved}
+        here = [each for each in found if each.span.line in near and each.is_error]
         if is_read and here and (whole := here[0].hint.rpartition("n all: ")[2]) != here[0].hint:
             entry = _ENTRY.fullmatch(line)
             line = line if entry is None else entry["key"] + whole

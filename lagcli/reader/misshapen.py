@@ -48,8 +48,11 @@ def behind_words(text: str, known: Container[str]) -> str:
 
 def as_list(written: str) -> str:
     """`[x, y]` for `x, y` and for `(x, y)`."""
-    within = re.fullmatch(r"\s*\(([^()]*(?:\([^()]*\)[^()]*)*)\)\s*", written)
-    is_tuple = within is not None and "," in re.sub(r"\([^()]*\)", "", within[1])
+    within = re.fullmatch(r"\s*\((.*)\)\s*", written, re.DOTALL)
+    outer = within[1] if within else ""
+    while (inner := re.sub(r"\([^()]*\)", "", outer)) != outer:
+        outer = inner
+    is_tuple = within is not None and "," in outer and not {"(", ")"} & {*outer}
     return f"[{within[1] if within and is_tuple else written.strip()}]"
 
 

@@ -24,6 +24,7 @@ from lagcli.reader.expectations import ExpectReader
 from lagcli.reader.file_reader import FileReader
 from lagcli.reader.habits import KEYS, colon_advice
 from lagcli.reader.limits import MISTAKES
+from lagcli.reader.misplaced import lifted
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, kind
 from lagcli.reader.phase_space import read_brackets, read_observables, read_transformations
 from lagcli.reader.quantities import (
@@ -151,6 +152,8 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
         hint = f"each problem has a file of its own: {hint}" if inner[1:] else hint
         file.error(message, key.span, hint)
         return None
+    root, moved = lifted(root)
+    file.diagnostics += moved
     file.sections = frozenset(key.label for key, _ in root.entries)
     given = file.attributes(root, "the problem", KEYS)
 

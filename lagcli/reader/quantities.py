@@ -86,13 +86,7 @@ def read_parameters(
             described.append((key, given))
         elif "value" in attributes:
             what = f"the value of '{key.label}'"
-            mistakes = len(file.diagnostics)
             value = file.expression(attributes["value"], what, VALUES)
-            if len(file.diagnostics) > mistakes and key.label in {"T", "V", "L", "H"}:
-                del file.diagnostics[mistakes:]
-                message = f"'{key.label}' stands inside of 'parameters'"
-                file.error(message, key.span, "begin its line where 'parameters' begins")
-                file.scope.refused.append("points")  # else the kinetic energy is missed
         integer = "integer" in attributes and file.yes_or_no(attributes["integer"], "integer")
         said = _said(file, attributes)
         parameters.append(

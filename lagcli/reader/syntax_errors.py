@@ -124,7 +124,6 @@ def _missing_product(
 ) -> Diagnostic:
     span = excerpt.span(left.start_pos, right.end_pos)
     apart = left.end_pos < right.start_pos
-    ahead = excerpt.value[right.start_pos :]
     # th may as well be an angle
     known = str(left) if len(left) == 2 and left != "ln" else meanings("functions").get(left, left)
     if left.type == "NAME" and known in FUNCTIONS:
@@ -147,7 +146,7 @@ def _missing_product(
         return Diagnostic("a formula has no cases", span, CASE)
     if right.type == "LPAR" and following is not None and following.type == "STAR":
         return Diagnostic("a comment is no part of a formula", span, COMMENT)
-    if right.type == "LPAR" and re.match(r"\(\s*[^\W\d]{3,}(?:\s+[^\W\d]+)+\s*\)\s*$", ahead):
+    if re.search(r"\s\(\s*[^\W\d]{3,}(?:\s+[^\W\d]+)+\s*\)\s*$", excerpt.value):
         return Diagnostic("a remark is no part of a formula", span, COMMENT)
     if "\n" in excerpt.value[left.end_pos : right.start_pos]:
         hint = "begin the second line with its sign, as in + x"

@@ -309,6 +309,13 @@ HABITS = [
     (text(V="the energy of the spring k*x^2/2"), "write k*x^2/2"),
     (text(simulation="ten seconds"), "write {until: 10}"),
     (text(constraints="{rest: x is 0}"), "did you mean x = 0?"),
+    (text(T="m*(d(x)/dt)^2/2"), "write m*x'^2/2"),
+    (text(V="k*x (energy of the spring)"), "a remark is no part of a formula"),
+    (text(T=None) + "T:-x'^2\n", "write T: -x'^2"),
+    (
+        text(points="{a: {position: (2*(x + cos(2*(x + 1))), (x)), mass: m}}", T=None),
+        "write a list as [2*(x + cos(2*(x + 1))), (x)]",
+    ),
     (
         text(constraints="{rod: {equation: x = 1, multiplier: N, holds_while: N is positive}}"),
         "did you mean N >= 0?",

@@ -245,3 +245,27 @@ def test_the_term_that_lacks_its_primes_is_written_out(seed):
     whole = only.hint.removeprefix("write ").partition(": a")[0]
     lines[row] = lines[row][:begin] + whole + lines[row][end:]
     assert errors("\n".join(lines)) == []
+
+
+@pytest.mark.parametrize("seed", range(25))
+def test_a_key_that_is_indented_into_the_section_above_it(seed):
+    draw = random.Random(seed)
+    sections = "parameters|points|constraints|contacts|forces|symmetries|initial|find"
+    above = rf"^({sections}):\n(?:  .*\n)+"
+    text, place = drawn(draw, rf"{above}(?=(?:[TVL]|{sections}):.*\n)")
+    rest = text[place.end() :]
+    block = re.match(r".*\n(?:  .*\n)*", rest)
+    assert block is not None
+    moved = re.sub(r"^", "  ", block[0].rstrip("\n"), flags=re.MULTILINE) + "\n"
+    found = errors(text[: place.end()] + moved + rest[block.end() :])
+    assert len(found) == 1, [each.message for each in found]
+    key = block[0].partition(":")[0]
+    assert found[0].message == f"'{key}' stands inside of '{place[1]}'"
+    assert found[0].hint == f"begin its line where '{place[1]}' begins"
+    assert found[0].span.line == text[: place.end()].count("\n") + 1
+
+
+def test_a_parameter_may_be_called_like_an_energy():
+    assert not errors(
+        "coordinates: [x]\nT: x'^2\nparameters:\n  V: 2\n  L: 3*V\nforces: {x: V*L*x}\n"
+    )

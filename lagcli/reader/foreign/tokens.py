@@ -151,7 +151,7 @@ def _leibniz(text: str, names: Vocabulary) -> str:
             forms = [
                 rf"\\[dt]?frac\s*\{{\s*{d}{above}\s*{name}\s*\}}\{{\s*{d}t{below}\s*\}}",
                 rf"\\[dt]?frac\s*\{{\s*{d}{above}\s*\}}\{{\s*{d}t{below}\s*\}}\s*{name}",
-                rf"(?<!\w){d}{above}\s*{name}\s*/\s*{below_line}(?!\w)",
+                rf"(?<!\w){d}{above}\s*(?:\({name}\)|{name})\s*/\s*{below_line}(?!\w)",
                 rf"(?<!\w){d}{above}\s*/\s*{below_line}\s*(?:\({name}\)|{name})",
             ]
             for form in forms:

@@ -1,0 +1,58 @@
+"""Keys of the problem that are indented into the section above them."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from lagcli.diagnostics import Diagnostic
+from lagcli.reader.habits import MAPS
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+_ENERGIES = frozenset("TVLH")
+#: Sections whose entries are called by names of the user's, never by these keys.
+_SECTIONS = frozenset(
+    "coordinates parameters points constraints contacts forces symmetries initial find".split()
+)
+
+
+def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
+    """The problem with such entries as keys of its own, and a mistake at each of them.
+
+    An energy has a formula of coordinates: `T: 2` is a parameter.  What is a key already is none.
+    """
+    given = {key.label for key, _ in root.entries}
+    coordinates = [name for key, node in root.entries if key.label == "coordinates"
+                   for name in _names(node)]  # fmt: skip
+    mentions = re.compile(rf"(?<!\w)(?:{'|'.join(map(re.escape, coordinates)) or '(?!)'})(?!\w)")
+
+    def is_misplaced(key: Scalar, value: DocumentNode) -> bool:
+        if key.in_flow or key.label in given:
+            return False
+        if key.label in _ENERGIES:
+            return isinstance(value, Scalar) and mentions.search(value.value) is not None
+        return key.label in MAPS and isinstance(value, Mapping | Sequence)
+
+    entries: list[tuple[Scalar, DocumentNode]] = []
+    mistakes = []
+    for key, node in root.entries:
+        inner = node.entries if isinstance(node, Mapping) and key.label in _SECTIONS else []
+        moved = [entry for entry in inner if is_misplaced(*entry)]
+        for each, _ in moved:
+            message = f"'{each.label}' stands inside of '{key.label}'"
+            hint = f"begin its line where '{key.label}' begins"
+            mistakes.append(Diagnostic(message, each.span, hint))
+        if moved and isinstance(node, Mapping):
+            node = replace(node, entries=[entry for entry in inner if entry not in moved])
+        entries += [(key, node), *moved]
+    return replace(root, entries=entries), mistakes
+
+
+def _names(node: DocumentNode) -> Iterable[str]:
+    if isinstance(node, Mapping):
+        return (key.label for key, _ in node.entries)
+    return (each.label for each in getattr(node, "items", ()) if isinstance(each, Scalar))
