@@ -25,7 +25,7 @@ _WITHOUT_COLON = re.compile(
     r"(?P<key>[^\W\d]\w*'*)(?:\s*[;=](?!>)\s*|\s*:(?=\S)|\s+(?=[.\d])|\s+(?=[-\w.+*/^'()]+$))"
     r"(?P<value>[^:;]+)"
 )
-_ATTRIBUTE = re.compile(r"(?P<key>\w+)\s+(?P<value>[^:;]+)")
+_ATTRIBUTE = re.compile(r"(?P<key>\w+)\s+(?:=\s*)?(?P<value>[^=:;\s][^:;]*)")
 _PROSE = frozenset({"title", "source", "description", "symbol"})
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 

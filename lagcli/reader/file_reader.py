@@ -171,9 +171,10 @@ class FileReader:
         before = ""
         text = node.text.source.text
         for key, value in node.entries:
-            if key.in_flow and key.label.isdigit() and value.is_empty:
+            is_part = key.in_flow and key.label.isdigit() and value.is_empty
+            if is_part and before[-1:].isdigit() and before.partition(":")[0] not in LISTS:
                 hint = f"a decimal point is written '.': write {before}.{key.label}"
-                self.error("a comma ends a value", key.span, hint if before else hint[:31])
+                self.error("a comma ends a value", key.span, hint)
             elif key.style and re.search(r"\w'*: ", key.label):
                 whole = text[node.start : key.start] + text[key.start + 1 : node.end]
                 self.error("a quote begins within the map", key.span, f"write {whole}")

@@ -91,5 +91,6 @@ def _name(file: FileReader, node: DocumentNode, what: str, names: list[str]) -> 
         return name
     known = f"there are {', '.join(names)}" if names else "declare it under points or places"
     hint = did_you_mean(name, names) or known
-    file.error(f"{what}: there is no point '{name}'", scalar.span, hint)
+    if not file.scope.refused:
+        file.error(f"{what}: there is no point '{name}'", scalar.span, hint)
     return ""

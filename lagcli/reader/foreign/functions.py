@@ -77,10 +77,10 @@ class Functions(Sums):
     def arguments(self) -> list[str]:
         """What stands in brackets, between commas."""
         self.closed("(")
-        self.depth += 1
         if self.sign() == ")":
             self.at += 1
             return []
+        self.calls += 1
         within = self.sign() == "(" and self.ends_list()
         self.at += within
         found = [self.sum().text]
@@ -89,7 +89,7 @@ class Functions(Sums):
             found.append(self.sum().text)
         for _ in range(1 + within):
             self.closed(")")
-        self.depth -= 1
+        self.calls -= 1
         return found
 
     def ends_list(self) -> bool:

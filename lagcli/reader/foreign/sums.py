@@ -42,6 +42,7 @@ class Sums(ABC):
         self.names = names
         self.at = 0
         self.depth = 0
+        self.calls = 0  # around the place, whose commas are between arguments
         self.by_letter: set[str] = set()  # the coordinates whose velocity was called v or ω
 
     def whole(self) -> str:

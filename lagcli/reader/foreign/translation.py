@@ -65,14 +65,14 @@ class _Translation(Functions):
     def number(self, token: Token) -> Part:
         """With a decimal point, without groups of digits, and e for 6.67d-11 and 6.67*^-11."""
         text = re.sub(r"[dD]|\*\^", "e", re.sub(r"[' _fF]", "", token.text)).removesuffix("e0")
-        if "," in text and self.depth > 1:
+        if "," in text and self.calls:
             raise UnclearText  # f(1,234.5)
         if "," in text and text.index(",") < text.find("."):  # 1,234.5
             text = text.replace(",", "")
         elif "," in text:  # 1.234,5
             text = text.replace(".", "").replace(",", ".")
         comma, digits = self.peek(), self.peek(1)
-        if comma is None or comma.text != "," or self.depth > 1 or "." in text or digits is None:
+        if comma is None or comma.text != "," or self.calls or "." in text or digits is None:
             return Part(text, 3)
         if digits.kind != "number" or digits.apart or len(digits.text) == 3:
             raise UnclearText
