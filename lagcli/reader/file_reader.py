@@ -21,6 +21,8 @@ from lagcli.reader.habits import (
 from lagcli.reader.headings import SECTIONS, section_meant
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.misshapen import (
+    ALREADY_FOUND,
+    FOUND,
     WITHOUT_HYPHENS,
     as_list,
     as_map,
@@ -170,6 +172,13 @@ class FileReader:
         """The entries of a map; a mistake at `{g: 9,81}`, and at the quotes of `{'x: 1, x': 0}`."""
         before = ""
         text = node.text.source.text
+        written = text[node.start : node.end]
+        if written[:1] == "{" and re.search(r"\d,\d+\s*;", written):
+            whole = re.sub(r"(\d),(?=\d)", r"\1.", written).replace(";", ",")
+            hint = f"a decimal point is written '.': write {whole}"
+            self.error("a comma ends a value", node.span, hint)
+            self.scope.refused.append("")
+            return
         for key, value in node.entries:
             is_part = key.in_flow and key.label.isdigit() and value.is_empty
             if is_part and before[-1:].isdigit() and before.partition(":")[0] not in LISTS:
@@ -319,6 +328,8 @@ class FileReader:
         found = {}
         names = tuple(known)
         as_one = as_map(node, names, self.scope.of_kind("coordinate"))
+        if what.startswith("the question") and what.split("'")[1] in FOUND:
+            as_one = ALREADY_FOUND
         entries = list(self.entries(node, what, as_one))
         given = {key.label for key, _ in entries}
         if required is not None and isinstance(node, Mapping):
@@ -456,8 +467,12 @@ class FileReader:
 
     def _read(self, node: DocumentNode, what: str, read: Callable[[Excerpt], _T]) -> _T | None:
         if not isinstance(node, Scalar):
-            hint = "one function for all coordinates, such as c*x'^2/2"
-            hint = hint if what == "dissipation" else one_sum(node, what)
+            hint = one_sum(node, what)
+            is_force = isinstance(node, Mapping) and source_of(node).count(": -")
+            if what == "dissipation" and is_force:
+                hint = f"these are forces: write forces: {source_of(node)}"
+            elif what == "dissipation" and not re.search(r"\^2|\*\*2|²", hint):
+                hint = "one function for all coordinates, such as c*x'^2/2"
             self.error(f"{what} must be an expression, not {kind(node)}", node.span, hint)
             return None
         if self.is_full or self.scalar(node, what) is None:

@@ -23,6 +23,8 @@ _BEFORE = re.compile(r"^(?:@\([\w, ]*\)|lambda\b[\w, ]*:|[`@%&!*>=]+(?=[\w( ]))\
 _GROUP = re.compile(
     r"(?:\[([^\]]*)\]|\{([^}:]*)\}|\"([^\"]*)\"|'([^']*)')(?P<rest>\s*[-+*/^(\w].*)"
 )
+#: The formula in a hint.
+_PROPOSED = re.compile(r"(?:write|did you mean) (.*?)\??")
 #: Keys with a text that is no formula.
 _TEXTS = frozenset({"title", "source", "description"})
 _PAIRS = {"[": "]", "{": "}", '"': '"', "'": "'"}
@@ -142,13 +144,14 @@ def repaired_line(
         is_moved = line.strip() == lines[number].strip()
         near = {number + 1, number + 1 - is_moved}
         here = [each for each in found if each.span.line in near and each.is_error]
-        if is_read and here and (whole := here[0].hint.rpartition("n all: ")[2]) != here[0].hint:
-            entry = _ENTRY.fullmatch(line)
-            line = line if entry is None else entry["key"] + whole
+        proposed = _PROPOSED.fullmatch(here[0].hint) if is_read and here else None
+        entry = _ENTRY.fullmatch(line)
+        if proposed and entry:
+            line = entry["key"] + proposed[1]
             changed = "\n".join([*lines[:number], line, *lines[number + 1 :]])
             is_read, found = read(Source("", changed))
             here = [each for each in found if each.span.line == number + 1 and each.is_error]
-        further = found and found[0].span.line > max(first, number) + 1
+        further = found and found[0].span.line > max(first, number) + 1 and not proposed
         if not here and (is_read or further):
             span = mistake.span
             if number != first:

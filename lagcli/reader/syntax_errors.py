@@ -11,6 +11,7 @@ from lagcli.reader.habits import (
     CASE,
     CASES,
     COMMENT,
+    DERIVED,
     REMARK,
     instead,
     meanings,
@@ -213,6 +214,8 @@ def _unexpected(
         if start == "equation" and inside is not None:
             return "'=' stands inside parentheses", "is a ')' missing before it?"
         alone = len(before) == 1 and previous is not None and previous.type == "NAME"
+        if alone and str(previous).endswith("''"):
+            return "an equation of motion is no formula", DERIVED
         hint = f"leave out '{previous} ='" if alone else "leave out '=' and what follows it"
         return "'=' stands only in constraints and equations", hint
     several = token.type == "COMMA" and "EQUAL" in {each.type for each in before}

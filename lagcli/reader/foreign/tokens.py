@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from lagcli.notation.greek import BY_LETTER, BY_NAME
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, parts_of
-from lagcli.reader.habits import REMARK, unit_behind
+from lagcli.reader.habits import REMARK, is_angle, unit_behind
 
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻½⅓⅔¼¾⅛"
 _LETTER = rf"[^\W\d{RAISED}]"
@@ -57,6 +57,12 @@ _BETWEEN = re.compile(
     rf"(?:\\?\|){{1,2}}\s*{_VECTOR}(?P<one>\d)\}}?"
     rf"(?:\s*[-−]\s*{_VECTOR}(?P<two>\d)\}}?)?\s*(?:\\?\|){{1,2}}"
 )
+#: A product of vectors in brackets.
+_PRODUCT_OF_VECTORS = re.compile(
+    r"[(\[]([^()\[\]]+,[^()\[\]]+)[)\]]\s*[.·]\s*[(\[]([^()\[\]]+,[^()\[\]]+)[)\]]"
+)
+#: A coordinate behind the word for its rate.
+_DOT_BEFORE = re.compile(r"(?<![\\\w.])(d)?dot\s+(?P<name>[^\W\d]\w*)")
 #: Relations in words: y is 0, N is positive, x is less than l.
 _RELATIONS = (
     (re.compile(r"\s+(?:is\s+|stays\s+|remains\s+)?(?:positive|nonnegative)\s*$"), ">= 0"),
@@ -80,6 +86,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     """With the marks of web pages, v² and Leibniz' derivatives in the notation of a file."""
     text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
     text = re.sub(r"\\(?:begin|end)\s*\{\w+\*?\}|\\[()\[\]]", " ", text)
+    text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
     for words, sign in _RELATIONS:
         text = words.sub(f" {sign} ", text)
     behind = re.search(r"\[([^\[\]]+)\]\s*$", text)
@@ -90,7 +97,11 @@ def prepared(text: str, names: Vocabulary) -> str:
     if "arc" not in names.known:
         text = re.sub(r"\b(ar[ck]?)\s+(?=(?:sin|cos|tan|cot)h?\b)", "arc", text)
     text = "".join(map(_on_the_keyboard, _RATE_OF_VECTOR.sub(r"\\vec{v}", text)))
-    text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
+    text = _DOT_BEFORE.sub(
+        lambda m: _dotted(m, names), _PRODUCT_OF_VECTORS.sub(_by_components, text)
+    )
+    if "x" not in names.known:
+        text = re.sub(r"(?<=[\w)'²])\s+[xX]\s+(?=[\w(\\])", " * ", text)
     text = re.sub(r"(?<=\w)//(?=\w)", "/", re.sub(r"\s\.\s", " * ", text).strip(" =").rstrip(";,"))
     text = re.sub(r"\bDerivative\[(\d)\]\[(\w+)\]", lambda m: m[2] + "'" * int(m[1]), text)
     text = _leibniz(_distance(_square_of_speed(text, names), names), names)
@@ -102,6 +113,23 @@ def prepared(text: str, names: Vocabulary) -> str:
     return _OWNER.sub(lambda m: m[0] if m[1] in names.known else "", text)
 
 
+def _by_components(found: re.Match[str]) -> str:
+    """`(a*c + b*d)` for `(a, b).(c, d)`."""
+    left, right = (each.split(",") for each in found.groups())
+    if len(left) != len(right):
+        return found[0]
+    return (
+        f"({' + '.join(f'({a.strip()})*({b.strip()})' for a, b in zip(left, right, strict=True))})"
+    )
+
+
+def _dotted(found: re.Match[str], names: Vocabulary) -> str:
+    """`x'` for `dot x`."""
+    name = found["name"]
+    known = name in names.dependent and "dot" not in names.known
+    return name + "'" * (2 if found[1] else 1) if known else found[0]
+
+
 def _on_the_keyboard(character: str) -> str:
     """`*` for its full-width form, `^` for the accent."""
     is_wide = "！" <= character <= "～"
@@ -110,7 +138,11 @@ def _on_the_keyboard(character: str) -> str:
 
 def _square_of_speed(text: str, names: Vocabulary) -> str:
     """The sum of squares for v², in Cartesian coordinates."""
-    if len(names.coordinates) < 2 or "v" in names.known or not {*names.coordinates} <= {*"xyz"}:
+    if len(names.coordinates) < 2 or "v" in names.known:
+        return text
+    if squares := _polar_speed(names.coordinates):
+        return _SPEED.sub(f" ({squares}) ", text)
+    if not {*names.coordinates} <= {*"xyz"}:
         return text
     for pattern, prime in ((_SPEED, "'"), (_DISTANCE, "")):
         squares = " + ".join(f"{x}{prime}^2" for x in names.coordinates)
@@ -119,6 +151,19 @@ def _square_of_speed(text: str, names: Vocabulary) -> str:
         squares = " + ".join(f"{x}^2" for x in names.coordinates)
         text = _LENGTH.sub(f" sqrt({squares}) ", text)
     return text
+
+
+def _polar_speed(coordinates: tuple[str, ...]) -> str:
+    """The square of the speed in polar, cylindrical or spherical coordinates; else nothing."""
+    r, *others = coordinates
+    angles = [x for x in others if is_angle(x)]
+    if r not in {"r", "rho", "ρ"} or len(others) - len(angles) > 1 or not angles:
+        return ""
+    if len(angles) == 2 == len(others) and angles[0] in {"theta", "θ"}:
+        return f"{r}'^2 + {r}^2*{angles[0]}'^2 + {r}^2*sin({angles[0]})^2*{angles[1]}'^2"
+    if len(angles) == 1 and {*others} <= {*angles, "z"}:
+        return f"{r}'^2 + {r}^2*{angles[0]}'^2" + " + z'^2" * ("z" in others)
+    return ""
 
 
 def _distance(text: str, names: Vocabulary) -> str:
