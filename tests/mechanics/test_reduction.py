@@ -256,6 +256,48 @@ def test_the_time_of_a_relativistic_oscillation(V, force, a):
     assert abs(quarter - t) < 1e-5
 
 
+def test_the_period_of_a_relativistic_oscillation():
+    """Goldstein, *Classical Mechanics*, 3rd ed., (7.158) for the term with a²."""
+    section, missing = reduced("""
+coordinates: [x]
+parameters: {m: POSITIVE, k: POSITIVE, c: POSITIVE}
+L: -m*c^2*sqrt(1 - x'^2/c^2) - k*x^2/2
+""")
+    assert not missing
+    assert section.one_freedom is not None
+    [found] = section.one_freedom.periods
+    expected = "2*pi*sqrt(m/k)*(1 + 3*k*a^2/(16*m*c^2) - 15*k^2*a^4/(1024*m^2*c^4))"
+    assert same(found.period, expected)
+
+
+@pytest.mark.long
+def test_a_relativistic_period_is_the_integral():
+    """m = c = 1, V = x²/2 + x³/3: dt = (E - V)/sqrt((E - V)² - 1) dx at 30 digits."""
+    section, _ = reduced("coordinates: [x]\nL: -sqrt(1 - x'^2) - x^2/2 - x^3/3")
+    assert section.one_freedom is not None
+    [found] = section.one_freedom.periods
+    amplitude = symbol("a")
+    period = Builder({"a": amplitude}, {}, lambda e: Symbol(e.name))(found.period)
+    with mpmath.workdps(60):
+        low, errors = mpf(-1) / 1000, []
+        for b in (low, low / 2):
+            turn = mpmath.polyroots(
+                [mpf(1) / 3, mpf(1) / 2, 0, -(b**2) / 2 - b**3 / 3], maxsteps=200, extraprec=200
+            )
+            high = min((mpmath.re(z) for z in turn if mpmath.re(z) > 0), key=abs)
+            a, middle, E = (high - b) / 2, (high + b) / 2, 1 + b**2 / 2 + b**3 / 3
+            total = mpf(0)
+            for k in range(24):
+                s = (k + mpf(1) / 2) * mpmath.pi / 24 - mpmath.pi / 2
+                x = middle + a * mpmath.sin(s)
+                e = E - x**2 / 2 - x**3 / 3
+                total += e / mpmath.sqrt(e**2 - 1) * a * mpmath.cos(s)
+            T = 2 * total * mpmath.pi / 24
+            errors.append(abs(mpf(str(sympy.N(period.subs(amplitude, a), 50))) / T - 1))
+    assert errors[0] < 1e-15
+    assert 50 < errors[0] / errors[1] < 80  # a^6
+
+
 def test_names_that_are_taken_get_others():
     section, _ = reduced("""
 coordinates: [x]
@@ -314,7 +356,7 @@ def series(U: Expr, M: Expr) -> list[Expr]:
     second = U.diff(x, 2).subs(x, 0)
     alpha = [2 * U.diff(x, k + 2).subs(x, 0) / sympy.factorial(k + 2) / second for k in range(5)]
     beta = [M.diff(x, k).subs(x, 0) / sympy.factorial(k) / M.subs(x, 0) for k in range(5)]
-    return ratio_series(alpha, beta)
+    return ratio_series(alpha, [beta])
 
 
 @pytest.mark.long

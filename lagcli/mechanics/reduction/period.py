@@ -5,6 +5,9 @@ z = Z sin s the period is the integral of sqrt(M/u) dx/dz over s from 0 to 2 pi,
 
     sqrt(M/M0) dx/dz = sum f_k z^k,     T = 2 pi sqrt(M0/u) (1 + f_2 Z^2/2 + 3 f_4 Z^4/8 + …),
 
+where R is not quadratic in q', dt/dq is that of a mass M(q, E) = 2 (E - U) (dt/dq)^2, and f_k
+has powers of E - U0 = u Z^2/2,
+
 and the amplitude a, half the distance between the turning points, is the odd part of
 x(z) at Z.  The series is compared with the integral itself by quadrature.
 
@@ -85,6 +88,14 @@ class Periods:
         self.failed = False
 
     @cached_property
+    def _mass(self) -> Expr:
+        """The M of dt/dq = sqrt(M/(2 (E - U)))."""
+        motion = self.motion
+        if motion.pace is None:
+            return motion.mass
+        return simplify(2 * motion.pace * (motion.E - motion.potential))
+
+    @cached_property
     def _rest(self) -> RestPoints:
         return RestPoints(self.motion.dynamics)
 
@@ -147,7 +158,8 @@ class Periods:
         pressed = motion.contacts.where_pressed({})
         if sign(curvature) in (0, -1) or pressed is None:
             return ()
-        return (AmplitudeSeries(None, _root(motion.mass, curvature), (), pressed),)
+        mass = simplify(at(self._mass, {motion.E: motion.potential}))
+        return (AmplitudeSeries(None, _root(mass, curvature), (), pressed),)
 
     def _about(self, point: RestPoint) -> AmplitudeSeries | None:
         motion = self.motion
@@ -161,18 +173,34 @@ class Periods:
         never = never_together((*point.positive, curvature))
         if known in (0, -1) or never:
             return None
-        masses = [at(motion.mass.diff(q, k), {q: place}) for k in range(ORDER + 1)]
-        if is_zero(masses[0]) is True or sign(masses[0], point.positive) == -1:
+        bottom = {motion.E: at(motion.potential, {q: place})}
+        by_energy = [self._mass]
+        while len(by_energy) <= ORDER // 2 and not free_of(by_energy[-1], [motion.E]):
+            by_energy.append(by_energy[-1].diff(motion.E))
+        masses = [
+            [at(at(mass.diff(q, k), {q: place}), bottom) for k in range(ORDER + 1)]
+            for mass in by_energy
+        ]
+        lowest = masses[0][0]
+        if is_zero(lowest) is True or sign(lowest, point.positive) == -1:
             return None
-        # U = U0 + u x²/2 (1 + α_1 x + …),   M = M0 (1 + β_1 x + …)
+        # U = U0 + u x²/2 (1 + α_1 x + …),   M = M0 (1 + β_01 x + … + Z² (β_10 + β_11 x + …) + …)
         alpha = [
             simplify(2 * s / (sympy.factorial(k + 2) * curvature)) for k, s in enumerate(slopes)
         ]
-        beta = [simplify(m / (sympy.factorial(k) * masses[0])) for k, m in enumerate(masses)]
+        beta = [
+            [
+                simplify(
+                    m * (curvature / 2) ** j / (sympy.factorial(j) * sympy.factorial(k) * lowest)
+                )
+                for k, m in enumerate(row)
+            ]
+            for j, row in enumerate(masses)
+        ]
         coefficients = [_on_branch(c, point.positive) for c in _readable(alpha, beta)]
-        root = _on_branch(_root(masses[0], curvature), point.positive)
+        root = _on_branch(_root(lowest, curvature), point.positive)
         where = (*point.positive, *(() if known == 1 else (curvature,)))
-        alike = not any(coefficients) and self._is_isochronous(place, curvature / masses[0])
+        alike = not any(coefficients) and self._is_isochronous(place, curvature / lowest)
         series = AmplitudeSeries(point, root, tuple(coefficients), where, alike)
         agrees = self._agrees(series)
         if agrees:
@@ -187,7 +215,7 @@ class Periods:
         motion = self.motion
         U, q = motion.potential, motion.q
         rise = U - at(U, {q: place})
-        return is_zero(U.diff(q) ** 2 - 2 * squared * motion.mass * rise) is True
+        return is_zero(U.diff(q) ** 2 - 2 * squared * self._mass * rise) is True
 
     # -- the integral itself ----------------------------------------------------------------------
 
@@ -223,23 +251,24 @@ class Periods:
         stated = (
             2 * mpmath.pi * root * (1 + sum(c * a ** (k + 1) for k, c in enumerate(others[:n])))
         )
-        functions = Evaluator([motion.potential, motion.mass], _WORKING)
+        potential_of, mass_of = (Evaluator([f], _WORKING) for f in (motion.potential, self._mass))
 
-        def both(q: mpf) -> list[mpf]:
-            return functions({**values, motion.q: q})
+        def potential(q: mpf) -> mpf:
+            return potential_of({**values, motion.q: q})[0]
 
         def tilt(m: mpf) -> mpf:
-            return both(m + a)[0] - both(m - a)[0]
+            return potential(m + a) - potential(m - a)
 
         middle = mpmath.findroot(
             tilt, (middle, middle + a * a), solver="secant", tol=mpf(10) ** -200, verify=False
         )
-        energy = (both(middle + a)[0] + both(middle - a)[0]) / 2
+        energy = (potential(middle + a) + potential(middle - a)) / 2
         total = mpf(0)
         for k in range(_NODES):
             s = (mpf(k) + mpf(1) / 2) * mpmath.pi / _NODES - mpmath.pi / 2
-            potential, mass = both(middle + a * mpmath.sin(s))
-            total += mpmath.sqrt(mass / (2 * (energy - potential))) * a * mpmath.cos(s)
+            q = middle + a * mpmath.sin(s)
+            [mass] = mass_of({**values, motion.q: q, motion.E: energy})
+            total += mpmath.sqrt(mass / (2 * (energy - potential(q)))) * a * mpmath.cos(s)
         return 2 * total * mpmath.pi / _NODES / stated
 
 
@@ -257,11 +286,11 @@ def _on_branch(expression: Expr, positive: Sequence[Expr]) -> Expr:
     return simplify(expression.xreplace(known)) if known else expression
 
 
-def _readable(alpha: Sequence[Expr], beta: Sequence[Expr]) -> tuple[Expr, ...]:
+def _readable(alpha: Sequence[Expr], beta: Sequence[Sequence[Expr]]) -> tuple[Expr, ...]:
     """The coefficients to the highest order at which they can still be read."""
     found: tuple[Expr, ...] = ()
     for order in range(2, ORDER + 1, 2):
-        taylor = (*alpha[: order + 1], *beta[: order + 1])
+        taylor = (*alpha[: order + 1], *(b for row in beta for b in row[: order + 1]))
         if sum(int(sympy.count_ops(c)) for c in taylor) > _WORKABLE:
             break
         coefficients = tuple(map(simplify, ratio_series(alpha, beta, order)))
@@ -271,20 +300,29 @@ def _readable(alpha: Sequence[Expr], beta: Sequence[Expr]) -> tuple[Expr, ...]:
     return found
 
 
-def ratio_series(alpha: Sequence[Expr], beta: Sequence[Expr], n: int = ORDER) -> list[Expr]:
-    """The coefficients of a, a^2, …, a^n in T/T0, from those of U and M in x."""
+def ratio_series(
+    alpha: Sequence[Expr], beta: Sequence[Sequence[Expr]], n: int = ORDER
+) -> list[Expr]:
+    """The coefficients of a, a^2, …, a^n in T/T0, from those of U in x and of M in Z^2 and x."""
     root_U = _power(list(alpha[: n + 1]), Rational(1, 2))
-    root_M = _power(list(beta[: n + 1]), Rational(1, 2))
     z = [S.Zero, *root_U]  # z = x sqrt(1 + α_1 x + …), known to x^(n+1)
     x = _inverse(z)
-    slope = [(k + 1) * x[k + 1] for k in range(n + 1)]
-    along = _product(_composed(root_M, x, n), slope, n)
-    # mean of sin^(2k): binomial(2k, k)/4^k
-    T = [S.Zero] * (n + 1)
-    for k in range(0, n + 1, 2):
-        T[k] = along[k] * sympy.binomial(k, k // 2) / 2**k
+    # in powers of Z with z = Z σ, σ = sin s
+    sine = sympy.Dummy()
+    mass = [S.Zero] * (n + 1)
+    for j, row in enumerate(beta):
+        for k, c in enumerate(_composed(row, x, n)[: max(n + 1 - 2 * j, 0)]):
+            mass[k + 2 * j] += c * sine**k
+    slope = [(k + 1) * x[k + 1] * sine**k for k in range(n + 1)]
+    T = [_mean(c, sine) for c in _product(_power(mass, Rational(1, 2)), slope, n)]
     odd = [c if k % 2 else S.Zero for k, c in enumerate(x)]
     return _composed(T, _inverse(odd), n)[1:]
+
+
+def _mean(expression: Expr, sine: Symbol) -> Expr:
+    """Its mean over s, that of sin(s)^(2 k) being binomial(2 k, k)/4^k."""
+    terms = sympy.Poly(expression, sine).terms()
+    return sympy.Add(*(c * sympy.binomial(k, k // 2) / 2**k for (k,), c in terms if k % 2 == 0))
 
 
 def _product(a: Series, b: Series, n: int) -> Series:
@@ -303,7 +341,7 @@ def _power(a: Series, exponent: Rational) -> Series:
     return result
 
 
-def _composed(outer: Series, inner: Series, n: int) -> Series:
+def _composed(outer: Sequence[Expr], inner: Series, n: int) -> Series:
     """outer(inner(x)) for an inner series without constant term."""
     result = [S.Zero] * (n + 1)
     power: Series = [S.One] + [S.Zero] * n

@@ -224,8 +224,6 @@ class _Statement:
         order = (*self.order, motion.E.name)
         if motion.why_not_conserved or (motion.mass == 0 and motion.quadratic):
             return None
-        if motion.pace is not None:
-            return self._by_pace(motion, order)
         periods = Periods(motion)
         found = tuple(self._period(each) for each in periods.series)
         if periods.failed:
@@ -235,9 +233,11 @@ class _Statement:
         return OneFreedom(
             coordinate=motion.q.name,
             constant=motion.E.name,
-            energy=writer.sum([self._kinetic(motion), potential]),
+            energy=terms(motion.energy, order, self.fast)
+            if motion.pace is not None
+            else writer.sum([self._kinetic(motion), potential]),
             turning_points=None if points is None else self._turning(points, motion.E, order),
-            rate=_rate(motion, potential, order),
+            rate=_rate(motion, potential, order) if motion.pace is None else _pace(motion, order),
             periods=found,
             positive=bool(motion.q.is_positive),
             turning_energies=tuple(
@@ -249,37 +249,10 @@ class _Statement:
             ),
             one_sided=motion.contacts.one_sided,
             signed=motion.contacts.signed,
-            regular=sign(motion.mass) == 1,
+            regular=motion.pace is not None or sign(motion.mass) == 1,
             oscillates=not periods.excluded,
             when=self.routh.between_impacts.get("", ""),
             reason=periods.reason.replace("U_eff", self.routh.potential_name),
-        )
-
-    def _by_pace(self, motion: Motion, order: Sequence[str]) -> OneFreedom:
-        """Of a relativistic motion: the energy, the turning points and the time."""
-        points, writer = motion.turning_points, Writer(order)
-        assert motion.pace is not None
-        # by E - V, which exceeds m c²
-        excess, V = symbol(_EXCESS, "positive"), motion.potential.as_independent(motion.q)[1]
-        pace = simplify(motion.pace.xreplace({motion.E: excess + V}))
-        whole = sum_of((Name(motion.E.name), *map(opposite, terms_of(shape(V, order)))))
-        if not free_of(pace, [motion.q]):
-            pace, whole = motion.pace, Name(_EXCESS)
-        parts = sympy.fraction(sympy.together(pace))
-        if sympy.sqrt(parts[0]).has(sympy.I):  # -E²/(p² c² - E²) is E²/(E² - p² c²)
-            parts = [simplify(-part) for part in parts]
-        above_, below = (
-            put_in(shape(sympy.sqrt(part), order), {Name(_EXCESS): whole}) for part in parts
-        )
-        return OneFreedom(
-            coordinate=motion.q.name,
-            constant=motion.E.name,
-            energy=terms(motion.energy, order, self.fast),
-            turning_points=None if points is None else self._turning(points, motion.E, order),
-            rate=writer.product(_ONCE, [(above_, _ONCE), (below, -_ONCE)]),
-            periods=(),
-            positive=bool(motion.q.is_positive),
-            when=self.routh.between_impacts.get("", ""),
         )
 
     def _turning(
@@ -371,6 +344,23 @@ def _rate(motion: Motion, potential: Expression, order: Sequence[str]) -> Expres
     inside = _inertia(motion.mass / outside**2, order)
     root = Call("sqrt", (writer.product(_HALF, [(inside, _ONCE), (excess, -_ONCE)]),))
     return writer.product(_ONCE, [(shape(outside, order), _ONCE), (root, _ONCE)])
+
+
+def _pace(motion: Motion, order: Sequence[str]) -> Expression:
+    """dt/dq of a relativistic motion, by E - V, which exceeds m c²."""
+    assert motion.pace is not None
+    excess, V = symbol(_EXCESS, "positive"), motion.potential.as_independent(motion.q)[1]
+    pace = simplify(motion.pace.xreplace({motion.E: excess + V}))
+    whole = sum_of((Name(motion.E.name), *map(opposite, terms_of(shape(V, order)))))
+    if not free_of(pace, [motion.q]):
+        pace, whole = motion.pace, Name(_EXCESS)
+    parts = sympy.fraction(sympy.together(pace))
+    if sympy.sqrt(parts[0]).has(sympy.I):  # -E²/(p² c² - E²) is E²/(E² - p² c²)
+        parts = [simplify(-part) for part in parts]
+    above, below = (
+        put_in(shape(sympy.sqrt(part), order), {Name(_EXCESS): whole}) for part in parts
+    )
+    return Writer(order).product(_ONCE, [(above, _ONCE), (below, -_ONCE)])
 
 
 def _is_fraction(term: Expression) -> bool:

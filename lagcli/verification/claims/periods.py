@@ -1,6 +1,6 @@
 """The period about a minimum of U_eff: its printed powers of the amplitude against the integral.
 
-    T = integral of sqrt(2 M/(E - U)) dq between the turning points q0 - a and q0 + a,
+    T = 2 integral of dq/q' between the turning points q0 - a and q0 + a, with E(q, q') = E,
 
 with q = q0 + a sin s the integral over s of an analytic function of period 2 pi, which the
 trapezoidal rule gives to all digits (Trefethen, Weideman, SIAM Review 56 (2014) 385).
@@ -44,13 +44,14 @@ def periods(x: Examination, one: OneFreedom, energy: int) -> bool:
 
 
 class Well:
-    """The energy E(q, q') = M q'^2/2 + U of one degree of freedom at random parameters."""
+    """The energy E(q, q') = U + M q'^2/2 + … of one degree of freedom at random parameters."""
 
     def __init__(self, x: Examination, one: OneFreedom, energy: int) -> None:
         program, by = x.reference.program, x.reference.by
         self.x, self.one = x, one
         self.q, self.v = (program.symbol(one.coordinate, k) for k in (0, 1))
-        self.M = by(by(energy, self.v), self.v)
+        self.momentum = by(energy, self.v)
+        self.M = by(self.momentum, self.v)
         self.U = energy  # where q' = 0
         self.slope = by(energy, self.q)
         self.curvature = by(self.slope, self.q)
@@ -183,9 +184,21 @@ class Well:
         for k in range(_NODES):
             s = arb.pi() * (2 * k + 1) / (2 * _NODES)  # by symmetry half of a turn
             q = (middle - a * s.cos()).mid()
-            M, U = self._value(known, self.M, q), self._value(known, self.U, q)
-            total += (M / (2 * (energy - U))).sqrt() * a * s.sin()
+            total += a * s.sin() / self._speed(known, q, energy)
         return 2 * total * arb.pi() / _NODES
+
+    def _speed(self, known: Environment, q: arb, energy: arb) -> arb:
+        """The q' > 0 of E(q, q') = energy."""
+        M, U = self._value(known, self.M, q), self._value(known, self.U, q)
+        v = (2 * (energy - U) / M).sqrt()
+        for _ in range(_STEPS):
+            there = {**known, (self.one.coordinate, 1): v}
+            excess = self._value(there, self.U, q) - energy
+            step = (excess / self._value(there, self.momentum, q)).mid()
+            if not size(step) > _ARRIVED * size(v):
+                break
+            v = (v - step).mid()
+        return v
 
     # -- all of them -----------------------------------------------------------------------------
 
