@@ -16,7 +16,8 @@ from collections.abc import Mapping, Sequence
 import sympy
 from sympy import Expr, S, Symbol
 
-from lagcli.algebra import shape, simplify
+from lagcli.algebra import dot, shape, simplify
+from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of
 from lagcli.algebra.signs import sign
 from lagcli.expression import ZERO, Equation
@@ -58,23 +59,31 @@ def without_holonomic(dynamics: Dynamics) -> Problem | None:
 def without_integrated(dynamics: Dynamics) -> Problem | None:
     """Without velocity constraints on coordinates that L does not contain.
 
-    a q' + b = 0 with constant a and b is a q + b t = 0; None of constraints of another kind.
+    None of constraints of another kind than `integral_of` has.
     """
     system = dynamics.system
     solved: dict[Symbol, Expr] = {}
     acting = [system.L, *system.applied_forces]
     absent = [q for q in system.q if all(free_of(x, [q]) for x in acting)]
     for e in dynamics.constraints.equations:
-        if e.holonomic or not free_of(sympy.Add(*e.row, e.drift), (*system.q, system.t)):
+        found = integral_of(e.row, e.drift, system) if not e.holonomic else None
+        if found is None:
             return None
-        terms = (a * q for a, q in zip(e.row, system.q, strict=True))
-        whole = simplify(sympy.Add(e.drift * system.t, *terms).xreplace(solved))
+        whole = simplify(found.xreplace(solved))
         q = next((q for q in absent if not free_of(whole, [q])), None)
         if q is None:
             return None
         value = {q: simplify(-whole.xreplace({q: S.Zero}) / whole.diff(q))}
         solved = {x: simplify(old.xreplace(value)) for x, old in solved.items()} | value
     return _without(system, solved, []) if solved else None
+
+
+def integral_of(row: Sequence[Expr], drift: Expr, system: System) -> Expr | None:
+    """a q + B(t) for a q' + b(t) = 0 with constant a, B' = b; None of others."""
+    if not (free_of(sympy.Tuple(*row), (*system.q, system.t)) and free_of(drift, system.q)):
+        return None
+    moved = antiderivative(drift, system.t)
+    return None if moved is None else dot(row, system.q) + moved
 
 
 def _without(

@@ -16,7 +16,8 @@ from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.mechanics.discovery.surface import independent_on_surface
-from lagcli.reader import parse_text
+from lagcli.reader import parse_text, read_problem
+from tests.solved import solve
 
 from .derived import derive
 
@@ -239,3 +240,35 @@ def test_of_two_dilations_the_difference_is_a_rotation():
 
 def test_without_a_degree_of_freedom_nothing_is_conserved():
     assert derived("contact/block-on-shaking-table-kept").discovery.charges == ()
+
+
+MOVING = {  # a cylinder on a plank, a block on a belt with drag, Atwood's machine in a lift
+    "T: x'^2/2 + R^2*th'^2/4\nconstraints: {plank: X = %s, roll: x' - X' = R*th'}": ("x th X", 6),
+    "T: x'^2/2\nV: R*(x - X)^2/2\ndissipation: x'^2/3\nconstraints: {belt: X = %s}": ("x X", 5),
+    "T: (X' - x')^2/2 + R*(X' - y')^2/2\nV: 2*X - x - y\n"
+    "constraints: {lift: X = %s, string: x + y = 1}": ("x y X", 5),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("motion", ["R*t", "3*t^2/2", "sin(2*t)"])
+@pytest.mark.parametrize("text", MOVING)
+def test_linear_systems_with_moving_supports_have_five(text, motion):
+    """With the constant of rolling that is one more; 2 n = 2 of them are independent, or 3."""
+    coordinates, number = MOVING[text]
+    given = "\nparameters: {R: {assume: positive}}\n"
+    derivation = derive(f"coordinates: [{', '.join(coordinates.split())}]{given}{text % motion}\n")
+    assert len(derivation.discovery.charges) == number
+    assert not derivation.discovery.stopped
+    assert summary(derivation.discovery).independent == number - 3
+
+
+def test_the_counts_are_confirmed_where_only_the_constraints_make_the_inertia_regular():
+    text = """
+coordinates: [x, y, h]
+parameters: {m: {assume: positive}, n: {assume: positive}, a: {}, l: {assume: positive}}
+T: m*(h' - x')^2/2 + n*(h' - y')^2/2
+constraints: {lift: h = a*t^2/2, string: x + y = l}
+"""
+    answers = solve(read_problem("lift.yaml", text.encode()).checked(), ["algebra"])
+    assert not answers.warnings
+    assert answers.sections["algebra"].independent == 2

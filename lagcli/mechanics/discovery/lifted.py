@@ -19,9 +19,9 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import dot, simplify, solve_linear
-from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery import point
 from lagcli.mechanics.discovery.scaling import scaled
+from lagcli.mechanics.fewer_coordinates import integral_of
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 from lagcli.mechanics.system import System
 
@@ -57,17 +57,18 @@ def lifted(
 
 
 def of_velocity_constraints(noether: Noether) -> Iterator[NoetherCharge]:
-    """a q + b t of each constraint a q' + b = 0 whose coefficients are constant."""
+    """a q + B(t) of each constraint a q' + B'(t) = 0 with constant a."""
     dynamics, system = noether.dynamics, noether.system
     relations = dynamics.constraints.relations
     assert relations is not None
     for k in dynamics.independent_constraints:
         e = dynamics.constraints.equations[k]
         *row, drift = (simplify(relations.substitute(x)) for x in (*e.row, e.drift))
-        if e.holonomic or not free_of(sympy.Add(*row, drift), (*system.q, system.t)):
+        integral = None if e.holonomic else integral_of(row, drift, system)
+        if integral is None:
             continue
         still = Transformation((sympy.S.Zero,) * len(system.q), sympy.S.Zero)
-        proved = point.with_gauge(noether, still, -dot(row, system.q) - drift * system.t)
+        proved = point.with_gauge(noether, still, -integral)
         if proved is not None:
             yield proved
 

@@ -74,7 +74,7 @@ def summary(discovery: Discovery) -> Summary:
             return _nonholonomic(discovery)
         if fewer is not None and len(fewer.charges) == len(discovery.charges):
             found = summary(fewer)
-            if found.integrable:
+            if found.integrable or not _of_the_file(discovery):
                 return found
         return _free(discovery)
     except TooMuchWork:

@@ -216,8 +216,7 @@ def _trace(one: Sequence[Sequence[arb]], other: Sequence[Sequence[arb]]) -> arb:
 
 def rank_of(sample: CanonicalSample, which: Iterable[int]) -> int:
     """The number of independent gradients of these functions."""
-    slopes = [[*sample.slopes[i][0], *sample.slopes[i][1]] for i in which]
-    return _rank(slopes, 2 * len(sample.slopes[0][0]))
+    return _rank([sample.gradients[i] for i in which], len(sample.gradients[0]))
 
 
 def _rank(rows: Sequence[Sequence[arb]], columns: int) -> int:

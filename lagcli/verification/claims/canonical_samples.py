@@ -33,8 +33,11 @@ class CanonicalSample:
         along = [laws.hessian({q: one}) for q in reference.q]
         P = [column(each, reference.v) for each in along]  # row j: dp/dq_j
         self.slopes: list[tuple[list[arb], list[arb]]] = []
+        #: by q and q', of the same rank, also where M is regular on the constraints alone
+        self.gradients: list[list[arb]] = []
         for f in functions:
             found = state.at.gradient(f)
+            self.gradients.append(column(found, [*reference.q, *reference.v]))
             by_p = list(solve(laws.mass_matrix, column(found, reference.v), laws.size).x)
             by_q = [
                 a - dot(row, by_p) for a, row in zip(column(found, reference.q), P, strict=True)
