@@ -272,3 +272,11 @@ constraints: {lift: h = a*t^2/2, string: x + y = l}
     answers = solve(read_problem("lift.yaml", text.encode()).checked(), ["algebra"])
     assert not answers.warnings
     assert answers.sections["algebra"].independent == 2
+
+
+def test_what_was_not_sought_without_constraints_is_said_of_the_system_with_them():
+    """Airy's equation on a line: x'' = -t x."""
+    text = "coordinates: [x, y]\nL: (x'^2 + y'^2)/2 - 5*t*x^2/2\nconstraints: {line: y = 2*x}\n"
+    found = derive(text).discovery
+    assert not found.charges
+    assert any("not solved in elementary functions" in reason for reason in found.stopped)

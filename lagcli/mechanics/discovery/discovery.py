@@ -43,6 +43,7 @@ from lagcli.mechanics.discovery.slots import point_slots
 from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
+_UNPROVED = "a symmetry whose charge was not proved is left out"
 _SECOND = "first integrals of second degree in the velocities"
 _MOST_FOR_TENSORS = 6  # measured: at most 4
 
@@ -126,12 +127,21 @@ class Discovery(Setting):
         if fewer is None or fewer.unsearched:
             return False
         self.unconstrained = fewer
-        self.words.append(f"with the constraints put in, {fewer.ansatz}")
+        self.words.append(f"with the constraints put in, {'; '.join(dict.fromkeys(fewer.words))}")
+        self.stopped += fewer.stopped
+        self.unproved = fewer.unproved
+        self.cartesian, self.cartesian_lead = fewer.cartesian, fewer.cartesian_lead
         self.listing.add(of_velocity_constraints(self.noether))
         self.listing.add(lifted(fewer.point_charges, fewer.system, self.noether))
         for charge in fewer.hidden_charges:
             name = "" if charge.name.startswith("charge_") else charge.name
             self.listing.add_hidden((name, c) for c in lifted([charge], fewer.system, self.noether))
+        proved = sum(
+            any(c.transformation.changes) or c.transformation.time != 0 for c in self.charges
+        )
+        if proved < len(fewer.charges) and not self.unproved:
+            self.unproved = _UNPROVED
+            self.stopped.append(_UNPROVED)
         if all_are_known(self):
             self.words.append(ALL_ARE_KNOWN)
         return True
@@ -194,7 +204,7 @@ class Discovery(Setting):
             allowed.check()
             charge = point.charge_of(self.noether, transformation, allowed, lengths)
             if charge is None or is_zero(charge.charge) is True:
-                self.unproved = "a symmetry whose charge was not proved is left out"
+                self.unproved = _UNPROVED
                 continue
             self.listing.add([charge])
         self.stopped += [self.unproved] if self.unproved else []
