@@ -124,7 +124,9 @@ def read_definitions(
 def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
     """The particles."""
     points = []
-    hint = "write name: {position: [x, y], mass: m}"
+    listed = [each.value for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
+    name = listed[0] if listed and listed[0].isidentifier() else "name"
+    hint = f"write {name}: {{position: [x, y], mass: m}}"
     file.scope.refused += [] if isinstance(node, Mapping) else ["points"]
     named = file.named(node, "points", _POINT_ATTRIBUTES, hint)
     entries = file.of_section(named, "points", _POINT_ATTRIBUTES)

@@ -157,7 +157,10 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
     ):
         entries = re.sub(r"(?:^|(?<=, ))(position|mass|force) +", r"\1: ", written)
         return f"write {{{entries}}}"
-    if isinstance(node, Scalar) and names[0] == "position" and written:
+    is_position = isinstance(node, Scalar) and names[0] == "position" and written
+    if is_position and not present and written.isidentifier():  # ball: m
+        return f"write {{position: [x, y], mass: {written}}}"
+    if is_position:
         within = re.fullmatch(r"\((.*)\)", written)
         return f"write {{position: [{within[1] if within else written}]}}"
     if (words := written.split(None, 1)) and words[0] in names and words[1:]:

@@ -82,7 +82,8 @@ def with_whole(
                 return [replace(named[0], span=node.span)]
             break
         proposed = re.search(rf"(?:write|mean) {re.escape(whole)}(?:[?;,]|$)", found[0].hint)
-        if "".join(whole.split()) == "".join(node.value.split()) or (proposed and not found[1:]):
+        same = "".join(whole.split()) == "".join(node.value.replace("**", "^").split())
+        if same or (proposed and not found[1:]):
             return found
         if refused := [each for each in wrong if each.message.startswith("the acceleration ")]:
             return [replace(each, span=node.span) for each in refused]

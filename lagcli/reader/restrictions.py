@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Constraint, Symmetry, pushing_sign
@@ -47,6 +48,12 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     written = first[0] if first else "equation, as in rolling: x' = R*theta'"
     named = file.named(node, "constraints", _CONSTRAINT_ATTRIBUTES, f"write name: {written}")
     entries = file.of_section(named, "constraints", _CONSTRAINT_ATTRIBUTES)
+    for (name, equation), (key, value) in pairwise(entries):
+        if key.in_flow and value.is_empty and isinstance(equation, Scalar):  # {rod: x = l, N}
+            inner = f"{{equation: {equation.value}, multiplier: {key.label}}}"
+            file.error("a comma ends the equation", key.span, f"write {name.label}: {inner}")
+            file.scope.refused.append(key.label)
+            entries = [entry for entry in entries if entry[0] is not key]
     given = (declared(file, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
     return [one for one in given if one is not None]
 

@@ -28,6 +28,8 @@ _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 #: A number in powers of ten that is not written as one: 2.0e, 2e - 3, 1.5d-3; 6.67 x 10^-11.
 _EXPONENT = re.compile(r"([\d.]+)(?:\s*([eE])\s*|([dD])(?=[-+\d]))([-+]?)\s*(\d*)(?![\w(.'])")
 _TIMES_TEN = re.compile(r"([\d.]+)\s*[xX]\s*10\s*(?:\^|\*\*|[eE])?\s*[({]?\s*(-?)[\s+]*(\d+)")
+#: What holds without being said.
+_ALWAYS = re.compile(r"(?:for|at)\s+(?:all|every|any|each)\b.*$|\balways\b.*$")
 #: Before a factor of a denominator, as in p^2/2m, where 1/2m may be a half of m.
 _DENOMINATOR = re.compile(r"(?:[\w.]*[^\W\d][\w.']*|[)'²]|\^\s*\d)\s*/\s*$")
 
@@ -143,6 +145,9 @@ def _missing_product(
         return Diagnostic("a formula has no sums", span, instead("sum"))
     if {"where", "with"} & {left, right} and re.search("[=<>]", excerpt.value):
         return Diagnostic("a formula has no conditions", span, "values stand under 'parameters'")
+    if always := _ALWAYS.search(excerpt.value):
+        message = "a remark is no part of a formula"
+        return Diagnostic(message, span, f"leave out '{always[0]}'")
     if {str(left), str(right)} & CASES:
         return Diagnostic("a formula has no cases", span, CASE)
     if right.type == "LPAR" and following is not None and following.type == "STAR":

@@ -55,7 +55,7 @@ def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
     for each in _with_value(diagnostics):
         found = _KEY.fullmatch(each.message)
         place = found["place"] if found else _ORDER.sub(r"\1 \3", each.message)
-        same = found is None or place != "the problem"
+        same = found is None or place != "the problem" or each.hint.startswith("it is one sum")
         key = (place, each.hint) if each.hint and same else (str(each.span), each.message)
         key = (place, "") if _SHAPE.search(each.message) else key
         first = kept.setdefault(key, each)

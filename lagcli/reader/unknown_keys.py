@@ -136,6 +136,9 @@ def _meant_of_problem(
         energy = numbered[0] if numbered else None
     if energy in parts:
         return meant, f"it is one sum: write {energy}: {parts[energy]} + {written}"
+    if energy and energy != word and meant is None:  # V1 and V2
+        terms = [parts[each] for each in parts if re.match(rf"{energy}(?=\d|_)", each)]
+        return None, f"it is one sum: write {energy}: {' + '.join(terms).replace('+ -', '- ')}"
     if not hint and _is_used(key, value, around):
         scope.refused.append(word)
         return meant, f"a formula with a name stands under definitions: {word}: {written}"

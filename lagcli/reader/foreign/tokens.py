@@ -87,6 +87,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
     text = re.sub(r"\\(?:begin|end)\s*\{\w+\*?\}|\\[()\[\]]", " ", text)
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
+    text = re.sub(r"->|→|⇒", "=", text) if names.related else text
     for words, sign in _RELATIONS:
         text = words.sub(f" {sign} ", text)
     behind = re.search(r"\[([^\[\]]+)\]\s*$", text)
