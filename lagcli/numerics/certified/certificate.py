@@ -9,6 +9,7 @@ from typing import Any
 from lagcli.numerics.certified.accuracy import USUAL, Outcome
 from lagcli.numerics.certified.drift import changes
 from lagcli.numerics.certified.exact_columns import at_written_times, with_digits
+from lagcli.numerics.certified.left_signs import left_signs
 from lagcli.numerics.certified.methods import METHODS
 from lagcli.numerics.certified.scales import relative
 from lagcli.numerics.equations.motion import Motion
@@ -78,7 +79,7 @@ def result_of(setup: Setup, motion: Motion, outcome: Outcome, remark: str) -> Re
         steps=run.steps,
         evaluations=outcome.evaluations,
         events=tuple(events),
-        warnings=tuple(_warnings(setup, rows, events)),
+        warnings=(*_warnings(setup, rows, events), *left_signs(setup, run.marks[:kept])),
         cut=setup.cut,
         refusal=refusal,
     )
