@@ -11,12 +11,14 @@ import random
 from math import cos, sin
 
 import pytest
+import sympy
 
 from lagcli.evaluation import FUNCTIONS, evaluated
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.mechanics.rest.equilibria import RestPoints
+from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.reader import read_problem
 
@@ -261,3 +263,74 @@ def test_no_equilibrium_is_listed_that_is_one_of_a_family(potential):
     assert any(len(place) == 1 for place in places)
     for one in places:
         assert not any(other.items() < one.items() for other in places)
+
+
+_ON_A_CURVE = """
+coordinates: [x, y]
+parameters: [a, b, k, m]
+T: {T}
+V: {V}
+constraints: {{c: "{A}*x' + {B}*y' = 0"}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("T", "V", "A", "B"),
+    [
+        ("tan(a)*x'*y'", "sin(x)*a*(b + k)*a/(y + a)", "cos(x)", "(x - y)"),
+        ("(x - a)*x'^2/2 + y'^2/2 + y*x'", "cos(x)*y + a*x^2", "m*x", "y"),
+        ("(x'^2 + y'^2)/2", "k*(x^2 + y^4)/2 + b*x*y", "(1 + y^2)", "(x + a)"),
+    ],
+)
+def test_the_stiffness_is_the_change_of_the_force_along_the_curve(
+    T: str, V: str, A: str, B: str
+) -> None:
+    """K = -d(F . u)/ds with dq/ds = u(q), A u = 0, by differences, on a branch with a long root."""
+    dynamics = derivation(_ON_A_CURVE.format(T=T, V=V, A=A, B=B)).dynamics
+    rest = RestPoints(dynamics)
+    point = next(p for p in rest.points or () if p.free)
+    linear = Linearization(rest, point)
+    (independent,) = linear.independent
+    K, h = linear.K[0][0], 1e-4
+    x, y = dynamics.system.q
+    ((unknown, root),) = point.values.items()
+    parameters = sorted((K.free_symbols | root.free_symbols) - {x, y}, key=str)
+    known = {s: 0.7 + 0.2 * n for n, s in enumerate(parameters)} | {point.free[0]: 1.3}
+    here = {**known, unknown: complex(root.evalf(subs=known))}
+    names = {s.name: s for s in (x, y, *parameters)} | {"sqrt": sympy.sqrt}
+    V_, A_, B_ = (sympy.sympify(text, names) for text in (V, A, B))
+    number = {s: v for s, v in known.items() if s in parameters}
+    velocity = [1, -A_ / B_] if independent == x else [-B_ / A_, 1]
+    force = -(V_.diff(x) * velocity[0] + V_.diff(y) * velocity[1]).xreplace(number)
+    u = [sympy.sympify(v).xreplace(number) for v in velocity]
+
+    def work(step: float) -> complex:
+        """F . u after a step of Runge and Kutta's third order along the curve."""
+
+        def slope(q: list[complex]) -> list[complex]:
+            return [complex(v.evalf(subs=dict(zip((x, y), q, strict=True)))) for v in u]
+
+        q = [complex(here[x]), here[y]]
+        k1 = slope(q)
+        k2 = slope([a + step * v / 2 for a, v in zip(q, k1, strict=True)])
+        k3 = slope([a + step * (2 * w - v) for a, v, w in zip(q, k1, k2, strict=True)])
+        q = [a + step * (p + 4 * r + s) / 6 for a, p, r, s in zip(q, k1, k2, k3, strict=True)]
+        return complex(force.evalf(subs=dict(zip((x, y), q, strict=True))))
+
+    assert abs(work(0)) < 1e-9
+    by_differences = -(work(h) - work(-h)) / (2 * h)
+    assert complex(K.evalf(subs=known)) == pytest.approx(by_differences, rel=1e-5)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_where_a_root_or_a_logarithm_in_L_is_not_real_there_is_no_equilibrium(seed: int) -> None:
+    """On m x x' + y y' = 0 the force cos(x) along y balances at y = 0, x = -pi/2 and pi/2."""
+    random_ = random.Random(seed)
+    term = random_.choice(("a*x*sqrt(x)", "a*log(x)", "a*x^2*log(3*x)", "a*sqrt(x)"))
+    shift = random_.choice(("0", "x'*y"))
+    text = _ON_A_CURVE.format(
+        T=f"(x'^2 + y'^2)/2 + {shift}", V=f"cos(x)*y + {term}", A="m*x", B="y"
+    )
+    found = [place for _, place, *_ in states(text)]
+    assert {"x": "pi/2", "y": "0"} in found
+    assert {"x": "-pi/2", "y": "0"} not in found

@@ -15,7 +15,7 @@ from lagcli.algebra import simplify
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.decimals import decimal, is_decimal
 from lagcli.algebra.numeric import DIGITS, Evaluator
-from lagcli.algebra.place import NO_VALUE, at
+from lagcli.algebra.place import NO_VALUE
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, SystemSolution, solve_system
 from lagcli.algebra.translates import least_period, one_of_each, recur
@@ -286,18 +286,8 @@ class RestPoints(RestConditions):
             branch = {known.unknown: known.root}
             values = {**{s: v.xreplace(branch) for s, v in values.items()}, **branch}
         free = tuple(s for s in q if s not in values)
-        positive = (*positive, *self._real_where(values))
+        positive = (*positive, *self.real_where(values))
         return RestPoint(values, free, (*positive, *_signs_of_letters(positive)), known)
-
-    def _real_where(self, values: Mapping[Symbol, Expr]) -> Iterator[Expr]:
-        """The arguments of even roots and logarithms in L that may be negative there."""
-        still = self.system.L.xreplace(dict.fromkeys(self.system.qdot, S.Zero))
-        powers = (p for p in still.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q % 2 == 0)
-        arguments = {*(p.base for p in powers), *(x.args[0] for x in still.atoms(sympy.log))}
-        for argument in sorted(arguments, key=sympy.default_sort_key):
-            there = at(argument, values)
-            if free_of(there, self.system.q) and sign(there) is None:
-                yield there
 
     def _may_be_real(self, solution: SystemSolution) -> bool:
         """Whether a family has real members: x^2 - x y + y^2 = 0 has one point only."""

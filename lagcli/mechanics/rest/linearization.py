@@ -4,7 +4,7 @@ With q = q0 + B x, the columns of B spanning the displacements with A(q0) dq = 0
 
     M x'' + C x' + K x = 0,
     M = B^T (mass matrix) B,   C = -B^T (d forcing/dq') B,
-    K = -B^T d(forcing + A^T lambda0)/dq B,
+    K = -B^T (d forcing/dq + lambda0^T dA/dq) B,
 
 where lambda0 holds the constraint forces at rest.
 
@@ -78,24 +78,26 @@ class Linearization:
     @cached_property
     def M(self) -> Matrix:
         """The mass matrix."""
-        return self._along(self.rest.mass_matrix)
+        return self._along(self._there(self.rest.mass_matrix))
 
     @cached_property
     def C(self) -> Matrix:
         """Damping (symmetric part) and gyroscopic terms (antisymmetric part)."""
         forcing = self.rest.forcing
-        return self._along([[-f.diff(v) for v in self.system.qdot] for f in forcing])
+        return self._along(self._there([[-f.diff(v) for v in self.system.qdot] for f in forcing]))
 
     @cached_property
     def K(self) -> Matrix:
         """The stiffness."""
-        equations = self.dynamics.constraints.equations
-        lam = self.constraint_forces
-        total = [
-            force + sympy.Add(*(x * equations[k].row[j] for k, x in lam.items()))
-            for j, force in enumerate(self.rest.forces_at_rest)
-        ]
-        return self._along([[-f.diff(q) for q in self.system.q] for f in total])
+        q, equations = self.system.q, self.dynamics.constraints.equations
+        values = self._there([[-f.diff(x) for x in q] for f in self.rest.forces_at_rest])
+        for k, force in self.constraint_forces.items():  # constant: B^T A^T = 0
+            turned = self._there([[-a.diff(x) for x in q] for a in equations[k].row])
+            values = [
+                [e + force * x for e, x in zip(*rows, strict=True)]
+                for rows in zip(values, turned, strict=True)
+            ]
+        return self._along(values)
 
     @cached_property
     def constraint_forces(self) -> dict[int, Expr]:
@@ -144,13 +146,16 @@ class Linearization:
         slopes = (drift.diff(q) for drift in terms for q in self.system.q)
         return any(is_zero(at(slope, self.point.values)) is not True for slope in slopes)
 
-    def _along(self, matrix: Sequence[Sequence[Expr]]) -> Matrix:
-        """B^T matrix B at the equilibrium, with q' = 0."""
+    def _there(self, matrix: Sequence[Sequence[Expr]]) -> Matrix:
+        """A matrix at the equilibrium, with q' = 0."""
         still = dict.fromkeys(self.system.qdot, S.Zero)
-        values = [
+        return [
             [self._here(entry.xreplace(still)) if entry else S.Zero for entry in row]
             for row in matrix
         ]
+
+    def _along(self, values: Sequence[Sequence[Expr]]) -> Matrix:
+        """B^T matrix B."""
 
         def form(u: Sequence[Expr], v: Sequence[Expr]) -> Expr:
             terms = (

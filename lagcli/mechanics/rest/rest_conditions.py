@@ -12,7 +12,7 @@ Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., sections 1.4 and 6.1.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain, combinations, islice
 from typing import TYPE_CHECKING
@@ -317,6 +317,19 @@ class RestConditions:
         own = (e for e in self.equations if e.free_symbols & {*self.system.q} == {q})
         return any(not any(f.has(q) for f in e.atoms(*CIRCULAR)) for e in own)
 
+    def real_where(self, values: Mapping[Symbol, Expr]) -> Iterator[Expr]:
+        """The arguments of even roots and logarithms in L that are not known to be positive there.
+
+        Those with a coordinate of a family in them are left out.
+        """
+        still = self.system.L.xreplace(dict.fromkeys(self.system.qdot, S.Zero))
+        powers = (p for p in still.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q % 2 == 0)
+        arguments = {*(p.base for p in powers), *(x.args[0] for x in still.atoms(sympy.log))}
+        for argument in sorted(arguments, key=sympy.default_sort_key):
+            there = at(argument, values)
+            if free_of(there, self.system.q) and sign(there) not in (0, 1):
+                yield there
+
     def loses_rank(self, values: Mapping[Symbol, Expr]) -> bool:
         """Whether the gradients of the constraints are independent, but not there."""
         rows = self.dynamics.constraints.jacobian
@@ -326,9 +339,9 @@ class RestConditions:
     def balanced(self, values: Mapping[Symbol, Expr], positive: Sequence[Expr] = ()) -> bool:
         """Whether a state of rest is an equilibrium, by substitution where these are positive.
 
-        It is none where the equations have no value, nor known to be one where L jumps.
+        It is none where L or the equations have no value, nor known to be one where L jumps.
         """
-        if self.jumps_at(values):
+        if self.jumps_at(values) or -1 in map(sign, self.real_where(values)):
             return False
         decimals = [q for q, value in values.items() if is_decimal(value)]
         try:
