@@ -39,8 +39,8 @@ from lagcli.record import record
 #: A bracket is worth it from this share of the operations of the terms one by one.
 _WORTH_A_BRACKET = 0.72
 
-#: The potential energy stays as the file has it up to this multiple of the operations.
-_GIVEN = 1.6
+#: Terms that hold fractions stay apart up to this multiple of the operations.
+_APART = 1.6
 
 #: What is no polynomial in the velocities stays whole as the file has it: -m c² sqrt(1 - v²/c²).
 _GIVEN_WHOLE = 1.6
@@ -53,7 +53,7 @@ def terms(
     order: Sequence[str],
     leading: Collection[str],
     *,
-    as_given: bool = False,
+    as_given: float = 0,
 ) -> Expression:
     """The expression as a sum over the monomials in the quantities `leading`.
 
@@ -66,7 +66,8 @@ def terms(
     leading
         Names of velocities, accelerations, momenta, multipliers.
     as_given
-        Prefer the expression as it stands where that is no longer.
+        Prefer the expression as it stands where that is no longer, and what is at rest up to
+        this multiple of the operations.
     """
     writer = Writer(order)
     field = Field([expression], alone=True)
@@ -89,13 +90,13 @@ def terms(
     if (
         as_given
         and at_rest
-        and length(given_rest := _given(at_rest, writer)) <= _GIVEN * length(static)
+        and length(given_rest := _given(at_rest, writer)) <= as_given * length(static)
     ):
         static = given_rest
     elif len(at_rest) > 1 and not as_given:
         apart = writer.sum(shaper.shape(field(part)) for part in at_rest)
         # k1 (x - l1) - k2 (y - x - l2), the terms of V differentiated; not x (U/d² - B²/m)
-        most = _GIVEN if any(map(_holds_fraction, terms_of(static))) else 1
+        most = _APART if any(map(_holds_fraction, terms_of(static))) else 1
         if operation_count(apart) <= most * operation_count(static):
             static = apart
     result = writer.sum([*split.moving, static])

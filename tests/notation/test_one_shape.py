@@ -317,3 +317,22 @@ def test_a_letter_stands_before_a_fraction(sign: str) -> None:
     found = text("r, p", "m g k l", physics, "equilibria")
     assert "r = l + m g/k" in found
     assert "r = l − m g/k" in found
+
+
+@pytest.mark.parametrize("n", [2, 3, 4])
+@pytest.mark.parametrize("function", ["cos", "sin"])
+def test_heights_with_letters_are_put_in_and_collected(n: int, function: str) -> None:
+    """(m1 + m2) g l1 cos θ1 + m2 g l2 cos θ2 (Landau, Lifshitz, Mechanics, section 5, problem 1)."""
+    q, places = "abcd"[:n], range(1, n + 1)
+    heights = [f"y1: -l1*{function}(a)"]
+    heights += [f"y{k}: y{k - 1} - l{k}*{function}({q[k - 1]})" for k in places[1:]]
+    V = " + ".join(f"m{k}*g*y{k}" for k in places)
+    T = " + ".join(f"{x}'^2/2" for x in q)
+    physics = f"definitions: {{{', '.join(heights)}}}\nT: {T}\nV: {V}"
+    letters = [f"{letter}{k}" for letter in "ml" for k in places]
+    found = " ".join(text(", ".join(q), " ".join([*letters, "g"]), physics, "lagrangian").split())
+    indices = "₁₂₃₄"[:n]
+    for k, x in enumerate(q):
+        masses = " + ".join(f"m{i}" for i in indices[k:])
+        masses = f"({masses})" if k < n - 1 else masses
+        assert f"+ {masses} g l{indices[k]} {function}({x})" in found
