@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Paragraph
-from lagcli.expression import Expression, Name
+from lagcli.expression import Expression
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.problem_data import ExpectAlgebra, ExpectSpecial
 from lagcli.reader.scope import CONSTANTS
@@ -26,7 +26,7 @@ from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import AlgebraSection, Answers, SpecialValue
 from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.motions import Above
-from lagcli.statements.wording import conditions, rows_by_name
+from lagcli.statements.wording import conditions, rows_by_name, values_of
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
@@ -51,6 +51,7 @@ def derive(statements: Statements) -> AlgebraSection | None:
             value=statements.as_written(case.value),
             number=case.number,
             charges={c.name: statements.by_terms(c.charge) for c in case.charges},
+            given={p.name: statements.as_written(value) for p, value in case.given},
         )
         for case in statements.derivation.special_cases
     )
@@ -103,9 +104,7 @@ def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
     for cases in _alike(section.special):
         number = cases[0].number
         where = [
-            part
-            for k, case in enumerate(cases)
-            for part in (" or " if k else "", Name(case.parameter), " = ", case.value)
+            part for k, case in enumerate(cases) for part in (" or " * bool(k), *values_of(case))
         ]
         plural = "y" if number == 1 else "ies"
         yield Paragraph(("Where ", *where, f": {number} symmetr{plural}, of which new"))

@@ -183,12 +183,21 @@ class ChargesSection:
 
 @record(kw_only=True)
 class SpecialValue:
-    """A parameter's value at which there are more charges: their number, and the new ones."""
+    """A parameter's value at which there are more charges: their number, and the new ones.
+
+    Where they come only with values of other parameters, too, these are `given`.
+    """
 
     parameter: str
     value: Expression
     number: int
     charges: Mapping[str, Expression]
+    given: Mapping[str, Expression] = field(default_factory=dict)
+
+    @property
+    def values(self) -> dict[str, Expression]:
+        """All of them, by parameter."""
+        return {self.parameter: self.value, **self.given}
 
 
 @record(kw_only=True)

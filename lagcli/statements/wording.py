@@ -27,6 +27,7 @@ from lagcli.statements.answers import (
     ModesSection,
     QuantityUnit,
     Section,
+    SpecialValue,
     Verification,
 )
 from lagcli.statements.motions import Above, Irreducible, OneFreedom, SteadySection
@@ -110,6 +111,14 @@ def constraints_named(kind: str, names: Sequence[str]) -> str:
 def enumerated(words: Sequence[str]) -> str:
     """a, b and c."""
     return " and ".join([part for part in (", ".join(words[:-1]), *words[-1:]) if part])
+
+
+def values_of(case: SpecialValue) -> list[Part]:
+    """The values of parameters at which there are more symmetries."""
+    found: list[tuple[Part, ...]] = [
+        (" and ", Name(name), " = ", value) for name, value in case.values.items()
+    ]
+    return [part for each in found for part in each][1:]
 
 
 def conditions(where: Sequence[Above]) -> list[Part]:

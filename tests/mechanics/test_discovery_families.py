@@ -12,8 +12,10 @@ import re
 
 import pytest
 
+from lagcli.algebra import is_zero
 from lagcli.mechanics.discovery.summary import summary
 from tests.oracle.constancy import digits_of
+from tests.solved import solve
 
 from .derived import derive
 
@@ -336,3 +338,38 @@ def test_a_damped_pair_has_no_charge_twice_where_its_damping_is_critical():
     found = derive(f"{{coordinates: [x, y], parameters: {{g: {POS}}}, L: {L}}}").discovery
     assert len(found.charges) == 8, [charge.name for charge in found.charges]
     assert summary(found).dimension == 8
+
+
+TOGETHER = {  # what the quartic and the cubic of Henon and Heiles need of two parameters
+    "(x'^2 + y'^2 - a*x^2 - b*y^2)/2 - (x^4 + 2*c*x^2*y^2 + y^4)/4": {"b": "a", "c": "3"},
+    "(x'^2 + y'^2 - a*x^2 - b*y^2)/2 - x^2*y - c*y^3/3": {"b": "a", "c": "1"},
+    "(x'^2 + y'^2 - 4*a*x^2 - b*y^2)/2 - x^2*y - c*y^3/3": {"b": "4*a", "c": "1"},
+}
+
+
+@pytest.mark.parametrize("L", TOGETHER)
+def test_two_parameters_may_have_to_have_their_values_together(L):
+    """Ramani, Grammaticos, Bountis, Phys. Rep. 180 (1989) 159, sections 3.3 and 3.4: separable."""
+    text = f"coordinates: [x, y]\nparameters: {{a: {POS}, b: {POS}, c: {{}}}}\nL: {L}\n"
+    derivation = derive(text)
+    [case] = [c for c in derivation.special_cases if c.given]
+    values = {str(p): str(v) for p, v in ((case.parameter, case.value), *case.given)}
+    assert values == TOGETHER[L]
+    assert case.number == 2
+    [charge] = case.charges
+    H = derivation.noether.energy.function.xreplace(
+        dict(((case.parameter, case.value), *case.given))
+    )
+    assert is_zero(charge.charge - H) is False
+    answers = solve(derivation.problem, ["discovered", "algebra"])
+    assert not answers.warnings
+    assert any(special.given for special in answers.sections["algebra"].special)
+
+
+def test_what_holds_at_one_value_is_not_listed_for_two():
+    """For c = 6 any a and b do, so for b = 4 a, too."""
+    L = list(TOGETHER)[1]
+    text = f"coordinates: [x, y]\nparameters: {{a: {POS}, b: {POS}, c: {{}}}}\nL: {L}\n"
+    cases = derive(text).special_cases
+    assert [str(c.value) for c in cases if not c.given] == ["6"]
+    assert len(cases) == 2

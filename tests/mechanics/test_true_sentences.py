@@ -647,10 +647,13 @@ def test_special_values_are_said_with_what_the_same_search_finds(factor):
 
 @pytest.mark.parametrize("offset", mostly_long(["l", "2*l"], "l"))
 def test_the_name_of_an_algebra_has_the_condition_under_which_its_charges_are_real(offset):
-    """Of r'' = (w² − k/m) r + …: the other sign has the hyperbolic oscillator algebra."""
+    """Of r'' = (w² − k/m) r + …: the other sign has the hyperbolic oscillator algebra.
+
+    Beside y'' = -4 y³/m no stretching of time is left.
+    """
     text = (
-        "coordinates: [r, phi]\nparameters: {m: {assume: positive}, k: {}, w: {}, l: {}}\n"
-        f"T: m*(r'^2 + r^2*phi'^2)/2\nV: k*(r - {offset})^2/2\n"
+        "coordinates: [r, phi, y]\nparameters: {m: {assume: positive}, k: {}, w: {}, l: {}}\n"
+        f"T: m*(r'^2 + r^2*phi'^2 + y'^2)/2\nV: k*(r - {offset})^2/2 + y^4\n"
         "constraints: {motor: phi = w*t}\n"
     )
     answers = pipeline.state(derive(text), pipeline.Request(sections=("algebra",)))

@@ -7,7 +7,7 @@ of lower dimension (Schwartz, J. ACM 27 (1980) 701).
 from __future__ import annotations
 
 import random
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 from flint import nmod_mat, nmod_poly
 
@@ -61,8 +61,18 @@ class ModularRank:
     def is_lower_at(self, factor: Poly) -> bool:
         """Whether the rank is lower where the factor vanishes; True where no zero was found."""
         zero = self._zero(factor)
-        if zero is None:
-            return True
+        return zero is None or self._is_lower(zero)
+
+    def is_lower_at_both(self, one: Poly, other: Poly) -> bool:
+        """Whether the rank is lower where both factors vanish; False where no zero was found."""
+        for first, second in ((one, other), (other, one)):
+            zero = self._zero(first)
+            last = self._zero(second, zero, self.ring.used(first)) if zero else None
+            if last is not None:
+                return self._is_lower(last)
+        return False
+
+    def _is_lower(self, zero: tuple[dict[int, int], int]) -> bool:
         rank = len(self._basis)
         return self._rank(self._basis, *zero) < rank and self._rank(self._rows, *zero) < rank
 
@@ -83,18 +93,26 @@ class ModularRank:
 
     # -- zeros of a factor ----------------------------------------------------------------------
 
-    def _zero(self, factor: Poly) -> tuple[dict[int, int], int] | None:
+    def _zero(
+        self,
+        factor: Poly,
+        given: tuple[dict[int, int], int] | None = None,
+        kept: Collection[int] = (),
+    ) -> tuple[dict[int, int], int] | None:
         """Values of the constants at which it vanishes, and the prime.
 
-        It is solved for a symbol on which no other generator depends.
+        It is solved for a symbol on which no other generator depends; with the values that are
+        `given` for none of those `kept`.
         """
-        for g in filter(self._is_free, self.ring.used(factor)):
+        for g in filter(self._is_free, set(self.ring.used(factor)) - set(kept)):
             parts = self.ring.coefficients(factor, g)
             terms = {k: self.points.terms(x) for k, x in parts.items()}
             powers = range(max(terms, default=0) + 1)
-            for draw in range(_DRAWS):
+            for draw in range(1 if given else _DRAWS):
                 prime = self._primes[draw % len(self._primes)]
                 values = self._drawn() if draw else dict(self.points.constants)
+                if given is not None:
+                    values, prime = given
                 numbers = [evaluated(terms.get(k, []), values, prime) for k in powers]
                 root = linear_root(nmod_poly(numbers, prime))
                 if root is not None:

@@ -9,6 +9,7 @@ whether it does at a root of such a factor is seen modulo a prime, at a random p
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import cached_property
 
 from sympy import Expr
 
@@ -21,6 +22,8 @@ from lagcli.mechanics.discovery.search import Search
 from lagcli.platform.effort import EFFORT
 
 _MOST_TERMS = 80
+_MOST_TERMS_OF_PAIR = 3
+_MOST_PAIRED = 8
 
 
 class Pivots:
@@ -45,8 +48,39 @@ class Pivots:
 
     def factors(self) -> list[Expr]:
         """Irreducible polynomials in the parameters at whose roots the rank is lower."""
-        found = [f for f in self._candidates() if self._rank.is_lower_at(f)]
+        found = [f for f in self.candidates if self._rank.is_lower_at(f)]
         return [self.field.polynomial_to_sympy(f) for f in found if self._may_vanish(f)]
+
+    def pairs(self) -> list[tuple[Expr, Expr]]:
+        """Two with several terms that lower the rank together, and neither alone: a = b, c = 3.
+
+        The second are the factors of the pivots where the first is solved for one symbol.
+        """
+        found = []
+        for first in filter(self._of_pair, self.candidates[:_MOST_PAIRED]):
+            solved = self._solved(first)
+            if solved is None:
+                continue
+            put_in = [
+                {k: self.ring.compose(x, solved) for k, x in row.items()} for row in self.rows
+            ]
+            rows = [{k: x for k, x in row.items() if x != 0} for row in put_in]
+            others = filter(self._of_pair, self._candidates([row for row in rows if row]))
+            found += [(first, x) for x in others if self._rank.is_lower_at_both(first, x)]
+        shown = self.field.polynomial_to_sympy
+        return [(shown(first), shown(second)) for first, second in found]
+
+    def _of_pair(self, factor: Poly) -> bool:
+        few = 1 < len(factor) <= _MOST_TERMS_OF_PAIR and self._may_vanish(factor)
+        return few and not self._rank.is_lower_at(factor)
+
+    def _solved(self, factor: Poly) -> dict[int, Poly] | None:
+        """A symbol by its value where the factor vanishes, if that has no denominator."""
+        for g in self.ring.used(factor):
+            slope = self.ring.derivative(factor, g)
+            if slope in (1, -1) and self.field.generators[g].kind == "symbol":
+                return {g: self.ring.generator(g) - slope * self.ring.lift(factor)}
+        return None
 
     def _rows(self, columns: Sequence[Sequence[Expr]]) -> Iterator[Row]:
         seen = set()
@@ -60,9 +94,14 @@ class Pivots:
 
     # -- elimination --------------------------------------------------------------------------
 
-    def _candidates(self) -> list[Poly]:
+    @cached_property
+    def candidates(self) -> list[Poly]:
+        """Factors of pivots and of rows."""
+        return self._candidates(self.rows)
+
+    def _candidates(self, given: Sequence[Row]) -> list[Poly]:
         found: dict[str, Poly] = {}
-        rows = [self._without_content(row, found) for row in self.rows]
+        rows = [self._without_content(row, found) for row in given]
         best = [self._best(row) for row in rows]
         while rows:
             self.allowed.spend(len(rows))

@@ -46,12 +46,16 @@ Value = tuple[Symbol, Expr]
 
 @dataclass(frozen=True, slots=True)
 class SpecialCase:
-    """A parameter's value, how many charges there are then, and those that come with it."""
+    """A parameter's value, how many charges there are then, and those that come with it.
+
+    With it the others that are `given` have their values.
+    """
 
     parameter: Symbol
     value: Expr
     number: int
     charges: tuple[NoetherCharge, ...]
+    given: tuple[Value, ...] = ()
 
 
 def candidates(
@@ -70,6 +74,30 @@ def candidates(
             value.free_symbols and value.could_extract_minus_sign() and (parameter, -value) in found
         )
     ]
+
+
+def both_vanish(
+    pairs: Sequence[tuple[Expr, Expr]], alone: Sequence[Expr], parameters: Sequence[Symbol]
+) -> list[tuple[Value, Value]]:
+    """Values of two parameters at which two factors vanish, and none that does it `alone`."""
+    each = {frozenset(pair): pair for pair in _both_vanish(pairs, parameters)}
+    return [
+        pair for pair in each.values()
+        if not any(is_zero(f.xreplace(dict(pair))) is True for f in alone)
+    ]  # fmt: skip
+
+
+def _both_vanish(
+    pairs: Sequence[tuple[Expr, Expr]], parameters: Sequence[Symbol]
+) -> Iterator[tuple[Value, Value]]:
+    """The value of each without the other in it."""
+    for one, other in pairs:
+        for parameter, value in _solved(one, parameters):
+            left = [p for p in parameters if p != parameter]
+            for second, there in _solved(other.xreplace({parameter: value}), left):
+                first = simplify(value.xreplace({second: there}))
+                if _admissible(parameter, first):
+                    yield (second, there), (parameter, first)
 
 
 def problem_at(problem: Problem, parameter: Symbol, value: Expr) -> Problem | None:

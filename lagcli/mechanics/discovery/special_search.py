@@ -23,6 +23,7 @@ from lagcli.mechanics.discovery.slots import point_slots
 from lagcli.mechanics.discovery.special import (
     SpecialCase,
     Value,
+    both_vanish,
     candidates,
     damped_powers,
     exchanged,
@@ -39,6 +40,7 @@ _UNITS = 56_000_000  # three frequencies: 11 values take 45 million
 _FOR_PIVOTS = 0.3  # of these
 _MOST_UNKNOWNS = 150  # measured: up to 378
 _MOST_VALUES = 16  # measured: at most 5
+_MOST_PAIRS = 3
 _MOST_OPERATIONS = 20  # measured: at most 2
 _NOT_TRIED = "not all special values of the parameters were tried"
 _NOT_ALL = "not all special values of the parameters were sought"
@@ -47,7 +49,7 @@ _NOT_ALL = "not all special values of the parameters were sought"
 def special_cases(
     discovery: Discovery, search: Callable[[Problem], Discovery]
 ) -> tuple[SpecialCase, ...]:
-    """One parameter at a time; `search` makes the same search for another problem."""
+    """One parameter at a time, then two; `search` makes the same search for another problem."""
     searched = discovery.unconstrained or discovery
     system = searched.system
     if discovery.unsearched:
@@ -59,34 +61,38 @@ def special_cases(
     variables = (system.t, *discovery.system.q, *discovery.system.qdot)
     found: list[SpecialCase] = []
     try:
+        together: list[tuple[Value, Value]] = []
         if searched.dynamics.constraints.equations:
             values = exchanged(discovery.dynamics)
         else:
-            factors = [*_factors(searched, allowed), *linear_powers(searched.equations)]
+            factors, pairs = _factors(searched, allowed)
+            factors += linear_powers(searched.equations)
             linear = searched.accelerations or (), searched.time_functions.exponents, system.q
             factors += damped_powers(*linear)
             values = candidates(system, factors, _exponents(searched))
-        if len(values) > _MOST_VALUES:
+            together = both_vanish(pairs, factors, system.parameters)
+        choices: list[tuple[Value, ...]] = [(value,) for value in values[:_MOST_VALUES]]
+        choices += together[:_MOST_PAIRS]
+        if len(values) > _MOST_VALUES or len(together) > _MOST_PAIRS:
             discovery.words.append(_NOT_TRIED)
-        for parameter, value in values[:_MOST_VALUES]:
-            if sympy.count_ops(value) > _MOST_OPERATIONS:
+        for choice in choices:
+            if any(sympy.count_ops(value) > _MOST_OPERATIONS for _, value in choice):
                 discovery.words.append(_NOT_TRIED)
                 continue
-            there = _at(discovery, parameter, value, search)
+            there = _at(discovery, choice, search)
             allowed.check()
             if there is None or not _has_more(there, discovery):
                 continue
             known = [
                 part for c in discovery.charges
-                for part in _real_parts(
-                    _at_value(c.charge, (parameter, value), variables), c.charge
-                )
+                for part in _real_parts(_at_values(c.charge, choice, variables), c.charge)
                 if not part.has(*NO_VALUE)  # divided by what is 0 there
             ]  # fmt: skip
             charges = new_charges(known, there.charges, there.dynamics, allowed)
             charges = _named_apart(charges, [c.name for c in discovery.charges])
             if charges:
-                found.append(SpecialCase(parameter, value, len(there.charges), charges))
+                number, given = len(there.charges), tuple(choice[1:])
+                found.append(SpecialCase(*choice[0], number, charges, given))
     except TooMuchWork:
         discovery.words.append(_NOT_TRIED)
     return tuple(found)
@@ -109,9 +115,9 @@ def _has_more(there: Discovery, here: Discovery) -> bool:
     )
 
 
-def _at_value(charge: Expr, value: Value, moving: Sequence[Symbol]) -> Expr:
+def _at_values(charge: Expr, values: Sequence[Value], moving: Sequence[Symbol]) -> Expr:
     """With either sign of a frequency: sqrt(c) is |sqrt(a) - sqrt(b)| at its square."""
-    there = charge.xreplace(dict([value]))
+    there = charge.xreplace(dict(values))
     return there.xreplace({x: x.args[0] for x in there.atoms(sympy.Abs) if free_of(x, moving)})
 
 
@@ -143,29 +149,39 @@ def _exponents(discovery: Discovery) -> tuple[Exponent, ...]:
 
 
 def _at(
-    discovery: Discovery, parameter: Symbol, value: Expr, search: Callable[[Problem], Discovery]
+    discovery: Discovery, values: Sequence[Value], search: Callable[[Problem], Discovery]
 ) -> Discovery | None:
-    """The same search with a value in place of a parameter."""
-    problem = problem_at(discovery.system.problem, parameter, value)
+    """The same search with values in place of parameters."""
+    problem: Problem | None = discovery.system.problem
+    for parameter, value in values:
+        problem = problem and problem_at(problem, parameter, value)
     try:
         return None if problem is None else search(problem)
     except (ProblemError, ZeroDivisionError):
         return None
 
 
-def _factors(discovery: Discovery, allowed: Allowance) -> list[Expr]:
-    """Of the search for point symmetries, and of that for integrals of second degree."""
+def _factors(
+    discovery: Discovery, allowed: Allowance
+) -> tuple[list[Expr], list[tuple[Expr, Expr]]]:
+    """Of the search for point symmetries, and of that for integrals of second degree.
+
+    Of the latter also pairs that have to vanish together.
+    """
     part = allowed.part(_FOR_PIVOTS)
     found: dict[Expr, None] = {}
+    pairs: list[tuple[Expr, Expr]] = []
     try:
         for search in _searches(discovery, part):
             if search is None:
                 discovery.words.append(_NOT_ALL)
             else:
-                found |= dict.fromkeys(Pivots(search, part).factors())
+                pivots = Pivots(search, part)
+                found |= dict.fromkeys(pivots.factors())
+                pairs = pivots.pairs()
     except (NoPoint, TooMuchWork, ZeroDivisionError):
         discovery.words.append(_NOT_ALL)
-    return list(found)
+    return list(found), [pair for pair in pairs if not found.keys() & set(pair)]
 
 
 def _searches(discovery: Discovery, allowed: Allowance) -> Iterator[Search | None]:

@@ -19,7 +19,7 @@ from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, says
 from lagcli.statements.answers import AlgebraSection, Charge, ChargesSection, Section
-from lagcli.statements.wording import conditions
+from lagcli.statements.wording import conditions, values_of
 
 #: A table of brackets of more charges than these is not read.
 _MOST = 7
@@ -149,7 +149,7 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
         one = len(case.charges) == 1
         many = f"{case.number} {'symmetry' if case.number == 1 else 'symmetries'}"
         new = "this is no linear combination" if one else "these are no linear combinations"
-        lead: list[Part] = ["For ", Name(case.parameter), " = ", case.value]
+        lead: list[Part] = ["For ", *values_of(case)]
         yield says(lead, f" the same search finds {many}, of which {new} of those above:")
         yield equations_of((Name(name), value) for name, value in case.charges.items())
 

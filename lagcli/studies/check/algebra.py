@@ -65,7 +65,10 @@ def _special(
 
 
 def _listed(cases: Sequence[SpecialValue]) -> str:
-    return ", ".join(f"{c.parameter} = {to_grammar(c.value)}" for c in cases) or "none"
+    shown = (
+        " and ".join(f"{name} = {to_grammar(x)}" for name, x in c.values.items()) for c in cases
+    )
+    return ", ".join(shown) or "none"
 
 
 def _holds(relation: Equation | None, case: SpecialValue, comparison: Comparison) -> bool:
@@ -77,7 +80,7 @@ def _holds(relation: Equation | None, case: SpecialValue, comparison: Comparison
 
 
 def _values(case: SpecialValue) -> Values:
-    return {case.parameter: case.value}
+    return case.values
 
 
 def _of_case(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from flint import arb
 
@@ -21,11 +21,13 @@ _MORE = 4
 def holds(x: Examination, special: SpecialValue, known: Sequence[int]) -> bool:
     """Whether the charges that are listed with a value are constant there, and new ones."""
     what = f"the special value {special.parameter} = {to_grammar(special.value)}"
-    places = x.places(what, [special.value, *special.charges.values()])
+    places = x.places(what, [*special.values.values(), *special.charges.values()])
     if places is None:
         return False
-    value, *charges = places
-    there = list(_on_constraints(_there(x, special.parameter, value)))
+    number = len(special.values)
+    charges = places[number:]
+    values_ = dict(zip(special.values, places[:number], strict=True))
+    there = list(_on_constraints(_there(x, values_)))
     if not there and x.states():
         x.refute(what, "the parameter has another sign, or no value there")
         return False
@@ -80,11 +82,15 @@ def _on_constraints(states: Iterable[State]) -> Iterator[State]:
             yield State(state.reference, environment)
 
 
-def _there(x: Examination, parameter: str, value: int) -> Iterator[State]:
-    """States with the value, where its sign is that of the parameter."""
-    [sign] = (p.assume for p in x.problem.parameters if p.name == parameter)
+def _there(x: Examination, values: Mapping[str, int]) -> Iterator[State]:
+    """States with the values, where their signs are those of the parameters."""
+    signs = {p.name: p.assume for p in x.problem.parameters}
     for state in x.states(LOOKED_AT):
-        number = state.at(value)
-        wrong = (sign == "positive" and number <= 0) or (sign == "negative" and number >= 0)
-        if number.is_finite() and not wrong:
-            yield State(x.reference, {**state.environment, (parameter, 0): number.mid()})
+        numbers = {name: state.at(value) for name, value in values.items()}
+        wrong = any(
+            (signs[name] == "positive" and x <= 0) or (signs[name] == "negative" and x >= 0)
+            for name, x in numbers.items()
+        )
+        if all(x.is_finite() for x in numbers.values()) and not wrong:
+            given = {(name, 0): x.mid() for name, x in numbers.items()}
+            yield State(x.reference, {**state.environment, **given})
