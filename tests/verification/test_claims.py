@@ -415,6 +415,23 @@ def test_the_momentum_under_its_name_has_its_sign() -> None:
     assert verified(problem, sheet).sections["charges"].charges[0].charge is None
 
 
+@pytest.mark.parametrize("name", ["hoop", "nonholonomic/chaplygin-sleigh", "central/kepler"])
+def test_a_charge_whose_formula_is_left_out_is_missed(name: str) -> None:
+    """With its boundary term a charge is known."""
+    problem, answers = derived(name, ("charges",))
+    section = answers.sections["charges"]
+    given = [place for place, each in enumerate(section.charges) if each.gauge is not None]
+    assert given
+    for place in given:
+        charge = section.charges[place]
+        short = replace(charge, charge=None)
+        charges = (*section.charges[:place], short, *section.charges[place + 1 :])
+        sheet = replace(answers, sections={"charges": replace(section, charges=charges)})
+        found = verified(problem, sheet)
+        assert any(f"the charge '{charge.name}'" in each for each in found.warnings)
+        assert not found.complete
+
+
 def test_a_charge_that_moves_is_not_called_constant() -> None:
     problem, answers = derived("symmetry/projectile", ("charges",))
     section = answers.sections["charges"]

@@ -81,6 +81,8 @@ def _charge(x: Examination, charge: Charge) -> Charge:
     if charge.trivial:
         return charge if _is_trivial(x, charge) else _without(charge)
     if charge.charge is None:
+        if charge.gauge is not None:  # then Q is known
+            x.refute(f"the charge '{charge.name}'", "its formula is not given")
         lasts = not charge.conserved or closed_on_surface(x, charge)
         return charge if lasts else _without(charge)
     what = f"the charge '{charge.name}'"
