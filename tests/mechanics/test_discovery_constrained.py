@@ -280,3 +280,26 @@ def test_what_was_not_sought_without_constraints_is_said_of_the_system_with_them
     found = derive(text).discovery
     assert not found.charges
     assert any("not solved in elementary functions" in reason for reason in found.stopped)
+
+
+@pytest.mark.parametrize(
+    ("constraint", "again"),
+    [
+        ("x^2 + y^2 = a^2", "2*x^2 + 2*y^2 = 2*a^2"),
+        ("x^2 + y^2 = a^2", "(x^2 + y^2)^2 = a^4"),
+        ("x^2 + y^2 = (a - z)^2", "x^2 + y^2 - z^2 = a^2 - 2*a*z"),
+        ("x^2 + y^2 + z^2 = a^2", "\"x*x' + y*y' + z*z' = 0\", c3: 3*a^2 - 3*y^2 = 3*x^2 + 3*z^2"),
+    ],
+)
+def test_a_constraint_that_is_given_twice_takes_no_symmetry_away(
+    constraint: str, again: str
+) -> None:
+    text = (
+        "coordinates: [x, y, z]\nparameters: {m: {assume: positive}, g: , a: {assume: positive}}\n"
+        "T: m*(x'^2 + y'^2 + z'^2)/2\nV: m*g*z\nconstraints: {c1: %s%s}\n"
+    )
+    once, twice = (
+        {charge.name for charge in derive(text % (constraint, more)).discovery.charges}
+        for more in ("", f", c2: {again}")
+    )
+    assert {"energy", "L_z"} <= once == twice

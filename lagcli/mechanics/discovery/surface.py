@@ -16,6 +16,7 @@ from flint import nmod_mat
 from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, is_zero, simplify
+from lagcli.algebra.relations import Relations
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import (
@@ -62,6 +63,8 @@ class FormulaSurface:
         remaining = [] if relations is None else relations.remaining
         v = set(self.system.qdot)
         self._positions = [f for f in remaining if not f.free_symbols & v]
+        if dynamics.redundant:
+            self._positions = _not_implied(self._positions)
         self._moving = [v for v in self.system.qdot if relations and v not in relations.solved]
         #: Whether position constraints are left that no coordinate was substituted for.
         self.curved = bool(self._positions)
@@ -263,6 +266,16 @@ class FormulaSurface:
                 x * values[self._last[j]] for j, x in enumerate(entries[:-1]) if j != pivot
             )
             values[self._last[pivot]] = -rest % PRIME
+
+
+def _not_implied(forms: Sequence[Expr]) -> list[Expr]:
+    """The forms without those that are 0 wherever the others are."""
+    kept = list(dict.fromkeys(forms))
+    for form in reversed(kept[:]):
+        others = [f for f in kept if f != form]
+        if others and is_zero(form, Relations(others)) is True:
+            kept = others
+    return kept
 
 
 def _without_root(form: Expr) -> Expr:
