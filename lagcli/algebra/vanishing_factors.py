@@ -64,9 +64,20 @@ def divisors(product: Expr) -> set[Expr]:
     return {base for base, exponent in powers if exponent.is_negative}
 
 
+def in_sines(value: Expr) -> Expr:
+    """The value with tan and cot as quotients of sin and cos."""
+    ratios = {sympy.tan: (sympy.sin, sympy.cos), sympy.cot: (sympy.cos, sympy.sin)}
+    return value.xreplace(
+        {
+            f: ratios[type(f)][0](f.args[0]) / ratios[type(f)][1](f.args[0])
+            for f in value.atoms(*ratios)
+        }
+    )
+
+
 def squares_divided_by(values: Iterable[Expr]) -> list[Expr]:
     """The squares of all that anything in the values is divided by: positive where they are."""
-    powers = {power for value in values for power in value.atoms(sympy.Pow)}
+    powers = {power for value in values for power in in_sines(value).atoms(sympy.Pow)}
     below = {power.base for power in powers if power.exp.is_negative and power.base.free_symbols}
     return [d**2 for d in sorted(below, key=sympy.default_sort_key)]
 

@@ -116,6 +116,8 @@ def _one_freedom(motion: OneFreedom, potential: Formula) -> Iterator[Block]:
         real = "real and positive" if motion.positive else "real"
         yield Paragraph((f"Turning points, where these are {real}:",))
         yield equations_of((q, value) for value in single(motion.turning_points))
+        if motion.turning_finite:
+            yield Paragraph(("for ", *conditions(motion.turning_finite), "."))
         for lower, upper in motion.turning_energies:
             yield Paragraph(("They are real for ", lower, " ≤ ", constant, " ≤ ", upper, "."))
         yield from turning_contacts(motion)

@@ -85,8 +85,9 @@ class OneFreedom:
     """The one remaining coordinate: E = `energy`, dt = `rate` dq, T = 2 int `rate` dq.
 
     `turning_points` are the roots of U_eff = E, None where that has no closed solution; those
-    that are real count, where the coordinate is `positive` those that are positive.  All of
-    them are real for E between the bounds of each of `turning_energies`.  Where the kinetic energy
+    that are real count, where the coordinate is `positive` those that are positive.  They are given
+    where each of `turning_finite` holds: a root moves to infinity elsewhere.  All of them are
+    real for E between the bounds of each of `turning_energies`.  Where the kinetic energy
     is `regular`, positive at every position, nothing else turns it back.  One-sided contacts hold
     at each of them under the conditions of `turning_where`, as do the signs that are assumed of the
     `signed` coordinates that are eliminated; these alone where nothing is `one_sided`.  Where
@@ -101,6 +102,7 @@ class OneFreedom:
     rate: Expression
     periods: tuple[PeriodSeries, ...]
     positive: bool = False
+    turning_finite: tuple[Above, ...] = ()
     turning_energies: tuple[tuple[Expression, Expression], ...] = ()
     turning_where: tuple[tuple[Above, ...], ...] = ()
     one_sided: int = 1
@@ -118,7 +120,9 @@ class SteadyMotion:
     `free` may have any value.  It is there where each of `where` holds, and with all rates
     and momenta reversed where it is `mirrored`.  `rates` None: the axes of two rotations
     coincide, so only the momenta are known.  The equation `on` ties coordinates of a family.
-    Where a squared frequency `may_be_complex`, a displacement then oscillates and grows.
+    Where a squared frequency `may_be_complex`, a displacement then oscillates and grows.  The
+    matrices are those of the coordinates `displaced`, with the others in terms of them where each
+    of `linear_where` holds.
     """
 
     at: Mapping[str, Expression]
@@ -132,6 +136,8 @@ class SteadyMotion:
     mass: tuple[tuple[Expression, ...], ...] = ()
     velocity: tuple[tuple[Expression, ...], ...] = ()
     stiffness: tuple[tuple[Expression, ...], ...] = ()
+    displaced: tuple[str, ...] = ()
+    linear_where: tuple[Above, ...] = ()
     on: tuple[Expression, Expression] | None = None
     rolling: bool = False
     may_be_complex: bool = False

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from fractions import Fraction
 
 import mpmath
@@ -542,3 +543,27 @@ V: {V}
         assert sorted(found) == sorted([turning, f"-{turning}"])
     else:
         assert len(found) in (0, 2)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_turning_points_that_move_to_infinity_are_given_for_other_energies_only(seed):
+    """Of V = V_0 - a/r + b/r^2, one of the two roots is at infinity for E = V_0 alone."""
+    rng = random.Random(seed)
+    a, b, at = (rng.randint(1, 9) for _ in range(3))
+    section, _ = reduced(f"""
+coordinates: {{r: POSITIVE}}
+parameters: {{m: POSITIVE}}
+T: m*r'^2/2
+V: {at} - {a}/r + {b}/r^2
+""")
+    motion = section.one_freedom
+    [finite] = motion.turning_finite
+    side = Builder({"E": (E := symbol("E"))}, {}, lambda e: e)
+    assert sympy.solve(side(finite.left) - side(finite.right), E) == [at]
+    above, _ = reduced("""
+coordinates: [x]
+parameters: {m: POSITIVE, k: POSITIVE, p: {}}
+T: m*x'^2/2
+V: k*x^2/2 + p^2/2
+""")
+    assert above.one_freedom.turning_finite == ()

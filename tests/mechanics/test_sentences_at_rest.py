@@ -722,3 +722,30 @@ def test_an_instability_by_two_frequencies_that_agree_has_its_reason(n):
     text = f"{{coordinates: [x, y], parameters: [w], T: ((x' - {n}*w*y)^2 + (y' + {n}*w*x)^2)/2}}"
     told = said(text, "Equilibria", "equilibria")
     assert "Unstable where w ≠ 0. Two frequencies agree, and the motion with them grows" in told
+
+
+# -- displacements that are written by others -----------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_divided_by_in_matrices_and_amplitudes_does_not_vanish(seed):
+    """A skate moves along (cos w, sin w): x by y where sin w is not 0, y by x where cos w is not.
+
+    On a plane without a skate nothing is divided by.
+    """
+    random.seed(seed)
+    k = random.choice([2, 3, 5, 7])
+    plane = (
+        "coordinates: [x, y, u]\nparameters: {m: {assume: positive}, J: {assume: positive}, c: {}}"
+        "\nT: m*(x'^2 + y'^2)/2 + J*u'^2/2\n"
+    )
+    skate = f"constraints: {{skate: x'*sin(u + {k}*c) = y'*cos(u + {k}*c)}}\n"
+    told = said(plane + skate, "Small oscillations", "modes")
+    assert "in terms of those of y and u, for …" in told
+    [[sliding]] = {mode.shaped_where for mode in modes(derive(plane + skate).dynamics).modes}
+    u, c = (sympy.Symbol(name) for name in "uc")
+    left, right = (sympy.sympify(to_grammar(side)) for side in (sliding.left, sliding.right))
+    for turns, there in ((0.5, False), (0.25, True), (1, True)):  # of w = π turns
+        values = {u: turns * math.pi - 3 * k, c: 3}
+        assert (float((left - right).subs(values)) > 1e-9) is there
+    assert "≠" not in said(plane, "Small oscillations", "modes")

@@ -13,6 +13,7 @@ from lagcli.algebra import is_zero, nullspace, shape, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign
+from lagcli.algebra.vanishing_factors import squares_divided_by
 from lagcli.document import Block, Equations, Label, Row, equations_of, vanishing
 from lagcli.expression import (
     ZERO,
@@ -29,7 +30,7 @@ from lagcli.expression import (
 from lagcli.mechanics.conditions import above
 from lagcli.mechanics.conditions import conditions as above_zero
 from lagcli.mechanics.explaining.explainer import Explainer
-from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
+from lagcli.mechanics.explaining.words import Part, difference, displacements, says, shows
 from lagcli.mechanics.rest.singular import AtPole
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
 from lagcli.statements.plus_minus import modes_in_pairs
@@ -90,16 +91,11 @@ def _linear(explainer: Explainer, place: Place) -> Iterator[Block]:
     write = explainer.readable.as_written
     matrices = ([[write(e) for e in row] for row in matrix] for matrix in place.matrices)
     yield from linear_equations("the equations of motion are ", *matrices)
-    within: list[Part] = []
-    if explainer.dynamics.constraints.equations:
-        free = [q.name for q in place.near.independent]
-        those = [", in terms of those of ", *names(free)] if free else []
-        within = ["restricted to the displacements that the constraints allow", *those]
-    if isinstance(place.near, AtPole):
-        within += [", "] if within else []
-        within.append("in Cartesian displacements at the pole, the second of them in the last row")
-    if within:
-        yield says(*within, ".")
+    near, entries = place.near, (e for m in place.matrices for row in m for e in row)
+    where = above_zero(squares_divided_by(entries), near.system.order, place.point.positive)
+    constrained = bool(explainer.dynamics.constraints.equations)
+    pole = isinstance(near, AtPole)
+    yield from displacements(constrained, [q.name for q in near.independent], where, at_pole=pole)
 
 
 # -- without damping -----------------------------------------------------------------------------

@@ -22,8 +22,8 @@ def model(_: Explainer, section: Section) -> Iterator[Block]:
         yield says("There is no such model.")
         return
     yield says(
-        "A numerical run integrates as few coordinates as possible. A constraint that can be "
-        "solved for a coordinate eliminates it where that saves work."
+        "A numerical run leaves out coordinates where that saves work. A constraint that can be "
+        "solved for a coordinate then eliminates it."
     )
     if found.eliminated:
         yield says("Eliminated:")

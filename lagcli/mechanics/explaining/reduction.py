@@ -155,6 +155,8 @@ def _one_freedom(motion: OneFreedom, potential: Part) -> Iterator[Block]:
         yield says("Its turning points are the roots of ", potential, " = ", E,
                    f" that are {real}:")  # fmt: skip
         yield equations_of((q, root) for root in single(motion.turning_points))
+        if motion.turning_finite:
+            yield says("for ", *conditions(motion.turning_finite), ".")
         for lower, upper in motion.turning_energies:
             yield says("They exist for ", lower, " ≤ ", E, " ≤ ", upper, ".")
             onwards = (", ", q, " does not turn back.") if motion.regular else (" there is none.",)

@@ -13,7 +13,7 @@ from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.given_momenta import two_rates
 from lagcli.mechanics.explaining.recurring import recurring
-from lagcli.mechanics.explaining.words import Part, listed, names, says
+from lagcli.mechanics.explaining.words import Part, displacements, listed, names, says
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import Section
 from lagcli.statements.motions import SteadyMotion, SteadySection
@@ -208,6 +208,8 @@ def _displaced(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
     unchanged = " at unchanged momenta" if motion.momenta else ""
     lead = f"Small displacements{unchanged} obey to first order "
     yield from linear_equations(lead, motion.mass, motion.velocity, motion.stiffness)
+    constrained = bool(explainer.dynamics.constraints.equations and motion.displaced)
+    yield from displacements(constrained, motion.displaced, motion.linear_where)
     squares = dict.fromkeys(motion.frequencies_squared)
     if squares:
         yield says("The squares of the frequencies are the roots of the determinant:")

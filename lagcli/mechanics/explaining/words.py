@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from lagcli.document import Equations, Formula, Label, Paragraph, Row
 from lagcli.expression import Expression, Name, Negative, Sum
@@ -10,6 +10,8 @@ from lagcli.notation.given_formulas import names_of, symbols_of
 from lagcli.notation.naming import free
 from lagcli.problem_data import Problem
 from lagcli.statements.explanation import Explanation, ExplanationStep
+from lagcli.statements.motions import Above
+from lagcli.statements.wording import conditions
 
 Part = str | Formula
 
@@ -60,6 +62,23 @@ def says(*parts: Part | Sequence[Part]) -> Paragraph:
 def shows(left: Formula, right: Expression, note: str = "") -> Equations:
     """One displayed equation."""
     return Equations((Row(left, right, note),))
+
+
+def displacements(
+    constrained: bool, free: Sequence[str], where: Sequence[Above], *, at_pole: bool = False
+) -> Iterator[Paragraph]:
+    """Which displacements linear equations are about, and where these are finite."""
+    parts: list[Part] = []
+    if constrained:
+        parts += ["restricted to the displacements that the constraints allow"]
+        parts += [", in terms of those of ", *names(free)] if free else []
+    if at_pole:
+        parts += [", "] if parts else []
+        parts += ["in Cartesian displacements at the pole, the second of them in the last row"]
+    if where:
+        parts += [", for " if parts else "for ", *conditions(where)]
+    if parts:
+        yield says(*parts, ".")
 
 
 def difference(first: Expression, second: Expression) -> Expression:

@@ -15,7 +15,7 @@ from lagcli.algebra.factors import factors_of
 from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.positivity import sign_of, weak_sign, without_moduli
 from lagcli.algebra.signs import sign
-from lagcli.algebra.vanishing_factors import divisors
+from lagcli.algebra.vanishing_factors import divisors, in_sines
 from lagcli.mechanics.inequalities import one_is_negative
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.rest.characteristic import Characteristic
@@ -298,7 +298,7 @@ def _displacement(linear: Linearization, vector: Sequence[Expr]) -> tuple[Expr, 
 
 def _may_be_infinite(shape: Sequence[Expr]) -> list[Expr]:
     """What it is divided by and may be 0."""
-    return [d for x in shape for d in divisors(x) if sign(d**2) is None]
+    return [d for x in shape for d in divisors(in_sines(x)) if sign(d**2) is None]
 
 
 def infinite_where(shape: Sequence[Expr]) -> list[Expr]:

@@ -111,6 +111,16 @@ class ReducedFreedom:
         return None if self._roots is None else tuple(self._reached)
 
     @property
+    def finite_where(self) -> list[Expr]:
+        """What must be positive, besides for real roots, for no turning point to be at infinity."""
+        found = set[Expr]()
+        for root in self.turning_points or ():
+            real = [*not_negative_where_real(root)]
+            powers = (p for p in root.atoms(sympy.Pow) if p.exp.is_Integer and p.exp.is_negative)
+            found |= {p.base for p in powers if sign_of(p.base**2, real) != 1}
+        return [d**2 for d in sorted(found, key=sympy.default_sort_key)]
+
+    @property
     def turning_where(self) -> tuple[tuple[Expr, ...], ...]:
         """What must be positive for the one-sided contacts to hold at each turning point."""
         return tuple(self._reached.values())

@@ -240,6 +240,7 @@ class _Statement:
             rate=_rate(motion, potential, order) if motion.pace is None else _pace(motion, order),
             periods=found,
             positive=bool(motion.q.is_positive),
+            turning_finite=conditions(motion.finite_where, order),
             turning_energies=tuple(
                 (shape(lower, order), shape(upper, order))
                 for lower, upper in motion.turning_energies

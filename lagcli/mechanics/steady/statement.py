@@ -16,6 +16,7 @@ from lagcli.algebra.decimals import rounded, written
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import vanishing_part, without_moduli
 from lagcli.algebra.signs import sign, sign_beside_zero
+from lagcli.algebra.vanishing_factors import squares_divided_by
 from lagcli.expression import Expression, Number, Power, operation_count
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
@@ -159,6 +160,7 @@ class _SteadyStatement:
         turning = False
         judged = undecided("the equations of motion are singular there")
         squares: tuple[Expr, ...] = ()
+        displaced: tuple[str, ...] = ()
         try:
             if not motion.derivatives:
                 linear = Linearization(self.steady.rest, self.steady.point(motion))
@@ -166,6 +168,8 @@ class _SteadyStatement:
                 if not (linear.drifts or not linear.smooth or self.steady.contacts.grazes(motion)):
                     squares, turning = squares_of(linear), held_by_gyroscopic_terms(linear)
                     matrices = (linear.M, linear.C, linear.K)
+                    if linear.dynamics.constraints.equations:
+                        displaced = tuple(q.name for q in linear.independent)
                 if motion.family is not None:
                     squares, matrices = self._on_all(motion.family, squares, matrices)
             else:
@@ -204,6 +208,12 @@ class _SteadyStatement:
             mass=self._matrix(matrices[0]) if matrices else (),
             velocity=self._matrix(matrices[1]) if matrices else (),
             stiffness=self._matrix(matrices[2]) if matrices else (),
+            displaced=displaced,
+            linear_where=conditions(
+                squares_divided_by(e for m in matrices for row in m for e in row),
+                self.order,
+                motion.known_positive,
+            ),
             on=relation_sides(point, system.q, self.order),
             may_be_complex=judged.stable is False
             and any(x != 0 for row in (matrices[1] if matrices else ()) for x in row)
