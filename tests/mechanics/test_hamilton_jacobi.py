@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+
 import mpmath
 import pytest
 from sympy import Float, Symbol, diff, lambdify, symbols
@@ -271,6 +273,20 @@ T: I*(theta'^2 + sin(theta)^2*phi'^2)/2
     [part] = found.cases["theta"]
     [condition] = part.where
     assert (to_grammar(condition.left), to_grammar(condition.right)) == ("sin(theta)", "0")
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_constant_that_an_integral_is_divided_by_does_not_vanish(seed):
+    """The centrifugal term p²/(2 m r²) may be 0, that with a further b/r² may not."""
+    random.seed(seed)
+    a, b = (random.randint(1, 9) for _ in range(2))
+    plain, _ = section(KEPLER.replace("-k/r", f"-{a}*k/r"))
+    raised, _ = section(KEPLER.replace("-k/r", f"-{a}*k/r + {b}/r^2"))
+    for found, divided in ((plain, True), (raised, False)):
+        for part in found.cases["r"]:
+            sides = [(to_grammar(each.left), to_grammar(each.right)) for each in part.where]
+            assert (("p_phi^2", "0") in sides) is divided
+            assert len(sides) == 1 + divided
 
 
 def test_a_pendulum_stays_an_integral():

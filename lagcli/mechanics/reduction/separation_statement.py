@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, shape, terms
+from lagcli.algebra.build import free_of
+from lagcli.algebra.signs import sign
+from lagcli.algebra.vanishing_factors import squares_divided_by
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
     Call,
@@ -25,6 +30,7 @@ from lagcli.mechanics.reduction.quadrature import ElementaryAction, closed_forms
 from lagcli.mechanics.reduction.root_integrals import ROOT
 from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.statement import Missing
+from lagcli.record import replace
 from lagcli.rewriting import put_in
 from lagcli.statements.motions import ActionPart, HamiltonJacobiSection
 
@@ -44,7 +50,13 @@ def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Miss
         missing.append(("whether the Hamilton-Jacobi equation separates", why))
     writer = _Writing(separation)
     obstacle = separation.obstacle
-    closed = _functions(separation)
+    closed = {
+        name: tuple(
+            ActionPart(writer.function(form), conditions(form.positive, writer.order))
+            for form in forms
+        )
+        for name, forms in _functions(separation).items()
+    }
     form = None if H is None else _hamiltonian(separation)
     return (
         HamiltonJacobiSection(
@@ -67,19 +79,8 @@ def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Miss
                 system.names[j]: writer.derivative(e)
                 for j, e in sorted(separated.derivatives.items())
             },
-            functions={
-                name: writer.function(forms[0])
-                for name, forms in closed.items()
-                if not forms[0].positive
-            },
-            cases={
-                name: tuple(
-                    ActionPart(writer.function(form), conditions(form.positive, writer.order))
-                    for form in forms
-                )
-                for name, forms in closed.items()
-                if forms[0].positive
-            },
+            functions={n: parts[0].function for n, parts in closed.items() if not parts[0].where},
+            cases={n: parts for n, parts in closed.items() if parts[0].where},
             reason=separation.reason,
         ),
         missing,
@@ -118,10 +119,23 @@ def _functions(separation: Separation) -> dict[str, tuple[ElementaryAction, ...]
     if separated is None:
         return {}
     found = {
-        system.names[j]: closed_forms(separated.derivatives[j], system.q[j], separation.positive)
+        j: closed_forms(separated.derivatives[j], system.q[j], separation.positive)
         for j in sorted(separated.equations)
     }
-    return {name: forms for name, forms in found.items() if forms}
+    return {
+        system.names[j]: tuple(
+            _where_finite(form, system.q[j], separation.positive) for form in forms
+        )
+        for j, forms in found.items()
+        if forms
+    }
+
+
+def _where_finite(form: ElementaryAction, x: Symbol, positive: Sequence[Expr]) -> ElementaryAction:
+    """Where no constant that it is divided by is 0, as p in p arctan(k x/(p sqrt(...)))."""
+    below = [d for d in squares_divided_by(form.terms) if free_of(d, [x, ROOT])]
+    known = [*positive, *form.positive]
+    return replace(form, positive=(*form.positive, *(d for d in below if sign(d, known) is None)))
 
 
 class _Writing:

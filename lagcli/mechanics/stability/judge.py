@@ -39,9 +39,7 @@ GRAZES = "nothing presses on the contact, which may open"
 DRIFTS = "a velocity constraint has a term without velocities that depends on the place"
 #: Of a system without a degree of freedom.
 EXCLUDED = "the constraints exclude every displacement"
-_OPEN_INERTIA = (
-    "every position along them is an equilibrium, and the kinetic energy may be negative"
-)
+_OPEN_INERTIA = "every position is an equilibrium, and the kinetic energy may be negative"
 _EVERYWHERE = "every position along them is an equilibrium, and the kinetic energy does not grow"
 _POWERS = "all roots are 0, and to first order displacements grow in proportion to a power of t"
 NO_MOTION = "the equations of motion are singular there"
