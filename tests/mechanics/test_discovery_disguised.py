@@ -52,6 +52,17 @@ def test_an_arc_length_of_a_quadratic_leaves_free_motion(seed):
     assert digits > 20
 
 
+@pytest.mark.parametrize(
+    "L", ["-3*x*x'^2 + {a}*x^3", "-x^2*x'^2 - {a}*x^4", "-x'^2/x^2", "3*x*x'^2"]
+)
+def test_a_negative_inertia_has_an_arc_length_as_well(L):
+    """Of -3 x x'² + a x³, a flat universe, u = x^(3/2) has u'' = -3 a u/4."""
+    a = whole(random.Random(L))
+    found, algebra, digits = known(L.format(a=a), "{x: {assume: positive}}")
+    assert (len(found.charges), algebra.name, algebra.independent) == (5, LINE, 2)
+    assert digits > 20
+
+
 @pytest.mark.parametrize("sign", ["+", "-"])
 def test_a_cycloid_is_an_oscillator(sign):
     L = f"m*a^2*(1 {sign} cos(x))*x'^2 + m*g*a*(1 {sign} cos(x))"
@@ -152,3 +163,10 @@ def test_a_sum_with_the_schroedinger_algebra_keeps_its_name():
                    "{r: {assume: positive}, v: {}, z: {}}", "k b")  # fmt: skip
     answers = solve(read_problem("test.yaml", text.encode()).checked(), ["algebra"])
     assert to_object(answers)["algebra"]["name"].startswith("Schrödinger sch(1)")
+
+
+def test_without_a_term_what_is_left_may_be_linear():
+    """Of a curved universe, -3 x x'² + 3 k x - a x³, the flat one has five (Friedmann)."""
+    L = "-3*x*x'^2 + 3*k*x - a*x^3"
+    cases = derive(problem(L, "{x: {assume: positive}}", "a | k")).special_cases
+    assert {(str(c.parameter), c.value): c.number for c in cases} == {("k", 0): 5}

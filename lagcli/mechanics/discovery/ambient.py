@@ -73,8 +73,9 @@ def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
 
 
 def _arc_length(g: Expr, x: Symbol) -> Expr | None:
-    """X = c int sqrt(g) dx, with either sign of the root: term by term, or of a quadratic."""
-    factors = sympy.Mul.make_args(sympy.factor_terms(g))
+    """X = c int sqrt(g) dx, with either sign of g and root: term by term, or of a quadratic."""
+    g = sympy.factor_terms(-g if g.could_extract_minus_sign() else g)
+    factors = sympy.Mul.make_args(g)
     above, below = sympy.fraction(sympy.together(sympy.Mul(*map(_half_angle, factors))))
     root = simplify(sympy.sqrt(above)) / simplify(sympy.sqrt(below))
     _, function = root.replace(sympy.Abs, lambda e: e).as_independent(x, as_Add=False)

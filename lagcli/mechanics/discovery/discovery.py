@@ -182,7 +182,7 @@ class Discovery(Setting):
         if self.time_functions.unsolved:
             self.stopped.append(
                 "symmetries made of the solutions of the linear part, whose coefficients change, "
-                "were not sought: it is not solved in elementary functions"
+                "were not sought: no elementary formula was found for them"
             )
         transformations = self._transformations(search)
         centre = centre_of(transformations, self.system, self.coordinate_kinds.lengths)

@@ -69,6 +69,7 @@ def special_cases(
             factors += linear_powers(searched.equations)
             linear = searched.accelerations or (), searched.time_functions.exponents, system.q
             factors += damped_powers(*linear)
+            factors += system.parameters if len(system.q) == 1 else ()  # a term less, and linear
             values = candidates(system, factors, _exponents(searched))
             together = both_vanish(pairs, factors, system.parameters)
         choices: list[tuple[Value, ...]] = [(value,) for value in values[:_MOST_VALUES]]
