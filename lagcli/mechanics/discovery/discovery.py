@@ -94,11 +94,13 @@ class Discovery(Setting):
     # -- the two searches -------------------------------------------------------------------
 
     def _run(self) -> None:
-        searches: list[tuple[Callable[[], None], str]] = [(self._points, "point symmetries")]
-        if self._of_unconstrained():
-            return
+        searches: list[tuple[Callable[[], None], str]] = []
+        put_in = self._of_unconstrained()
+        if not put_in:
+            searches.append((self._points, "point symmetries"))
         if self.dynamics.constraints.equations:
-            searches += [(self._on_surface, "integrals on the constraint surface")]
+            if not (put_in and self._suffices):
+                searches.append((self._on_surface, "integrals on the constraint surface"))
         else:
             searches += [
                 (self._hidden, "Killing tensors"),
@@ -145,6 +147,15 @@ class Discovery(Setting):
         if all_are_known(self):
             self.words.append(ALL_ARE_KNOWN)
         return True
+
+    @property
+    def _suffices(self) -> bool:
+        """Whether there are as many charges without the time as degrees of freedom.
+
+        Jacobi's integral of a paraboloid is of second degree in space, and not in x and y alone.
+        """
+        freedom = self.dynamics.degrees_of_freedom
+        return freedom == 1 or self._independent() >= freedom
 
     def _search(self, kinds: Kinds, allowed: Allowance) -> tuple[Search, str]:
         """The linear system for the point symmetries, and what its ansatz is in words."""

@@ -48,9 +48,9 @@ def search_on_surface(
         setting.dynamics.degrees_of_freedom > 1
         and setting.system.t not in setting.equations_symbols
     ):
-        found = search.quadratic(listing.points)
-        if _few(setting, [*listing.points, *found]):
-            solved = search.of_velocities([*listing.points, *found])
+        found = search.quadratic(setting.charges)
+        if _few(setting, [*setting.charges, *found]):
+            solved = search.of_velocities([*setting.charges, *found])
             search.unsolved = max(0, search.unsolved - len(solved))  # the same, in other terms
             found += solved
         listing.add_hidden(("", charge) for charge in found)
