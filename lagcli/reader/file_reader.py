@@ -64,6 +64,8 @@ _GIVEN = re.compile(
     r"([^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]>|[=:→])\s*([^,;=:→]+?)"
     r"(?=\s*(?:$|[,;]|[^\W\d]\w*'*(?:\(0\))?\s*(?:[-=]>|[=:→])))"
 )
+#: `x 1, x' 0`.
+_SIDE_BY_SIDE = re.compile(r"(?:^|[,;])\s*([^\W\d]\w*'*)\s+([-+]?[\d.]+)\s*(?=$|[,;])")
 #: A state that is 0.
 _AT_REST = re.compile(
     r"^(?:\w+\.)?zeros\b|\b(?:rest|equilibrium|standard|default|Ruhe|repos)\b", re.IGNORECASE
@@ -229,7 +231,8 @@ class FileReader:
             return f"{begin}: what is not given is 0"
         written = node.text.source.text[node.start : node.end].strip("[] \n")
         written = behind_words(written, self.scope.kinds)
-        stated = [(self.coordinate_meant(name), value) for name, value in _GIVEN.findall(written)]
+        pairs_given = _GIVEN.findall(written) or _SIDE_BY_SIDE.findall(written)
+        stated = [(self.coordinate_meant(name), value) for name, value in pairs_given]
         if len(stated) == 1 and isinstance(node, Scalar) and stated[0][0] in names:
             return "write {}: {}".format(*stated[0])
         if len(stated) > 1 or (stated and isinstance(node, Sequence)):
@@ -398,7 +401,10 @@ class FileReader:
             self.error(message, node.span, hint)
             return UNREADABLE
         if (unit := unit_at_end(alone)) and self._is_unit(unit):
+            number = alone.removesuffix(unit).strip()
             hint = f"leave out '{unit}': units stand where names are declared"
+            if what.startswith("the value of"):
+                hint = f"write {{value: {number}, unit: {unit}}}"
             self.error(f"the unit '{unit}' cannot stand in {what}", node.span, hint)
             return UNREADABLE
         within = _UNIT_WITHIN.search(alone)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 
 from lagcli.diagnostics import Diagnostic
+from lagcli.reader.habits import unit_behind
 from lagcli.reader.misshapen import as_list
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 
@@ -59,6 +60,9 @@ def _mend(
             hint = f"write a list as {as_list(one)}" if is_list else f'put it in quotes: "{one}"'
             if pair := re.fullmatch(r"\(\s*['\"](\w+)['\"]\s*,\s*([\d.]+)\s*\)", one):
                 hint = f"write {pair[1]}: {pair[2]}, with braces {{ }} around all"
+            with_unit = re.fullmatch(r"\(\s*([-\d.]+)\s*,\s*([^,()]+)\)", one)
+            if with_unit and unit_behind(f"1 {with_unit[2].strip()}"):
+                hint = f"write {{value: {with_unit[1]}, unit: {with_unit[2].strip()}}}"
             message = "inside { } and [ ] a comma ends the value"
             mistakes.append(Diagnostic(message, first.text.span(first.start, end), hint))
             if isinstance(first, Scalar):

@@ -38,6 +38,7 @@ CASES = frozenset("if for when where else otherwise piecewise Piecewise".split()
 REMARK = re.compile(
     r"[-+*/^)\d'’]\s+(?=.*\b(?:of|the|for|in|with|is|energy|force|der|die|das|des|von|und|de|la|le|du|et)\b)"
     r"(?:[-–—:]\s+)?[^\W\d]{2,}(?:\s+[^\W\d]+){2,}\.?\s*$"
+    r"|(?<=[\w)'’])\s+in\s+[\[(]?[^\W\d][^\s()]*[\])]?\s*$"
 )
 CASE = "(1 + sign(x))/2 is 1 for x > 0, else 0"
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
@@ -172,6 +173,8 @@ def _on_the_line(character: str) -> str:
 
 def unit_behind(text: str) -> str:
     """The unit in `10 kg` or `9.81 m/s^2`; nothing where a number stands alone."""
+    if named := _named_unit(text):
+        return named[1]
     text = text.replace("°/", " deg/")
     found = _WITH_UNIT.fullmatch(
         re.sub(r"\s*(?:\[([^][]*)\]|\(([^()]*)\))$", r" \1\2", text.strip())
@@ -179,8 +182,17 @@ def unit_behind(text: str) -> str:
     return found["unit"] if found and _is_unit(found["unit"]) else ""
 
 
+def _named_unit(text: str) -> tuple[str, str] | None:
+    """`10` and `kg` of `10 Kilogramm`; None for units by their symbols."""
+    found = re.fullmatch(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*([^\W\d_]{4,})", text.strip())
+    unit = meanings("units").get(found[2].casefold()) if found else None
+    return (found[1], unit) if found and unit else None
+
+
 def number_and_unit(text: str) -> tuple[str, str]:
     """`10` and `kg` of `10 kg`, `9.81 [m/s^2]`; the text and nothing where no unit is behind it."""
+    if named := _named_unit(text):
+        return named
     unit = unit_behind(text)
     return (text.partition(unit)[0].strip(" [(,;") if unit else text.strip()), unit
 

@@ -69,7 +69,7 @@ def one_sum(node: DocumentNode, what: str) -> str:
     if what.startswith("the initial") and len(written) == 2:
         name, with_unit = what.split("'")[1], unit_mistake(" ".join(written))
         return with_unit[1] if with_unit else "write {0}: {1}, {0}': {2}".format(name, *written)
-    if any(re.search(r"\bif\b|[<>]", term) for term in written):
+    if any(re.search(r"\bif\b|[<>]", term) for term in (*written, *inner)):
         return CASE
     if what.startswith("the value of"):
         return SEVERAL
@@ -164,7 +164,7 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
         within = re.fullmatch(r"\((.*)\)", written)
         return f"write {{position: [{within[1] if within else written}]}}"
     if (words := written.split(None, 1)) and words[0] in names and words[1:]:
-        return f"write {{{words[0]}: {words[1]}}}"
+        return f"write {{{words[0]}: {words[1].lstrip('=: ')}}}"
     if "accelerations" in names and (
         known := re.fullmatch(r"([^\W\d]\w*)(''|\(t\)|)\s*=\s*(.+)", written)
     ):

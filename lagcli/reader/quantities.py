@@ -186,6 +186,15 @@ def _declared(
         file.error(message, node.span, hint)
         file.scope.refused.append("")
         return
+    if (
+        isinstance(node, Mapping)
+        and node.entries
+        and all(k.label.isdigit() for k, _ in node.entries)
+    ):
+        listed = ", ".join(source_of(value) for _, value in node.entries)
+        file.error(f"{section} have names, not numbers", node.span, f"write [{listed}]")
+        file.scope.refused.append("")
+        return
     attributes = _PARAMETER_ATTRIBUTES if section == "parameters" else _COORDINATE_ATTRIBUTES
     if found := without_headings(node, attributes):
         message = f"'{found[0].label}' is not a name of {section}: names stand below it"

@@ -29,7 +29,9 @@ _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 _EXPONENT = re.compile(r"([\d.]+)(?:\s*([eE])\s*|([dD])(?=[-+\d]))([-+]?)\s*(\d*)(?![\w(.'])")
 _TIMES_TEN = re.compile(r"([\d.]+)\s*[xX]\s*10\s*(?:\^|\*\*|[eE])?\s*[({]?\s*(-?)[\s+]*(\d+)")
 #: What holds without being said.
-_ALWAYS = re.compile(r"(?:for|at)\s+(?:all|every|any|each)\b.*$|\balways\b.*$")
+_ALWAYS = re.compile(
+    r"(?:for|at)\s+(?:all|every|any|each)\b.*$|\balways\b.*$|\bat\s+t\s*=\s*0\b.*$"
+)
 #: Before a factor of a denominator, as in p^2/2m, where 1/2m may be a half of m.
 _DENOMINATOR = re.compile(r"(?:[\w.]*[^\W\d][\w.']*|[)'²]|\^\s*\d)\s*/\s*$")
 

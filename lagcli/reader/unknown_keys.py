@@ -129,6 +129,9 @@ def _meant_of_problem(
     is_list = isinstance(value, Sequence) or shape == "parameters"
     if shape and near != word.casefold() and (not hint or (near in MAPS - {shape} and is_list)):
         meant, hint = shape, f"the key is {shape}"
+    above = [k.label for k, _ in around.entries if k.start < key.start][-1:]
+    if not hint and " " in word and above and above[0] in {"title", "source", "description"}:
+        return None, f"it goes on with '{above[0]}': put the whole text in quotes"
     parts = {k.label: v.value.strip() for k, v in around.entries if isinstance(v, Scalar)}
     energy = meant if meant in {"T", "V"} and written else None
     if energy is None and not advice_in("problem").get(word):
