@@ -31,7 +31,7 @@ from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, ModesOfFrequency, ModesSection
 from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.plus_minus import is_pair, modes_in_pairs, pairs
-from lagcli.statements.wording import alike_blocks, conditions
+from lagcli.statements.wording import alike_blocks, conditions, in_any_direction
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
@@ -87,10 +87,7 @@ def blocks(section: ModesSection, _: Answers) -> Iterator[Block]:
                 yield Equations(rows)
             if not rows or mode.is_open:
                 yield Paragraph((_without_rows(mode),))
-            if mode.pole is not None and (mode.shape or {}).get(mode.pole.radius, ZERO) != ZERO:
-                yield Paragraph(
-                    ("in the direction of any ", Name(next(iter(mode.pole.turning))), ".")
-                )
+            yield from in_any_direction(mode)
             if mode.shaped_where:
                 yield Paragraph(("where ", *conditions(mode.shaped_where), "."))
             for other in mode.more_shapes:

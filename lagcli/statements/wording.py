@@ -24,6 +24,7 @@ from lagcli.expression import (
 from lagcli.notation.letters import own
 from lagcli.statements.answers import (
     EquilibriaSection,
+    ModesOfFrequency,
     ModesSection,
     QuantityUnit,
     Section,
@@ -352,6 +353,12 @@ def linear_equations(
     for letter, entries in given.items():
         label, rows = Label(letter, matrix=True), tuple(map(tuple, entries))
         yield one_row(label, rows[0][0]) if len(rows) == 1 else Matrix(label, rows, tags, tags)
+
+
+def in_any_direction(mode: ModesOfFrequency) -> Iterator[Paragraph]:
+    """That a swing through a pole is one along each meridian."""
+    if mode.pole is not None and (mode.shape or {}).get(mode.pole.radius, ZERO) != ZERO:
+        yield Paragraph(("in the direction of any ", Name(next(iter(mode.pole.turning))), "."))
 
 
 def there_may_be_others(section: SteadySection) -> Paragraph:

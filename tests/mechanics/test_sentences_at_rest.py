@@ -749,3 +749,17 @@ def test_what_is_divided_by_in_matrices_and_amplitudes_does_not_vanish(seed):
         values = {u: turns * math.pi - 3 * k, c: 3}
         assert (float((left - right).subs(values)) > 1e-9) is there
     assert "≠" not in said(plane, "Small oscillations", "modes")
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_swing_through_a_pole_is_one_along_each_meridian(seed):
+    random.seed(seed)
+    a, b = (random.randint(1, 9) for _ in range(2))
+    bowl = (
+        "{{coordinates: [{q}], parameters: {{m: {{assume: positive}}}}, "
+        "T: m*({T})/2, V: {a}*m*(1 - cos(u)) + {b}*m*sin(u)^2}}"
+    )
+    round_ = bowl.format(q="u, w", T="u'^2 + w'^2*sin(u)^2", a=a, b=b)
+    assert "in the direction of any w." in said(round_, "Small oscillations", "modes")
+    flat = bowl.format(q="u", T="u'^2", a=a, b=b)
+    assert "direction of any" not in said(flat, "Small oscillations", "modes")

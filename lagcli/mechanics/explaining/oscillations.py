@@ -34,7 +34,7 @@ from lagcli.mechanics.explaining.words import Part, difference, displacements, s
 from lagcli.mechanics.rest.singular import AtPole
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
 from lagcli.statements.plus_minus import modes_in_pairs
-from lagcli.statements.wording import conditions, linear_equations, place_rows
+from lagcli.statements.wording import conditions, in_any_direction, linear_equations, place_rows
 
 if TYPE_CHECKING:
     from lagcli.mechanics.oscillations.small_oscillations import Place
@@ -138,6 +138,7 @@ def _mode(
         again = "and independently of these, as the root is multiple,"
         yield says(again if number else "with the amplitudes in the ratio")
         yield _amplitudes(each)
+    yield from in_any_direction(mode)
     if mode.shaped_where:
         yield says("for ", *conditions(mode.shaped_where), ".")
     if mode.negative:
