@@ -109,7 +109,8 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
         yield Equations(tuple(rows))
     parts = [*_any_value(motion)]
     if motion.where:
-        parts += ["where ", *conditions(motion.where), ". "]
+        at_rest = "; at equality at rest" if motion.rests else ""
+        parts += ["where ", *conditions(motion.where), f"{at_rest}. "]
     if motion.mirrored:
         parts += ["Also with the opposite rates and momenta."]
     if motion.rates is None:

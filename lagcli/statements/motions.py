@@ -118,11 +118,11 @@ class SteadyMotion:
     """The cyclic coordinates turn at constant `rates`, the others rest `at` their values.
 
     `free` may have any value.  It is there where each of `where` holds, and with all rates
-    and momenta reversed where it is `mirrored`.  `rates` None: the axes of two rotations
-    coincide, so only the momenta are known.  The equation `on` ties coordinates of a family.
-    Where a squared frequency `may_be_complex`, a displacement then oscillates and grows.  The
-    matrices are those of the coordinates `displaced`, with the others in terms of them where each
-    of `linear_where` holds.
+    and momenta reversed where it is `mirrored`; it `rests` where both sides of the one in `where`
+    are equal.  `rates` None: the axes of two rotations coincide, so only the momenta are known.
+    The equation `on` ties coordinates of a family.  Where a squared frequency `may_be_complex`, a
+    displacement then oscillates and grows.  The matrices are those of the coordinates `displaced`,
+    with the others in terms of them where each of `linear_where` holds.
     """
 
     at: Mapping[str, Expression]
@@ -141,6 +141,7 @@ class SteadyMotion:
     on: tuple[Expression, Expression] | None = None
     rolling: bool = False
     may_be_complex: bool = False
+    rests: bool = False
 
 
 @record(kw_only=True)

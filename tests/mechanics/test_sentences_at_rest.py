@@ -763,3 +763,20 @@ def test_a_swing_through_a_pole_is_one_along_each_meridian(seed):
     assert "in the direction of any w." in said(round_, "Small oscillations", "modes")
     flat = bowl.format(q="u", T="u'^2", a=a, b=b)
     assert "direction of any" not in said(flat, "Small oscillations", "modes")
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_a_circular_orbit_of_no_speed_is_a_state_of_rest(seed):
+    """About a centre without a force at r = a; a conical pendulum is infinitely fast at 90°."""
+    random.seed(seed)
+    b = random.randint(1, 9)
+    orbit = (
+        "{{coordinates: {{r: {{assume: positive}}, u: {{}}}}, parameters: {{m: {{assume: positive}}"
+        ", a: {{assume: positive}}}}, T: m*({T})/2, V: '{V}'}}"
+    )
+    plane = orbit.format(T="r'^2 + r^2*u'^2", V=f"{b}*(r - a)^2")
+    assert "At equality it is a state of rest." in said(plane, "Steady motions", "steady_motions")
+    sphere = orbit.format(T="r'^2 + sin(r)^2*u'^2", V=f"-{b}*cos(r)")
+    told = said(sphere, "Steady motions", "steady_motions")
+    assert "It is possible for" in told
+    assert "At equality" not in told

@@ -170,7 +170,8 @@ def _motion(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
     if motion.mirrored:
         yield says("The same holds with the opposite signs of these velocities and momenta.")
     if motion.where:
-        yield says("It is possible for ", conditions(motion.where), ".")
+        at_rest = " At equality it is a state of rest." if motion.rests else ""
+        yield says("It is possible for ", conditions(motion.where), f".{at_rest}")
     if motion.mass:
         yield from _displaced(explainer, motion)
     yield says(steady_stability(motion))

@@ -13,8 +13,9 @@ from sympy import Expr
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.decimals import rounded, written
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.place import at
-from lagcli.algebra.positivity import vanishing_part, without_moduli
+from lagcli.algebra.positivity import deciding, vanishing_part, without_moduli
 from lagcli.algebra.signs import sign, sign_beside_zero
 from lagcli.algebra.vanishing_factors import squares_divided_by
 from lagcli.expression import Expression, Number, Power, operation_count
@@ -201,6 +202,7 @@ class _SteadyStatement:
             momenta={name: self._shape(value) for name, value in momenta.items()},
             where=self._where(motion),
             mirrored=motion.mirrored,
+            rests=self._rests_at_equality(motion),
             verdict=self._verdict(judged, motion, potential, turning=turning),
             frequencies_squared=tuple(
                 self._square(without_moduli(w, motion.positive)) for w in squares
@@ -257,6 +259,25 @@ class _SteadyStatement:
     def _where(self, motion: Steady) -> tuple[Above, ...]:
         shortest = sorted(motion.known_positive, key=lambda e: int(e.count_ops()))
         return conditions(shortest, self.order)
+
+    def _rests_at_equality(self, motion: Steady) -> bool:
+        """Whether all rates and momenta are a root of what must be positive at a place."""
+        open_ = [c for c in map(deciding, motion.positive) if sign(c) is None]
+        if (
+            not motion.mirrored
+            or motion.rates is None
+            or {len(open_), len(self._where(motion))} != {1}
+        ):
+            return False
+        parts = [f for f, _ in factors_of(open_[0]) if sign(f) is None]
+        if len(parts) != 1 or free_of(parts[0], self.steady.system.q):
+            return False
+        values = (motion.values.get(p, p) for p in self.routh.momenta)
+        squares = [simplify(v**2) for v in (*values, *motion.rates.values())]
+        return all(
+            s == 0 or any(k > 0 and (f == parts[0] or f == -parts[0]) for f, k in factors_of(s))
+            for s in squares
+        )
 
     def _verdict(
         self, judged: Stability, motion: Steady, potential: str, *, turning: bool
