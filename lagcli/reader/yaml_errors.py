@@ -68,6 +68,7 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
                 has_keys = any(_BEFORE.match(line) and ":" in line for line in lines)
                 hint = COMMENT if has_keys else f"{COMMENT}; {PROGRAM}"
                 hint = hint if foreign[2] else colon_advice(each)
+                hint = "leave it out" if each.strip() == ";" else hint
             return Diagnostic("this line is none of the file", foreign_line, hint)
     if assigned := re.match(
         r"\s*([\w.]+\s*=\s*(?:dict\()?)\{?\s*$", next(filter(str.strip, lines), "")

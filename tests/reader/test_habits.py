@@ -309,6 +309,11 @@ HABITS = [
     (text(V="the energy of the spring k*x^2/2"), "write k*x^2/2"),
     (text(simulation="ten seconds"), "write {until: 10}"),
     (text(constraints="{rest: x is 0}"), "did you mean x = 0?"),
+    (
+        text(points="{a: {position: [x, 2*x], mass: m}}", T=None, V="m*g*a[1]"),
+        "a component of a point is written by its formula",
+    ),
+    (text() + ";\n", "leave it out"),
     (text(coordinates="\n  1: x\n  2: y"), "write [x, y]"),
     (text(parameters="{m: (1, kg), k: 4}"), "write {value: 1, unit: kg}"),
     (text(parameters="{m: 1*10^-3 kg, k: 4}"), "write {value: 1*10^-3, unit: kg}"),

@@ -20,7 +20,7 @@ def translated(text: str, names: Vocabulary) -> str:
 
     Raises
     ------
-    Unclear
+    UnclearText
         Where it is not known what is meant.
     """
     return _Translation(text, names).whole()
@@ -138,6 +138,8 @@ class _Translation(Functions):
             return self.call("exp")
         if word in self.names.functions:
             return self.applied(word + "'" * primes)
+        if self.sign() == "(" and f"{word}.x" in self.names.components:
+            raise UnclearText  # bob[1] is x or y
         word += self.in_brackets()
         primes += self.primes()
         self.refuse_unknown_call(word)
