@@ -135,8 +135,15 @@ class Meaning:
         return near is not None and far is not None and 3 * near * 4 ** b["order"] < far
 
     def _settled(self, place: Any) -> Any:
-        """`stable` where it has a minimum wherever it exists: both conditions are the same."""
+        """`stable` where it has a minimum wherever it exists: both conditions are the same.
+
+        What the roots say is left out where the minimum says the same.
+        """
         minimum, condition = place.get("minimum"), place.get("condition") or ""
+        for key in ("spectrum", "hurwitz"):
+            roots = place.get(key)
+            if minimum and roots and self.values.hold_together(key, minimum, roots):
+                place = {k: v for k, v in place.items() if k != key}
         exists = [*condition.split(" and "), *(place.get("where") or ())]
         if not minimum or any(
             not any(self.values.equal(each, one) for one in exists) for each in minimum

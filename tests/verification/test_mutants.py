@@ -104,6 +104,12 @@ def test_a_normal_mode_that_is_true_is_no_wrong_claim(
          {"equilibria": [{"stable": None, "condition": "g > l",
                           "minimum": ["g > 2*l"], "unstable": ["2*l > g"]}]},
          ["wrong equilibria: 1 of 1 missing, 1 others"]),
+        ({"equilibria": [{"minimum": ["g > l"], "unstable": ["l > g"]}]},
+         {"equilibria": [{"minimum": ["g > l"], "spectrum": ["2*g > 2*l"], "unstable": ["l > g"]}]},
+         []),
+        ({"equilibria": [{"minimum": ["g > l"], "unstable": ["l > g"]}]},
+         {"equilibria": [{"minimum": ["g > l"], "spectrum": ["g > 2*l"], "unstable": ["l > g"]}]},
+         ["wrong equilibria: 1 of 1 missing, 1 others"]),
     ],
 )  # fmt: skip
 def test_answers_are_compared_by_meaning(
