@@ -33,6 +33,7 @@ from lagcli.expression import (
     terms_of,
     walk,
 )
+from lagcli.notation.given_sums import has_like_terms
 from lagcli.notation.ordering import is_letter
 from lagcli.record import record
 
@@ -91,6 +92,7 @@ def terms(
         as_given
         and at_rest
         and length(given_rest := _given(at_rest, writer)) <= as_given * length(static)
+        and not (isinstance(given_rest, Sum) and has_like_terms(given_rest))
     ):
         static = given_rest
     elif len(at_rest) > 1 and not as_given:

@@ -18,6 +18,7 @@ from lagcli.algebra import shape, simplify, terms
 from lagcli.algebra.build import free_of
 from lagcli.algebra.cancellation import cancelled
 from lagcli.algebra.entry import Field
+from lagcli.algebra.signs import sign
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
     Expression,
@@ -124,6 +125,35 @@ def _kinetic(
     if len(blocks) > 1:
         sums = (sympy.Add(*(halves[j] for j in block)) for block in blocks)
         yield Writer(readable.system.order).sum([readable.as_written(simplify(s)) for s in sums])
+    yield from _squares(momenta, flow, readable)
+
+
+def _squares(
+    momenta: Sequence[Symbol], flow: Sequence[Expr], readable: Readable
+) -> Iterator[Expression]:
+    """p_1²/(2 m_1) + p_2²/(2 m_2) + (p_x − b_1 p_1 − b_2 p_2)²/(2 m): one coordinate couples them.
+
+    The last square is v²/(2 ∂v/∂p_x) with the velocity v of this coordinate, after Lagrange.
+    """
+    slopes = [[simplify(v.diff(p)) for p in momenta] for v in flow]
+    for k, row in enumerate(slopes):
+        others = [j for j in range(len(momenta)) if j != k]
+        if len(others) < 2 or any(row[j] == 0 for j in others):
+            continue
+        left = {
+            (i, j): simplify(slopes[i][j] - row[i] * row[j] / row[k])
+            for i in others
+            for j in others
+            if i <= j
+        }
+        if all(left[i, j] == 0 for i, j in left if i != j):
+            single = [readable.as_written(left[j, j] * momenta[j] ** 2 / 2) for j in others]
+            above, _ = _above_below(flow[k])
+            above *= sign(simplify(above.diff(momenta[k]))) or 1
+            mass = readable.as_written(simplify(2 * row[k] * above**2 / flow[k] ** 2))
+            whole = terms(above, readable.system.order, {p.name for p in momenta}), Fraction(2)
+            writer = Writer(readable.system.order)
+            yield writer.sum([*single, writer.product(Fraction(1), [whole, (mass, Fraction(-1))])])
 
 
 def _spread(form: Expression, hamiltonian: Hamiltonian) -> int:
@@ -154,14 +184,19 @@ def _above_and_below(form: Expression, hamiltonian: Hamiltonian) -> int:
 
 def _over_one(kinetic: Expr, momenta: Sequence[Symbol], order: Sequence[str]) -> Expression:
     """(L (p1² + p2²) - 2 M p1 p2)/(2 (L² - M²)): its monomials over the determinant of M."""
-    field = Field([kinetic])
-    element = cancelled(field, field(kinetic))
+    above, below = _above_below(kinetic)
+    over = terms(above, order, {p.name for p in momenta}), Fraction(1)
+    return Writer(order).product(Fraction(1), [over, (shape(below, order), Fraction(-1))])
+
+
+def _above_below(expression: Expr) -> tuple[Expr, Expr]:
+    field = Field([expression])
+    element = cancelled(field, field(expression))
     above, below = (
         field.polynomial_to_sympy(field.ring.lift(poly))
         for poly in (element.numerator, element.denominator)
     )
-    over = terms(above, order, {p.name for p in momenta}), Fraction(1)
-    return Writer(order).product(Fraction(1), [over, (shape(below, order), Fraction(-1))])
+    return above, below
 
 
 def _blocks(momenta: Sequence[Symbol], flow: Sequence[Expr]) -> Iterator[list[int]]:

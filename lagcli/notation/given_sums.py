@@ -132,9 +132,25 @@ class GivenSums:
         return node if len(terms) == len(node.terms) else Sum(tuple(terms))
 
     def _keep(self, node: Sum, value: Polynomial | None) -> None:
+        if value and 1 < len(value) < len(node.terms):  # R² − l²/4 + l²/12 is R² − l²/6
+            node = self._collected(node, value)
+            value = multiplied_out(node)
         if value and len(value) >= len(node.terms) and is_tidy(node):  # M + M is 2 M
             shown = cast(Sum, _arranged(node, self._ordering))
             self._found.setdefault(_leaves(node), []).append((value, shown))
+
+    def _collected(self, node: Sum, value: Polynomial) -> Sum:
+        """The sum with like terms as one; itself where a letter of them is none of its parts."""
+        letters = _letters(node)
+        if any(x not in letters for term in value for x, _ in term):
+            return node
+        terms = []
+        for term, number in value.items():
+            powers = {letters[x]: e for x, e in sorted(term)}
+            whole = product_of_powers(abs(number), powers, self._ordering)
+            terms.append(Negative(whole) if number < 0 else whole)
+        whole = Sum((*terms,))
+        return self._multiplied(whole, _denominator(whole))  # 6 R² − l²
 
     def like(self, node: Expression) -> tuple[Fraction, Sum] | None:
         """(c, S): the node is c S with a sum S of the file that is not much longer."""
@@ -258,8 +274,9 @@ class GivenPotential:
     """
 
     def __init__(self, potential: Expression | None, ordering: Ordering) -> None:
-        value = multiplied_out(potential) if isinstance(potential, Sum) else None
-        self._value = value if value and _is_tidy_inside(cast(Sum, potential)) else None
+        own = potential if isinstance(potential, Sum) and not has_like_terms(potential) else None
+        value = own and multiplied_out(own)
+        self._value = value if own and value and _is_tidy_inside(own) else None
         self._node = None if potential is None else _arranged(potential, ordering)
 
     def __call__(self, node: Expression) -> Expression:
@@ -284,6 +301,17 @@ class GivenPotential:
         before, after = terms[:first], [t for t in terms[first:] if t not in still]
         found = (*before, *own, *after)
         return node if isinstance(found[0], Negative) else Sum(found)
+
+
+def has_like_terms(node: Sum) -> bool:
+    """Whether two terms without a squared bracket have a part in common: m g y + m g (y + l)."""
+    plain = (
+        term
+        for term in node.terms
+        if not any(isinstance(p, Power) and isinstance(p.base, Sum) for p in walk(term))
+    )
+    found = [each for term in plain for each in multiplied_out(term) or ()]
+    return len(set(found)) < len(found)
 
 
 def _is_tidy_inside(node: Sum) -> bool:

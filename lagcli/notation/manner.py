@@ -128,10 +128,7 @@ class Manner:
         return self._fractions(squares_as_brackets(self._potential(node), self._squares))
 
     def _without_minus(self, node: Expression) -> Expression:
-        """(p − a − b)/d for −(a + b − p)/d, (b + c − a)/d for −(a − b − c)/d.
-
-        Of a whole answer also b − a for −(a − b).
-        """
+        """(b − a − c)/d for −(a − b + c)/d; of a whole answer also b − a for −(a − b)."""
         if isinstance(node, Negative) and isinstance(node.operand, Sum):
             turned = negative_of(node.operand)
             return node if isinstance(turned.terms[0], Negative) else turned
@@ -140,8 +137,8 @@ class Manner:
             base, odd = odd_base(factor)
             if base is None or not odd or self._wrong(base) is not None:
                 continue
-            minuses = [term.operand for term in base.terms if isinstance(term, Negative)]
-            if 2 * len(minuses) >= len(base.terms) or any(map(self._momenta.is_bare, minuses)):
+            minuses = sum(isinstance(term, Negative) for term in base.terms)
+            if 2 * minuses + 1 >= len(base.terms):  # no more minus signs than before
                 above[place] = with_base(factor, negative_of(base))
                 return quotient_of(above, below)
         return node
@@ -210,10 +207,25 @@ class Manner:
                 isinstance(term, Negative) for term in inner.terms
             ):
                 return Call("sqrt", (negative_of(inner),))
-            case Call(function="sqrt", arguments=(Sum() | Product() as inner,)):
-                return Call("sqrt", (self._as_before(inner),))
+            case Call(function="sqrt", arguments=(inner,)):
+                if isinstance(inner, (Sum, Product)):
+                    inner = self._as_before(inner)
+                self._keep_signs(inner)
+                return Call("sqrt", (inner,))
             case _:
                 return node
+
+    def _keep_sign(self, base: Sum) -> None:
+        sign, key = signed_key(base)
+        self._below.setdefault(key, sign)
+
+    def _keep_signs(self, radicand: Expression) -> None:
+        """Of sqrt((a − b)³ c): a denominator after it has a − b."""
+        _, above, below = parts_of(radicand)
+        for factor in (*above, *below):
+            base, odd = odd_base(factor)
+            if base is not None and odd:
+                self._keep_sign(base)
 
     def _with_one_fraction(self, node: Expression) -> Expression:
         """(k l − m g)/(m l) for (k − m g/l)/m, but for brackets of the file."""
@@ -435,8 +447,7 @@ class Manner:
         for factor in () if inside else below:
             base, _ = odd_base(factor)
             if base is not None:
-                sign, key = signed_key(base)
-                self._below.setdefault(key, sign)
+                self._keep_sign(base)
                 self._within.update(
                     {k: s for s, k in map(signed_key, _brackets(base)) if k not in self._within}
                 )

@@ -64,6 +64,10 @@ class Ordering:
                 return (0, _AFTER_NUMBERS)
             case Name(name=name, primes=primes):
                 return (1, primes, self._place(node), name)
+            case Power(base=Name() as base, exponent=Number(value=value)) if self._is_constant(
+                base
+            ):
+                return (*self._factor(base), 0, -value)  # a⁴ + a² b² + b⁴
             case Power(base=base, exponent=exponent):
                 return (*self._factor(base), *self._factor(exponent))
             case Call(function="sqrt"):
@@ -167,8 +171,8 @@ class Ordering:
         """Accelerations, a number, falling degree in the velocities, then by coordinate.
 
         So 1 + x², and x² + R² θ² + l²: coordinates in the order of the file, parameters alone
-        at the end, before fractions and functions: l + m g/k, M + m cos θ; x'' before x'
-        (y' x'' − x' y'').
+        at the end, single letters first, fractions and functions last: I + m a², l + m g/k,
+        M + m cos θ; x'' before x' (y' x'' − x' y'').
         """
         accelerations, rates, momenta = _degrees(node)
         velocities = rates + momenta
@@ -184,7 +188,9 @@ class Ordering:
         later = 0
         if variables == (len(self._index),):
             over = _is_over_letters(node) and self._is_constant(node)
-            later = 2 if timed or _has_function(node) else int(over)
+            names = [part for part in walk(node) if isinstance(part, Name)]
+            single = names and names == [*_last_letter(node)]
+            later = 2 if timed or _has_function(node) else -1 if single else int(over)
         fast = velocities if accelerations else -velocities
         moving = -rates if velocities > 1 and momenta else -velocities  # s'² before s' p, before p²
         return (-accelerations, not number, fast, moving, variables, later, letters)
@@ -323,6 +329,15 @@ def is_letter(node: Expression) -> bool:
             return is_letter(inner)
         case _:
             return isinstance(node, Name)
+
+
+def _last_letter(term: Expression) -> Iterator[Name]:
+    """The k of (2 + √2) k or k/2; nothing of k²."""
+    match term:
+        case Negative(operand=inner) | Quotient(numerator=inner, denominator=Number()):
+            yield from _last_letter(inner)
+        case Product(factors=(*_, Name() as letter)) | (Name() as letter):
+            yield letter
 
 
 def _has_function(node: Expression) -> bool:

@@ -63,8 +63,54 @@ BOOK = [
         "[y, theta]", "M m l k g",
         "T: (M + m)*y'^2/2 + m*l^2*theta'^2/2 - m*l*y'*theta'*sin(theta)\nV: k*y^2/2 - m*g*l*cos(theta)",
         {
-            "accelerations.y": "-(k*y - m*l*theta'^2*cos(theta) + m*g*sin(theta)^2)"
+            "accelerations.y": "(m*l*theta'^2*cos(theta) - k*y - m*g*sin(theta)^2)"
             "/(M + m*cos(theta)^2)",
+        },
+    ),
+    (
+        "[X, x1, x2]", "M m1 m2 F",  # two cylinders on a plank, Lagrange's reduction to squares
+        "T: M*X'^2/2 + m1*x1'^2/2 + m1*(x1' - X')^2/4 + m2*x2'^2/2 + m2*(x2' - X')^2/4\nV: -F*X",
+        {
+            "hamiltonian": "(3*p_X + p_x1 + p_x2)^2/(6*(3*M + m1 + m2)) "
+            "+ p_x1^2/(3*m1) + p_x2^2/(3*m2) - F*X",
+        },
+    ),
+    (
+        "[x, a, b]", "M m l g",  # two pendulums on one support that slides
+        """T: M*x'^2/2 + m*(x'^2 + 2*l*x'*a'*cos(a) + l^2*a'^2)/2 + m*(x'^2 + 2*l*x'*b'*cos(b) + l^2*b'^2)/2
+V: -m*g*l*cos(a) - m*g*l*cos(b)""",
+        {
+            "hamiltonian": "(l*p_x - p_a*cos(a) - p_b*cos(b))^2"
+            "/(2*l^2*(M + m*(sin(a)^2 + sin(b)^2))) + p_a^2/(2*m*l^2) + p_b^2/(2*m*l^2) "
+            "- m*g*l*cos(a) - m*g*l*cos(b)",
+        },
+    ),
+    (
+        "[theta]", "m l R g",  # a rod in a bowl: its moment of inertia about the centre as a sum
+        "T: m*(R^2 - l^2/4 + l^2/12)*theta'^2/2\nV: -m*g*sqrt(R^2 - l^2/4)*cos(theta)",
+        {"accelerations.theta": "-3*g*sqrt(4*R^2 - l^2)*sin(theta)/(6*R^2 - l^2)"},
+    ),
+    (
+        "[a, b]", "m l g",  # two rods: the heights have a term in common
+        """T: m*l^2*(4*a'^2 + 3*a'*b'*cos(a - b) + b'^2)/6
+definitions: {y1: -l*cos(a)/2, y2: -l*cos(a) - l*cos(b)/2}
+V: m*g*y1 + m*g*y2""",
+        {
+            "energy": "m*l^2*(4*a'^2 + 3*a'*b'*cos(a - b) + b'^2)/6 - 3*m*g*l*cos(a)/2 "
+            "- m*g*l*cos(b)/2",
+        },
+    ),
+    (
+        "[phi]", "m a I g",  # Goldstein, section 5.1: I + M R²
+        "T: (m*a^2 + I)*phi'^2/2 + m*a^2*phi'^2*cos(phi)^2/2\nV: m*g*phi",
+        {"momenta.phi": "(I + m*a^2*(1 + cos(phi)^2))*phi'"},
+    ),
+    (
+        "{r: {assume: positive}, phi: , theta: }", "m1 m2 g l",  # a swinging mass below a table
+        """T: m1*(r'^2 + r^2*phi'^2)/2 + m2*(r'^2 + (l - r)^2*theta'^2)/2
+V: -m2*g*(l - r)*cos(theta)""",
+        {
+            "accelerations.r": "(m1*r*phi'^2 - m2*(l - r)*theta'^2 - m2*g*cos(theta))/(m1 + m2)",
         },
     ),
     (

@@ -299,6 +299,20 @@ def test_a_relativistic_period_is_the_integral():
     assert 50 < errors[0] / errors[1] < 80  # a^6
 
 
+def test_the_kinetic_energy_is_one_fraction():
+    """Two masses tied over a movable wedge: what the momentum of the wedge leaves of T."""
+    section, _ = reduced("""
+coordinates: [X, s]
+parameters: {M: POSITIVE, m1: POSITIVE, m2: POSITIVE, g: POSITIVE, a: {}, b: {}}
+T: M*X'^2/2 + m1*(X'^2 + s'^2 - 2*X'*s'*cos(a))/2 + m2*(X'^2 + s'^2 - 2*X'*s'*cos(b))/2
+V: m1*g*s*sin(a) - m2*g*s*sin(b)
+""")
+    assert section.routhian is not None
+    assert to_grammar(section.routhian).startswith(
+        "((M + m1 + m2)*(m1 + m2) - (m1*cos(a) + m2*cos(b))^2)*s'^2/(2*(M + m1 + m2))"
+    )
+
+
 def test_names_that_are_taken_get_others():
     section, _ = reduced("""
 coordinates: [x]

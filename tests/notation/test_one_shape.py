@@ -336,3 +336,11 @@ def test_heights_with_letters_are_put_in_and_collected(n: int, function: str) ->
         masses = " + ".join(f"m{i}" for i in indices[k:])
         masses = f"({masses})" if k < n - 1 else masses
         assert f"+ {masses} g l{indices[k]} {function}({x})" in found
+
+
+def test_a_period_has_one_sign_of_a_difference():
+    """sqrt(m/(k − m g l)) (1 − m g l a²/(16 (k − m g l)) + …), where k > m g l."""
+    physics = "T: m*l^2*x'^2/2\nV: m*g*l*cos(x) + k*x^2/2"
+    found = text("x", "m l g k", physics, "reduction").split("Oscillations about")[1]
+    assert "1 − m g l a²/(16 (k − m g l))" in found
+    assert "m g l − k" not in found

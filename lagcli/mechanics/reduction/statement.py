@@ -52,7 +52,7 @@ from lagcli.statements.motions import Irreducible, OneFreedom, PeriodSeries
 
 _EXCESS = "#E - V"  # no name of a file
 #: How many times as long one fraction may be as a bracket with fractions.
-_WHOLE = 1.25
+_WHOLE = 1.5
 _ONCE = Fraction(1)
 _HALF = Fraction(1, 2)
 
@@ -319,8 +319,11 @@ def _over_one(term: Expr, order: Sequence[str]) -> Expression:
 
 
 def _inertia(mass: Expr, order: Sequence[str]) -> Expression:
-    """m (1 + r^2/a^2) for m r^2/a^2 + m."""
+    """m (1 + r^2/a^2) for m r^2/a^2 + m, and one fraction where a sum would have one over a sum."""
     tree = shape(mass, order)
+    sums = (part for part in walk(tree) if isinstance(part, Sum))
+    if any(isinstance(t, Quotient) and _has_sum(t.denominator) for s in sums for t in s.terms):
+        return fraction(mass, order)
     letters = [s for s in mass.free_symbols if free_of(simplify(mass / s), [s])]
     for letter in sorted(letters, key=str) if isinstance(tree, Sum) else ():
         rest = shape(simplify(mass / letter), order)
@@ -362,6 +365,10 @@ def _pace(motion: Motion, order: Sequence[str]) -> Expression:
         put_in(shape(sympy.sqrt(part), order), {Name(_EXCESS): whole}) for part in parts
     )
     return Writer(order).product(_ONCE, [(above, _ONCE), (below, -_ONCE)])
+
+
+def _has_sum(node: Expression) -> bool:
+    return any(isinstance(part, Sum) for part in walk(node))
 
 
 def _is_fraction(term: Expression) -> bool:
