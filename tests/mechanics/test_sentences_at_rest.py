@@ -780,3 +780,22 @@ def test_a_circular_orbit_of_no_speed_is_a_state_of_rest(seed):
     told = said(sphere, "Steady motions", "steady_motions")
     assert "It is possible for" in told
     assert "At equality" not in told
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("floors", [1, 2])
+def test_linear_equations_with_closed_contacts_keep_them_closed(seed, floors):
+    """A body that lies on a floor, or in a corner, beside a spring: without the contact it falls."""
+    source = random.Random(seed)
+    k, x = source.randint(1, 5), source.choice(["x^2", "sin(x)^2"])
+    names = ["floor", "wall"][:floors]
+    gaps = dict(zip(names, ("y >= 0", "z >= 0"), strict=False))
+    contacts = ", ".join(f"{name}: {{gap: {gap}, restitution: 0}}" for name, gap in gaps.items())
+    text = (
+        "{coordinates: [x, y, z], T: (x'^2 + y'^2 + z'^2)/2, "
+        f"V: '{k}*{x} + 3*y + {'2*z' if floors == 2 else 'z^2'}', contacts: {{{contacts}}}}}"
+    )
+    told = said(text, "Small oscillations", "modes")
+    closed = "the contact 'floor'" if floors == 1 else "the contacts 'floor' and 'wall'"
+    assert f"restricted to the displacements that keep {closed} closed" in told
+    assert f"come only from {closed}, while closed" in said(text, "Forces", "forces")

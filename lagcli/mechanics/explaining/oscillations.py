@@ -95,7 +95,10 @@ def _linear(explainer: Explainer, place: Place) -> Iterator[Block]:
     where = above_zero(squares_divided_by(entries), near.system.order, place.point.positive)
     constrained = bool(explainer.dynamics.constraints.equations)
     pole = isinstance(near, AtPole)
-    yield from displacements(constrained, [q.name for q in near.independent], where, at_pole=pole)
+    contacts = {contact.name for contact in explainer.problem.contacts}
+    closed = [name for name in place.held.touching if name in contacts]
+    free = [q.name for q in near.independent]
+    yield from displacements(constrained, free, where, closed=closed, at_pole=pole)
 
 
 # -- without damping -----------------------------------------------------------------------------

@@ -12,7 +12,7 @@ from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, says, shows
 from lagcli.statements.answers import Section
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
-from lagcli.statements.wording import only_along_its_path
+from lagcli.statements.wording import constraints_named, only_along_its_path
 
 _KINDS = {"normal": "normal force", "friction": "friction", "tension": "tension"}
 
@@ -24,8 +24,11 @@ def real_forces(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says(f"These were not found: {found.reason}.")
         return
     equations = explainer.dynamics.constraints.equations
+    contacts = [contact.name for contact in explainer.problem.contacts]
     if not equations:
-        yield says("There are no constraints and no forces of constraint.")
+        closed = f"only from {constraints_named('the contact', contacts)}, while closed"
+        yield says(f"Forces of constraint come {closed}." if contacts
+                   else "There are no constraints and no forces of constraint.")  # fmt: skip
         return
     yield says(
         "For every displacement a constraint does the same virtual work as a force on its "

@@ -11,7 +11,7 @@ from lagcli.notation.naming import free
 from lagcli.problem_data import Problem
 from lagcli.statements.explanation import Explanation, ExplanationStep
 from lagcli.statements.motions import Above
-from lagcli.statements.wording import conditions
+from lagcli.statements.wording import conditions, constraints_named
 
 Part = str | Formula
 
@@ -65,12 +65,19 @@ def shows(left: Formula, right: Expression, note: str = "") -> Equations:
 
 
 def displacements(
-    constrained: bool, free: Sequence[str], where: Sequence[Above], *, at_pole: bool = False
+    constrained: bool,
+    free: Sequence[str],
+    where: Sequence[Above],
+    *,
+    closed: Sequence[str] = (),
+    at_pole: bool = False,
 ) -> Iterator[Paragraph]:
     """Which displacements linear equations are about, and where these are finite."""
     parts: list[Part] = []
-    if constrained:
-        parts += ["restricted to the displacements that the constraints allow"]
+    allowed = ["the constraints allow"] if constrained else []
+    allowed += [f"keep {constraints_named('the contact', closed)} closed"] if closed else []
+    if allowed:
+        parts += [f"restricted to the displacements that {' and '.join(allowed)}"]
         parts += [", in terms of those of ", *names(free)] if free else []
     if at_pole:
         parts += [", "] if parts else []
