@@ -31,7 +31,7 @@ def test_no_exponential_is_torn_apart(energy: sympy.Expr, expected: str) -> None
 def test_the_force_of_lennard_jones_is_two_powers() -> None:
     # Goldstein, Poole, Safko, 3rd ed., chapter 3: 4 eps ((s/r)^12 - (s/r)^6)
     force = -(4 * k * ((s / (x - y)) ** 12 - (s / (x - y)) ** 6)).diff(x)
-    assert printed(force) == "24*k*s^6/(y - x)^7 + 48*k*s^12/(x - y)^13"
+    assert printed(force) == "48*k*s^12/(x - y)^13 + 24*k*s^6/(y - x)^7"
     assert is_zero(force - 48 * k * s**12 / (x - y) ** 13 + 24 * k * s**6 / (x - y) ** 7)
 
 

@@ -247,7 +247,7 @@ def conditions_of(stated) -> list[str]:
 @pytest.mark.parametrize(
     ("positive", "shown"),
     [  # the conditions of a gyroscope in gimbals: Magnus, Kreisel, section 5
-        ("-w*((A + B - C)*w + p)", "0 > ((A + B - C)*w + p)*w"),
+        ("-w*((A + B - C)*w + p)", "0 > (p + (A + B - C)*w)*w"),
         ("w*(C*w + p - (A + B)*w)", "(p - (A + B - C)*w)*w > 0"),
         ("-(p + w)*(A*p + B*w)", "0 > (A*p + B*w)*(p + w)"),
         ("(A + B - C)^2*p^2 - (A + B)^2*w^2", "(A + B - C)^2*p^2 > (A + B)^2*w^2"),
