@@ -71,18 +71,19 @@ def discovered(problem: Problem) -> tuple[list[dict[str, Any]], list[dict[str, A
 
 
 def kept_at(problem: Problem, special: Mapping[str, Any]) -> dict[str, float]:
-    """The same for the new charges at a special value, which the parameter then stands for."""
-    parameter, value = special["parameter"], parse_text(special["value"])
+    """The same for the new charges at special values, which the parameters then stand for."""
+    values = {special["parameter"]: special["value"], **special.get("given", {})}
     there = replace(
         problem,
-        parameters=tuple(p for p in problem.parameters if p.name != parameter),
-        definitions={parameter: value, **problem.definitions},
+        parameters=tuple(p for p in problem.parameters if p.name not in values),
+        definitions={**{p: parse_text(x) for p, x in values.items()}, **problem.definitions},
     )
     charges = [
         {"name": name, "charge": charge, "conserved": True}
         for name, charge in special["charges"].items()
     ]
-    return {f"{n} at {parameter} = {special['value']}": d
+    at = ", ".join(f"{p} = {x}" for p, x in values.items())
+    return {f"{n} at {at}": d
             for n, d in digits_kept(there, charges).items()}  # fmt: skip
 
 

@@ -45,9 +45,9 @@ def test_every_formula_is_examined(name: str) -> None:
         for place, wrong in each_spoiled(answers, section)
         if verified(problem, wrong).complete
     }
-    # the sides of a bracket are those of the file; F = 0 with a constant and a condition as 0 > E,
-    # of which one side is changed, are as good
-    assert missed <= {"0", "E", *given}
+    # the sides of a bracket are those of the file; F = 0 with a constant and a condition as 0 > E
+    # or p_phi^2 > 0, of which one side is changed, are as good
+    assert missed <= {"0", "E", "p_phi^2", *given}
 
 
 @pytest.mark.parametrize("kind", ["canonical", "extended canonical", "not canonical"])
