@@ -84,8 +84,12 @@ SPECIAL = {
         ("k2", "k1/9"): (7, "charge_1"),
         ("k2", "9*k1"): (7, "charge_1"),
     },
-    # Chang, Tabor and Weiss, J. Math. Phys. 23 (1982) 531: D/C = -1/6
-    "discovery/henon-heiles-any-cubic": {("epsilon", "6"): (2, "charge_1")},
+    # Chang, Tabor and Weiss, J. Math. Phys. 23 (1982) 531: D/C = -1/6 for any A and B; D/C = -1 for
+    # A = B (Aizawa and Saito, J. Phys. Soc. Japan 32 (1972) 1636)
+    "discovery/henon-heiles-any-cubic": {
+        ("epsilon", "6"): (2, "charge_1"),
+        ("epsilon", "1"): (2, "charge_1"),
+    },
     "discovery/power-law-potential": {
         ("n", "2"): (10, "fradkin_xy conformal_sin"),
         ("n", "-1"): (4, "runge_lenz_x runge_lenz_y"),

@@ -304,7 +304,10 @@ def ratio_series(
     alpha: Sequence[Expr], beta: Sequence[Sequence[Expr]], n: int = ORDER
 ) -> list[Expr]:
     """The coefficients of a, a^2, …, a^n in T/T0, from those of U in x and of M in Z^2 and x."""
-    root_U = _power(list(alpha[: n + 1]), Rational(1, 2))
+    letters: dict[Expr, Expr] = {}
+    alpha = [_letter(c, letters) for c in alpha[: n + 1]]
+    beta = [[_letter(c, letters) for c in row] for row in beta]
+    root_U = _power(alpha, Rational(1, 2))
     z = [S.Zero, *root_U]  # z = x sqrt(1 + α_1 x + …), known to x^(n+1)
     x = _inverse(z)
     # in powers of Z with z = Z σ, σ = sin s
@@ -316,7 +319,13 @@ def ratio_series(
     slope = [(k + 1) * x[k + 1] * sine**k for k in range(n + 1)]
     T = [_mean(c, sine) for c in _product(_power(mass, Rational(1, 2)), slope, n)]
     odd = [c if k % 2 else S.Zero for k, c in enumerate(x)]
-    return _composed(T, _inverse(odd), n)[1:]
+    values = {letter: c for c, letter in letters.items()}
+    return [c.xreplace(values) for c in _composed(T, _inverse(odd), n)[1:]]
+
+
+def _letter(coefficient: Expr, letters: dict[Expr, Expr]) -> Expr:
+    """A letter for a coefficient, whose powers would grow if they were multiplied out."""
+    return coefficient if coefficient.is_Atom else letters.setdefault(coefficient, sympy.Dummy())
 
 
 def _mean(expression: Expr, sine: Symbol) -> Expr:
