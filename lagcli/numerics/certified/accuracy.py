@@ -27,7 +27,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from itertools import islice
-from operator import add
+from operator import add, sub
 from typing import Any
 
 from lagcli.numerics.certified.clock import clock_errors, column_changes
@@ -412,6 +412,8 @@ class Controller:
 
 def _distances(coarse: Sequence[Any], fine: Sequence[Any], factor: float) -> list[float]:
     """Of the values of a column in two runs, this factor times |a - b|; 0 where one has none."""
+    if None not in coarse and None not in fine:
+        return [factor * abs(d) for d in map(float, map(sub, coarse, fine))]
     pairs = zip(coarse, fine, strict=False)
     return [0.0 if a is None or b is None else factor * abs(float(a - b)) for a, b in pairs]
 

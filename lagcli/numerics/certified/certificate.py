@@ -37,12 +37,12 @@ def result_of(setup: Setup, motion: Motion, outcome: Outcome, remark: str) -> Re
     outcome = replace(outcome, rows=at_written_times(setup, outcome))
     names = tuple(column.name for column in request.columns)
     kept = len(outcome.rows) if outcome.reached else outcome.good_rows
-    rows: list[tuple[float | None, ...]] = []
+    rows, every = list[tuple[float | None, ...]](), setup.every
     for place, mark in enumerate(run.marks[:kept]):
         ends = run.event is not None and place == len(run.marks) - 1
         if mark.sample >= 0:
             is_usual = outcome.looked_at is None or mark.sample < outcome.looked_at
-            regular = is_usual and mark.sample % setup.every == 0
+            regular = is_usual and mark.sample % every == 0
             shown = regular or (place == kept - 1 and not outcome.reached)
         else:
             shown = ends and (not rows or rows[-1][0] != mark.t)
