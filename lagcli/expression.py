@@ -233,7 +233,8 @@ def product_of(factors: Iterable[Expression]) -> Expression:
 
 def quotient_of(above: Iterable[Expression], below: Collection[Expression]) -> Expression:
     """The product of the factors above over that of those below, where there are any."""
-    return Quotient(product_of(above), product_of(below)) if below else product_of(above)
+    divided = any(factor != ONE for factor in below)
+    return Quotient(product_of(above), product_of(below)) if divided else product_of(above)
 
 
 def power_of(base: Expression, exponent: int | Fraction) -> Expression:

@@ -278,9 +278,9 @@ def explain(
 
     account = _ended(lambda: explanation(derivation, also))
     if named and derivation.given.definitions:
-        from lagcli.mechanics.named_definitions import by_names
+        from lagcli.mechanics.named_definitions import steps_by_names
 
-        account = replace(account, steps=by_names(derivation.given, account.steps))
+        account = replace(account, steps=steps_by_names(derivation.given, account.steps))
     return _in_the_manner(derivation, _confirmed(derivation, account, also))
 
 

@@ -12,6 +12,7 @@ from sympy import Expr, S
 from lagcli.algebra.build import Builder, symbol
 from lagcli.algebra.generic_rank import has_full_rank
 from lagcli.algebra.signs import sign
+from lagcli.document import Block, Equations
 from lagcli.expression import (
     ONE,
     Call,
@@ -34,6 +35,7 @@ from lagcli.notation.likeness import Monomial, Polynomial, multiplied_out
 from lagcli.problem_data import Assumption, Parameter, Problem
 from lagcli.record import replace
 from lagcli.rewriting import Value, expressions_in, rebuilt, rewritten
+from lagcli.statements.explanation import ExplanationStep
 
 _ASIDE = ("source", "definitions", "parameters", "coordinates", "functions", "expect", "named",
           "simulation", "picture")  # fmt: skip
@@ -214,12 +216,14 @@ class NamedConstants:
         return node
 
     def _cancelled(self, node: Quotient) -> Expression:
-        """sqrt(p² + mu k) for M sqrt(p² + mu k)/M."""
+        """sqrt(p² + mu k) for M sqrt(p² + mu k)/M, and mu for 1/(1/mu)."""
         minus, above, below = parts_of(node)
         bases = [{base for base, _ in map(whole_power, side)} for side in (above, below)]
-        if bases[0].isdisjoint(bases[1] & {*self._divisors.values()}):
+        if not bases[0].isdisjoint(bases[1] & {*self._divisors.values()}):
+            above, below = cancelled(above, below)
+        elif not isinstance(node.denominator, Quotient):
             return node
-        whole = quotient_of(*cancelled(above, below))
+        whole = quotient_of([f for f in above if f != ONE] or [ONE], below)
         return Negative(whole) if minus else whole
 
     def _root(self, node: Call) -> Expression:
@@ -256,6 +260,24 @@ def by_names(problem: Problem, found: Value) -> Value:
     for names in NamedRoots(problem), NamedConstants(problem):
         found = rewritten(found, names) if names else found
     return found
+
+
+def steps_by_names(
+    problem: Problem, steps: tuple[ExplanationStep, ...]
+) -> tuple[ExplanationStep, ...]:
+    """Steps of an explanation, as `by_names`; the definitions themselves stay written out."""
+    return tuple(
+        replace(new, blocks=tuple(map(_not_by_itself, old.blocks, new.blocks)))
+        for old, new in zip(steps, by_names(problem, steps), strict=True)
+    )
+
+
+def _not_by_itself(old: Block, new: Block) -> Block:
+    """The block with `old` rows, mu = m1 m2/(m1 + m2), for new ones that say mu = mu."""
+    if not isinstance(old, Equations) or not isinstance(new, Equations):
+        return new
+    rows = zip(old.rows, new.rows, strict=True)
+    return Equations(tuple(a if b.left == b.right else b for a, b in rows))
 
 
 #: The terms of a base without their common number.
@@ -384,10 +406,10 @@ def _with_power(
                 kept[side].append(power_of(base, exponent - taken))
     if k:
         kept[0 if k > 0 else 1].insert(0, power_of(Name(name), abs(k)))
+    numbers = [prod((f.value for f in side if isinstance(f, Number)), start=_ONE) for side in kept]
+    count *= numbers[0] / numbers[1]
     for side, value in enumerate((abs(count.numerator), count.denominator)):
-        numbers = [f for f in kept[side] if isinstance(f, Number)]
-        whole = value * prod((f.value for f in numbers), start=_ONE)
         rest_ = [f for f in kept[side] if not isinstance(f, Number)]
-        kept[side] = [Number(whole), *rest_] if whole != 1 else rest_
+        kept[side] = [Number(Fraction(value)), *rest_] if value != 1 else rest_
     found = quotient_of(kept[0] or [ONE], kept[1])
     return Negative(found) if count < 0 else found

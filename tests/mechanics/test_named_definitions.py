@@ -6,6 +6,7 @@ import random
 
 import pytest
 
+from lagcli.document import Equations
 from lagcli.expression import Expression, Name, walk
 from lagcli.formatters import Options
 from lagcli.formatters.grammar import to_grammar
@@ -272,3 +273,30 @@ def test_an_explanation_lists_and_keeps_them():
     told = repr(explain(derive(problem_of(THREE_BODIES), named=True), named=True).steps)
     assert "r1" in told
     assert "Fraction(3, 2)" not in told.split("Lagrange's equations")[1]
+
+
+#: Products, quotients, and sums of masses whose names answers keep, and that L does not use.
+MASSES = (
+    "m1*m2/(m1 + m2)",
+    "4*m1*m2/(m1 + m2)",
+    "m1 + m2",
+    "m1^2*m2/(m1 + m2)^2",
+    "m1*m2/(m1 - m2)",
+    "1/(1/m1 + 1/m2)",
+)
+
+
+@pytest.mark.parametrize("formula", MASSES)
+def test_an_explanation_does_not_define_a_name_by_itself(formula):
+    text = f"""
+coordinates: [x, y]
+parameters: {{m1: {{assume: positive}}, m2: {{assume: positive}}, g: }}
+definitions: {{mu: {formula}}}
+T: m1*x'^2/2 + m2*y'^2/2
+V: -g*(m1*x + m2*y)
+"""
+    account = explain(derive(problem_of(text), named=True), named=True)
+    blocks = [block for step in account.steps for block in step.blocks]
+    rows = [row for block in blocks if isinstance(block, Equations) for row in block.rows]
+    assert parse_text(formula) in [row.right for row in rows if row.left == Name("mu")]
+    assert not any(row.left == row.right for row in rows)
