@@ -581,3 +581,44 @@ T: m*x'^2/2
 V: k*x^2/2 + p^2/2
 """)
     assert above.one_freedom.turning_finite == ()
+
+
+BOWL = """
+coordinates: {r: POSITIVE, phi: {}, z: {}}
+parameters: {m: POSITIVE, g: POSITIVE, b: POSITIVE, c: POSITIVE, F: POSITIVE}
+T: m*(r'^2 + r^2*phi'^2 + z'^2)/2
+V: %s
+constraints: {bowl: {equation: %s, holds_while: lambda_bowl >= 0}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_period_has_no_condition_that_holds_where_the_slope_vanishes(seed):
+    """In a bowl N = m g at every circle, however steep it is; with a lift N = m g - F."""
+    draw = random.Random(seed)
+    low = draw.randint(2, 4)
+    shape = f"z = b*r^{low} + c*r^{low + draw.randint(1, 3)}"
+    for V in ("m*g*z", f"m*g*z - F*r^{draw.randint(1, 4)}", "(m*g - F)*z"):
+        section, _ = reduced(BOWL % (V, shape))
+        [period] = section.one_freedom.periods
+        assert period.root_of is not None
+        assert not period.where
+
+
+def test_a_period_keeps_the_condition_that_a_contact_presses():
+    """Inside a sphere, drawn to its centre: N = p²/(m R³ sin²) + m g cos - k R may vanish."""
+    section, _ = reduced("""
+coordinates: {r: POSITIVE, theta: {}, phi: {}}
+parameters: {m: POSITIVE, g: POSITIVE, R: POSITIVE, k: POSITIVE}
+T: m*(r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2
+V: -m*g*r*cos(theta) + k*r^2/2
+constraints: {sphere: {equation: r = R, multiplier: N, holds_while: N <= 0}}
+""")
+    [period] = section.one_freedom.periods
+    [[left, right]] = [(each.left, each.right) for each in period.where]
+    names = {name: symbol(name) for name in ("m", "g", "R", "k", "theta", "p_phi")}
+    excess = Builder(names, {}, lambda e: e)(left) - Builder(names, {}, lambda e: e)(right)
+    for theta, p in (0.5, 1.0), (1.0, 0.3), (0.4, 0.1), (1.4, 0.9):
+        values = dict(zip(names.values(), (1, 1, 1, 1, theta, p), strict=True))
+        N = p**2 / sympy.sin(theta) ** 2 + sympy.cos(theta) - 1
+        assert (excess.subs(values) > 0) == (N > 0)

@@ -33,8 +33,12 @@ from sympy import Abs, Expr, Rational, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.elimination import remainder
+from lagcli.algebra.entry import Field
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
+from lagcli.algebra.polynomial_roots import coefficients
+from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.inequalities import never_together
 from lagcli.mechanics.parameter_values import admissible_values
@@ -158,6 +162,7 @@ class Periods:
         pressed = motion.contacts.where_pressed({})
         if sign(curvature) in (0, -1) or pressed is None:
             return ()
+        pressed = tuple(x for x in pressed if not _follows(x, motion.potential.diff(motion.q)))
         mass = simplify(at(self._mass, {motion.E: motion.potential}))
         return (AmplitudeSeries(None, _root(mass, curvature), (), pressed),)
 
@@ -270,6 +275,27 @@ class Periods:
             [mass] = mass_of({**values, motion.q: q, motion.E: energy})
             total += mpmath.sqrt(mass / (2 * (energy - potential(q)))) * a * mpmath.cos(s)
         return 2 * total * mpmath.pi / _NODES / stated
+
+
+def _follows(value: Expr, vanishing: Expr) -> bool:
+    """Whether the value is not negative wherever the other one, U', is 0.
+
+    As the remainder of the division of the one by the other in some letter is not: with
+    N = m (U' + g) it is m g.
+    """
+    field = Field([value, vanishing])
+    try:
+        element, divisor = field(value), field(vanishing).numerator
+    except ZeroDivisionError:
+        return False
+    below = field.polynomial(element.denominator)
+    for letter in sorted(vanishing.free_symbols, key=str):
+        number = field.number_of(letter)
+        if number is not None and len(coefficients(field, divisor, number)) > 1:
+            rest = remainder(field, element.numerator, divisor, number) / below
+            if weak_sign(field.to_sympy(rest)) == 1:
+                return True
+    return False
 
 
 def _root(mass: Expr, curvature: Expr) -> Expr:
