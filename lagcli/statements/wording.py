@@ -44,6 +44,8 @@ CONSERVED = "L does not depend on t explicitly, no applied force and no constrai
 CHANGE_OF_L = "a change of L that is not a total time derivative"
 #: What a candidate is worth whose charge is 0, or constant by the constraints alone.
 TRIVIAL = "Its charge is constant whatever the motion is: no conserved quantity follows."
+#: Why no symmetry is sought where no degree of freedom is left.
+PRESCRIBED = "the constraints prescribe the motion"
 #: The potentials whose minima and values a motion in one coordinate is read from.
 POTENTIALS: Mapping[str, Formula] = {
     "U_eff": Label("U", ("eff",)),

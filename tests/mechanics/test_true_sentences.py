@@ -675,3 +675,55 @@ def test_roots_without_a_closed_form_are_not_left_unsaid(drag):
     assert "Its roots are" not in told
     assert "Among its roots are" in told
     assert "No closed form was found for the others." in told
+
+
+# -- what is prescribed, and what may have any value ----------------------------------------------
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_no_symmetry_is_denied_of_a_prescribed_motion(seed):
+    """As many holonomic constraints as coordinates, in random combinations."""
+    source = random.Random(seed)
+    n = source.randint(1, 3)
+    q = ["x", "y", "z"][:n]
+    rows = [
+        " + ".join([f"({j + 2})*{q[j]}", *(f"{source.randint(0, 2)}*{other}" for other in q[:j])])
+        for j in range(n)
+    ]
+    right = source.choice(["0", "t", "c*t^2", "sin(t)"])
+    given = "\n".join(f"  f{j}: {row} = {right if j == 0 else 0}" for j, row in enumerate(rows))
+    squares = " + ".join(f"{name}'^2" for name in q)
+    V = source.choice(["0", f"m*{q[0]}", f"m*{q[-1]}^2"])
+    text = f"coordinates: [{', '.join(q)}]\nparameters: [m, c]\nT: m*({squares})/2\nV: {V}\n"
+    text += f"constraints:\n{given}\n"
+    for title, also in (
+        ("Discovered symmetries", "discovered"),
+        (
+            "The algebra of the symmetries",
+            "algebra",
+        ),
+    ):
+        told = said(text, title, also)
+        assert told.endswith("sought: the constraints prescribe the motion.")
+        assert "ansatz" not in told
+
+
+@pytest.mark.parametrize("beside", [("x",), ("x", "y"), ("x", "y", "s")])
+def test_of_an_upright_top_all_free_momenta_are_named(beside):
+    """A top that slides on a floor, perhaps with a bead on a line: only p_phi is given."""
+    names = [*beside, "phi", "psi"]
+    squares = " + ".join(f"m*{q}'^2/2" for q in beside)
+    text = f"""
+coordinates: [{", ".join(beside)}, phi, theta, psi]
+parameters: {{m: {{assume: positive}}, g: {{assume: positive}}, A: {{assume: positive}},
+  C: {{assume: positive}}}}
+T: {squares} + A*(theta'^2 + phi'^2*sin(theta)^2)/2 + C*(psi' + phi'*cos(theta))^2/2
+V: m*g*cos(theta)
+"""
+    section = steady_motions(derive(text))[0]
+    upright = [motion for motion in section.motions if motion.rates is None]
+    assert len(upright) == 2
+    for motion in upright:
+        given = {name for name, p in motion.momenta.items() if to_grammar(p) != f"p_{name}"}
+        assert given == {"phi"}
+        assert {*motion.free} == {f"p_{name}" for name in names if name not in given}

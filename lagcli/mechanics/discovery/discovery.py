@@ -42,6 +42,7 @@ from lagcli.mechanics.discovery.setting import Setting
 from lagcli.mechanics.discovery.slots import point_slots
 from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+from lagcli.statements.wording import PRESCRIBED
 
 _UNPROVED = "a symmetry whose charge was not proved is left out"
 _SECOND = "first integrals of second degree in the velocities"
@@ -83,6 +84,8 @@ class Discovery(Setting):
         if self.unsearched:
             self.words.append("nothing")
             self.stopped.append(self.unusable)
+        elif self._prescribed:
+            self.words.append(f"nothing, as {PRESCRIBED}")
         else:
             self._run()
 
@@ -90,6 +93,12 @@ class Discovery(Setting):
     def ansatz(self) -> str:
         """What was searched and what was not, as a sentence without its full stop."""
         return "; ".join(dict.fromkeys((*self.words, *self.stopped)))
+
+    @property
+    def _prescribed(self) -> bool:
+        """Whether positions are prescribed, so that every function of the state is known."""
+        equations = self.dynamics.constraints.equations
+        return self.dynamics.degrees_of_freedom == 0 and all(e.holonomic for e in equations)
 
     # -- the two searches -------------------------------------------------------------------
 

@@ -47,7 +47,7 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
     """The relative equilibria: cyclic velocities constant, the other coordinates at rest."""
     found = cast(SteadySection, section)
     if "inertia" in found.acting:
-        yield says(*_with_constant_velocities(found))
+        yield says(*_with_constant_velocities(explainer, found))
         yield from _steady_states(explainer, found)
         return
     if found.motions is None and found.reason == ALL_CYCLIC:
@@ -86,7 +86,7 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
     yield from _steady_states(explainer, found)
 
 
-def _with_constant_velocities(found: SteadySection) -> list[Part]:
+def _with_constant_velocities(explainer: Explainer, found: SteadySection) -> list[Part]:
     """What vanishes where rates are sought that no constant momentum gives."""
     end = ":" if any(each != ZERO for each in found.conditions.values()) else "."
     rest = (
@@ -96,7 +96,9 @@ def _with_constant_velocities(found: SteadySection) -> list[Part]:
     if not found.eliminated:
         return [f"In a steady motion the velocities are constant. So are{rest}"]
     given = [*names(found.eliminated, 1), " in terms of the other velocities, which are constant"]
-    return ["The constraints give ", *given, f" in a steady motion. So are{rest}"]
+    several = len(explainer.dynamics.constraints.equations) > 1
+    lead = "The constraints give " if several else "The constraint gives "
+    return [lead, *given, f" in a steady motion. So are{rest}"]
 
 
 def _steady_without_momenta(explainer: Explainer, found: SteadySection) -> str:

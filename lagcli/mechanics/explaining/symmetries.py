@@ -19,7 +19,7 @@ from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, says
 from lagcli.statements.answers import AlgebraSection, Charge, ChargesSection, Section
-from lagcli.statements.wording import conditions, values_of
+from lagcli.statements.wording import PRESCRIBED, conditions, values_of
 
 #: A table of brackets of more charges than these is not read.
 _MOST = 7
@@ -32,6 +32,9 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
     found = cast(ChargesSection, section).charges
     discovery = explainer.derivation.discovery
     letters = explainer.letters
+    if discovery.ansatz.endswith(PRESCRIBED):
+        yield says(f"None is sought: {PRESCRIBED}.")
+        return
     constrained = bool(explainer.dynamics.constraints.equations)
     beside: list[Part] = (
         [] if discovery.canonical else [" plus the work of the forces that are not in ", letters.L]
@@ -104,8 +107,10 @@ def _charge(explainer: Explainer, charge: Charge) -> Iterator[Block]:
     if energy:
         yield says("It is listed with the sign of the energy, opposite to that of the theorem.")
     if moves:
+        several = len(explainer.dynamics.constraints.equations) > 1
         yield says(
-            "The constraints allow this displacement, a combination of symmetries whose factors "
+            f"The {'constraints allow' if several else 'constraint allows'} this displacement, a "
+            "combination of symmetries whose factors "
             "depend on the configuration. The momentum is not constant: it has this rate."
         )
     elif any(_quick(change) for change in charge.transformation.values()):
@@ -126,6 +131,9 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
     """Brackets of the conserved quantities, their algebra, and Liouville's count."""
     found = cast(AlgebraSection, section)
     charges = explainer.derivation.discovery.charges
+    if not charges and found.ansatz.endswith(PRESCRIBED):
+        yield says(f"No symmetry was sought: {PRESCRIBED}.")
+        return
     if not charges:
         yield says(f"No symmetry was found and proved. Searched: {found.ansatz}.")
         return

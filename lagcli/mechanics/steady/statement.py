@@ -298,6 +298,8 @@ class _SteadyStatement:
         values = [*motion.values.values(), *(motion.rates or {}).values()]
         used = {s for value in values for s in value.free_symbols}
         places = untied(self.steady.point(motion), self.steady.system.q)
+        if motion.rates is None:  # momenta that neither are given nor give others
+            used |= {p for p in self.routh.momenta if p not in motion.values}
         others = [s for s in (*full.qdot, *self.routh.momenta) if s in used]
         return tuple(s.name for s in (*places, *others))
 
