@@ -86,7 +86,6 @@ def test_both_minima_of_three_cosines():
         assert any(math.dist((sign * third,) * 2, point) < 1e-12 for point in points)
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(6))
 def test_a_phase_moves_the_critical_points(seed):
     """a cos n (x - d) + b cos 2 n (x - d) + c cos (y - e): found at d and e, and all of them."""
@@ -160,7 +159,6 @@ def test_what_the_others_solve_is_quoted():
     assert [to_grammar(each) for each in section.open] == ["x*cos(x) + sin(x)"]
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(6))
 def test_a_translation_of_all_coordinates_takes_no_equilibrium_away(seed):
     """V(x, y) with x = a - r c and y = b - s c has the equilibria of V(x, y), with c free."""

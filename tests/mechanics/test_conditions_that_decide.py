@@ -38,7 +38,6 @@ def coupled(source: random.Random, field: int) -> str:
     )
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("field", [0, 1])
 def test_the_sign_of_one_stiffness_decides_across_a_family(seed, field):
@@ -137,7 +136,6 @@ def test_a_number_stands_alone_and_on_the_right(seed):
                 assert held == bool(sign * expression.subs(n, value) > 0)
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(("p", "q"), [(0, 1), (1, 0), (0, -1)])
 def test_a_plumb_line_is_stable_where_its_cosine_is_positive(p, q):
     """V = -k cos(y - p a) - b sin(y - q a): the sign of one sum decides, not that of a product.

@@ -120,8 +120,6 @@ def test_a_constraint_on_which_full_newton_steps_diverge_is_satisfied(constraint
     assert not solve(d.problem, ["accelerations", "multipliers"]).warnings
 
 
-@pytest.mark.first_quick
-@pytest.mark.first_quick
 @pytest.mark.parametrize(
     "constraints",
     [

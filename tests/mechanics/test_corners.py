@@ -36,7 +36,6 @@ def number(node: Expression) -> Fraction:
     return Fraction(evaluated(node, {}, FUNCTIONS)).limit_denominator(10**9)
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(16))
 def test_a_corner_is_judged_by_both_sides(seed: int) -> None:
     text, V = drawn(Random(f"corner {seed}"))
@@ -67,7 +66,6 @@ def test_no_rest_is_denied_where_V_has_no_derivative(potential: str, *, edge: bo
     assert (section.equilibria is None or not section.complete) is edge
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("potential", "name"),
     [

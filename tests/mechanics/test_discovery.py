@@ -214,7 +214,6 @@ def test_like_circuits_have_both_amplitudes_of_both_modes(inertia: str, coupling
     assert sum(not any(x.free_symbols & state for x in move.changes) for move in moves) == 4
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("force", ["f(t)", "1/(1 + t^2)", "sin(t^2)"])
 @pytest.mark.parametrize("spring", ["0", "w^2*x"])
 def test_a_force_without_an_antiderivative_leaves_both_linear_charges(force: str, spring: str):

@@ -215,7 +215,6 @@ CHANGING = {
 }
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("L", CHANGING)
 def test_linear_equations_whose_coefficients_change_have_five(L):
     """Kamke, *Differentialgleichungen*, vol. I, part A, section 25.1."""

@@ -51,7 +51,6 @@ def test_a_number_is_no_special_strength_of_a_plane_wave(u):
     assert derive(problem(wave, U.replace(", y: {}", ""), "a")).special_cases == ()
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("L", "number"),
     [

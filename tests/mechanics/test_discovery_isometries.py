@@ -167,7 +167,6 @@ RAPID = {
 }
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("root", RAPID)
 def test_a_length_has_the_isometries_of_space_and_time(root):
     """Rindler's frame, one that turns, de Sitter's universe; light where n = 1/y.

@@ -104,7 +104,6 @@ NAMES = {
 }  # fmt: skip
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("case", NAMES)
 def test_charges_are_named_by_what_they_are(case):
     letters, more, expected = NAMES[case]
@@ -121,7 +120,6 @@ def test_charges_are_named_by_what_they_are(case):
         assert ratio.is_number or not ratio.free_symbols & {system.t, *system.q, *system.qdot}
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("letters", ["x", "xy"])
 def test_the_energy_of_a_damped_oscillator_is_named(letters):
     """Caldirola, Nuovo Cimento 18 (1941) 393: exp(a t) (x'^2 + a x x' + B x^2)."""
@@ -137,7 +135,6 @@ def test_the_energy_of_a_damped_oscillator_is_named(letters):
     assert min(digits_of(derivation).values()) > 20
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("c", "name"), [("a", "damped_energy"), ("-a", "energy_exp"), ("B", "energy_exp")]
 )
@@ -165,7 +162,6 @@ def test_modes_of_numbers_are_found_stable_or_not(a, c, b):
     assert min(digits_of(derivation).values()) > 20
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("stiffness", ["k", "k + 2*n", "5*k + n"])
 def test_a_damped_frequency_has_one_root(stiffness):
     """sqrt(4 m k - c^2)/(2 m) in the transformation as in the charge: not sqrt((k - c^2/4m)/m)."""

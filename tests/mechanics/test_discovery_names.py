@@ -79,7 +79,6 @@ def test_coupled_oscillators_have_the_energies_of_their_modes(seed):
     assert sums == {0, k, k + 2 * c}
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("axes", ["xyz", "yzx", "zxy"])
 def test_charges_in_crossed_fields_have_their_names(axes):
     x, y, z = axes

@@ -55,7 +55,6 @@ def test_other_surfaces_have_the_energy_alone(surface):
     assert (found.independent, found.integrable) == (1, None)
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("x", "y", "z"),
     [

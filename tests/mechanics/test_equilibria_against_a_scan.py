@@ -62,7 +62,6 @@ def scanned(V: str, values: dict, end: float) -> dict[float, int]:
     return found
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("V", POTENTIALS)
 def test_what_is_listed_is_what_a_scan_finds(V):
     text = (

@@ -174,7 +174,6 @@ def test_a_point_of_a_family_of_steady_motions_is_not_told_beside_it():
     assert [motion.free for motion in section.motions] == [("x", "y")]
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(4))
 def test_a_translation_that_changes_no_force_moves_an_equilibrium_that_is_seen(seed):
     """V of three combinations of four coordinates, without a closed solution: V = sum cosh + V4."""

@@ -396,7 +396,6 @@ find: {asked: {value: r'^2, in_terms_of: [r]}}
 """
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("turning", ["phi = w*t", "w*t - phi = 0", "2*phi = 2*w*t + pi"])
 @pytest.mark.parametrize(
     ("wire", "known"),

@@ -42,7 +42,6 @@ def test_a_root_that_only_some_parameters_reach_is_listed_with_an_example():
     assert {"-pi/2", "theta0"} <= set(formulas_in_it)
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("power", [1, 2, 4])
 def test_where_the_root_is_real_is_remarked_once(power):
     """From rest at x0 > 0 along a force that grows with x, x = b is reached wherever b > x0."""

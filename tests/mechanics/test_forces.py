@@ -70,7 +70,6 @@ def test_the_forces_of_the_library_do_the_work_of_their_multipliers(path: Path):
             assert dynamics.verifier.is_zero(square - 1).holds is True
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("path", WITH_POINTS, ids=lambda path: path.stem)
 def test_directions_point_where_they_are_said_to(path: Path):
     """e . (r_k - r) has the sign of the word at random states."""

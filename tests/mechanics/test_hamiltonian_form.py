@@ -30,7 +30,6 @@ def formula(found):
     return found.grammar
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("given", "book"),
     [

@@ -45,7 +45,6 @@ def test_a_minimum_and_what_is_none_are_told_apart(seed):
     assert verdict_of(V, ", dissipation: x'^2 + y'^2").asymptotic is bool(told.stable)
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(8))
 def test_curved_coordinates_in_which_V_is_a_sum_of_powers_change_nothing(seed):
     """V = b Y² + a X^d at X = 0 + ..., Y = 0 + ...: of d even and a > 0 alone a minimum."""
@@ -94,7 +93,6 @@ def test_a_sign_that_is_open_is_the_condition():
     assert (stable.left, stable.right) == (reversed_.right, reversed_.left)
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(4))
 def test_a_quadratic_direction_of_open_sign_decides(seed):
     """V = a x⁴ + b y⁶ + c z²/2, also with friction along x alone, which takes no stability."""

@@ -96,7 +96,6 @@ def by_algebra(text, values):
     return [float(x) for x in found(named)]
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("combine", [True, False])
 @pytest.mark.parametrize(
     "text",

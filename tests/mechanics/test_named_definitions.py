@@ -202,7 +202,6 @@ def test_even_powers_of_a_distance_have_its_name_too():
 
 
 @pytest.mark.parametrize("text", [TWO_BODIES, THREE_BODIES, WITH_CENTRE, DIPOLE])
-@pytest.mark.first_quick
 def test_the_values_are_those_of_what_is_written_out(text):
     """Both answers at random points, the definitions evaluated by the file's own reader."""
     problem, chance = problem_of(text), random.Random(5)

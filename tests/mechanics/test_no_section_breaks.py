@@ -76,7 +76,6 @@ def test_signs_and_absolute_values_in_the_potential_break_no_section(seed: int) 
     assert_sound(answers(f"{HEAD}V: {potential(source)}\n", QUICK))
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(
     "argument", ["x/(2 + sin(y))", "log(cos(x)^2)", "x^c", "asin(sin(x))", "atanh(tanh(x)/2)"]
 )
@@ -117,7 +116,6 @@ def test_what_jumps_on_the_motion_is_not_called_conserved(given: str, held: int)
     assert held or not conserved
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("side", ["sign(y)", "sign(x/y)", "sign(y/(2 + sin(x)))", "sign(y)^2"])
 @pytest.mark.parametrize("given", ["k*x^2*", "k*"])
 def test_a_coordinate_that_makes_l_jump_is_not_cyclic(given: str, side: str) -> None:
@@ -233,7 +231,6 @@ V: m*g*sin(theta)
 """
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("text", [NOT_AT_REST, NO_INERTIA, INVERSE_RATE, FOURTH_POWER])
 def test_a_mistaken_kinetic_energy_breaks_no_section(text: str) -> None:
     assert_sound(answers(text, [*QUICK, "modes", "steady_motions"]))

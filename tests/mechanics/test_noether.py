@@ -24,7 +24,6 @@ def symmetry(text: str, change: str):
     return d, charge(d, "s")
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("lagrangian", "change", "expected"),
     [

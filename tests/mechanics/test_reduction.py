@@ -217,7 +217,6 @@ L: -m*c^2*sqrt(1 - (r'^2 + r^2*phi'^2)/c^2) + k/r
     assert abs(gamma * m * r**2 * rate - p) < 1e-12
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(("V", "force"), [("x^2/2", lambda x: x), ("x^4/4", lambda x: x**3)])
 @pytest.mark.parametrize("a", [0.5, 2.0])
 def test_the_time_of_a_relativistic_oscillation(V, force, a):
@@ -432,7 +431,6 @@ L: a^2*(1 - cos(phi))*phi'^2 - g*a*cos(phi)
     assert [to_grammar(each.period) for each in section.one_freedom.periods] == ["4*pi*sqrt(a/g)"]
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("inertia", ["m", "m*(1 + a^2*x^2)", "m*(M + m*sin(x)^2)/(M + m)"])
 @pytest.mark.parametrize("V", ["k*x^2/2 + b*x", "b*x - k*cos(x)", "b*x - k/(1 + x^2)"])
 def test_the_time_integral_has_the_potential_as_it_is_printed(inertia: str, V: str):

@@ -75,7 +75,6 @@ def within_a_turn(angle):
     return round(angle - 2 * math.pi * round(angle / (2 * math.pi) - 1e-9), 6) + 0.0
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("outer", "inner"),
     [

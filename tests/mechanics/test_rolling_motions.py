@@ -119,7 +119,6 @@ dissipation: b*x'^2/2
         assert turned == pytest.approx(sin(angle))  # cannot be 0
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("arm", [-2, -1, 1, 3])
 @pytest.mark.parametrize("direction", [0, 4])
 def test_a_sleigh_runs_straight_on_with_its_centre_of_mass_in_front(arm, direction):

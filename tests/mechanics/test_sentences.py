@@ -607,7 +607,6 @@ def test_constant_momenta_make_constant_velocities_without_the_time_only(growth)
     assert ("all momenta are constant" in told) == (growth != "1")
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(4))
 def test_states_in_a_periodic_potential_recur_after_its_period(seed):
     """Of harmonics of one wave, or of a tilted one: the places found are solved for in numbers."""

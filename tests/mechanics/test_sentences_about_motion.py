@@ -154,7 +154,6 @@ FRAMES = {
 }
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(("text", "frame"), FRAMES.items())
 def test_what_a_frame_that_moves_along_leaves_the_same(text, frame):
     told = answered(f"coordinates: [a, b]\n{_POSITIVE}\n{text}\n", "steady_motions")
@@ -205,7 +204,6 @@ def test_a_negative_kinetic_energy_turns_about_the_maxima():
     assert "does not turn back" in told
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("drag", ["0", "a'^2 + sin(a)^2*b'^2"])
 def test_a_pole_is_no_family(drag):
     """At the pole of a sphere that turns the azimuth has no value: nothing is displaced along it."""

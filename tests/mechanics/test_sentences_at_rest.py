@@ -542,7 +542,6 @@ def test_a_frequency_that_may_not_be_real_is_said_to_be_one_only_where_it_is(see
     assert told.count("oscillates only where this is real") == signs.count("real")
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("gap", ["x >= v*t", "x >= sin(v*t)", "y >= x + v*t", "x + y >= -v*t^2"])
 def test_nothing_is_called_stable_that_a_moving_contact_may_reach(gap):
     """A wall that comes nearer throws away what rests before it."""
@@ -560,7 +559,6 @@ def test_rest_at_the_bottom_of_a_flat_bowl_is_not_denied(bowl):
     assert "there is no equ" not in said(text, "Equilibria", "equilibria")
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("T", "V", "reached"),
     [

@@ -210,7 +210,6 @@ V: -m*g*l*cos(theta) + c/(l + d - l*cos(theta))
     assert all(each.verdict.stable for each in aside)
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(4))
 def test_a_condition_in_factors_stays_in_factors(seed):
     """V'' of (R - a) (n m g + (R - a) k) (1 - cos u): not multiplied out."""

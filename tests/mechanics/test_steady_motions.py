@@ -369,7 +369,6 @@ V: -M*g*(l - r)*cos(theta)
     assert squares == {formula("g/(l - r)"), formula("3*M*g/((m + M)*r)")}
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("turns", [1, 2, 3])
 def test_the_distance_is_given_where_the_rate_is_short_by_it(turns):
     """An elastic string over a hole with M in the bight of `turns` pulleys: m φ'² r = M g/turns."""
@@ -493,7 +492,6 @@ def test_equilibria_that_stand_with_their_modes_are_not_listed_again(also, repea
     assert ("Steady motion 1" in render([answers], "text", Options())) == (repeated or cyclic)
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("power", ["-k/r", "k*r", "-k/sqrt(r)"])
 def test_a_routhian_that_is_not_quadratic_has_conditions(power):
     """γ m r φ'² = V'(r), Goldstein, section 7.9: with p_φ = γ m r² φ' it is 0 on the circle."""
@@ -528,7 +526,6 @@ T: A*(theta'^2 + phi'^2*sin(theta)^2)/2 + C*(psi' + phi'*cos(theta))^2/2 + {fram
     assert evaluated(precession.momenta["phi"], values, FUNCTIONS) > 5
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("k", ["b", "2*b"])
 def test_a_condition_on_a_free_momentum_is_met_by_either_sign(k):
     """A relativistic charge circles with γ m φ' = -2 k, p_φ = -k r²; p_φ = k r² is rest."""

@@ -106,7 +106,6 @@ def test_the_sign_of_a_product_implies_that_its_factors_are_not_zero(factors):
 # -- critical values ------------------------------------------------------------------------------
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(8))
 def test_at_a_critical_value_the_next_derivative_decides(seed):
     source = random.Random(seed)

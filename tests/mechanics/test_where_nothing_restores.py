@@ -126,7 +126,6 @@ def test_at_given_momenta_flatness_proves_nothing():
     assert all(motion.verdict.stable is not True for motion in section.motions or ())
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("seed", range(3))
 def test_a_body_of_any_moments_at_rest_has_a_definite_kinetic_energy(seed):
     moments = [f"I{k}" for k in (1, 2, 3)]

@@ -27,7 +27,6 @@ def site(file: str, text: str, change: str) -> Site:
     return next(each for each in sites({file: numbers}) if each.change == change)
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("file", "text", "change"),
     [*KNOWN[:2], *(pytest.param(*each, marks=pytest.mark.long) for each in KNOWN[2:])],

@@ -25,7 +25,6 @@ def _solved(form: str, parameters: str):
     return problem, solve(problem, ["discovered", "algebra"])
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize(
     ("form", "parameters", "name"),
     [

@@ -41,7 +41,6 @@ def _value(formula: str, values: dict[str, float]) -> float:
     return eval(formula.replace("^", "**"), {**names, **values})
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("argument", ["a - b*cos(x)", "a^2 - b^2*sin(x/2)^2", "a + b*cos(x) - c"])
 @pytest.mark.parametrize("outer", ["c*sqrt({})", "-c*({})^(3/2)", "b*log({})", "c/sqrt({})"])
 def test_an_equilibrium_exists_where_the_potential_is_real(outer: str, argument: str) -> None:
@@ -103,7 +102,6 @@ def _is_refuted(problem: Problem, answers, section: EquilibriaSection) -> None:
     assert found.sections["equilibria"].equilibria is None
 
 
-@pytest.mark.first_quick
 @pytest.mark.parametrize("f", ["a + b*x^2", "1 + x^4", "exp(a*x)", "2 + cos(x)", "1 + a*x^2 + x^3"])
 def test_a_flat_effective_potential_has_steady_motions_everywhere(f: str) -> None:
     """L = x'^2 + c x' y' + y'^2/f + k f: U_eff = (p^2/4 - k) f is 0 for p^2 = 4 k."""
