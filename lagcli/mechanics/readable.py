@@ -125,11 +125,12 @@ class Readable:
 
     @cached_property
     def _multiples(self) -> list[dict[Expr, Expr]]:
-        """{phi: x/a, phi': x'/a} of each relation x = a phi of two coordinates."""
+        """{phi: x/a, phi': (x/a)'} of each relation x = a phi of two coordinates, a(t) too."""
         relations, found = self._relations, []
         rates = dict(zip(self.system.q, self.system.qdot, strict=True))
         for q, value in ({} if relations is None else relations.solved).items():
             factor, other = value.as_independent(*rates, as_Add=False)
             if q in rates and other in rates and factor.is_nonzero:
-                found.append({other: q / factor, rates[other]: rates[q] / factor})
+                value = q / factor
+                found.append({other: value, rates[other]: self.system.total_derivative(value)})
         return found

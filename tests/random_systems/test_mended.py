@@ -163,3 +163,17 @@ def test_a_corner_of_two_constraints_is_no_state() -> None:
         constraints={"c0": "z^2 - z*y = 0", "c1": "sin(z)*(z - 2*y) = 0"},
     )
     assert [each for each in judged(corner) if each.verdict == "crash"] == []
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("factor", ["exp(t)", "1 + b*t^2", "2 + cos(t)", "g*t"])
+def test_one_coordinate_is_a_multiple_of_another_that_changes(factor: str) -> None:
+    """y'/a is not x' where y = a(t) x."""
+    tied = System(
+        coordinates=dict.fromkeys("xyz"),
+        parameters=M,
+        T="m*(x'^2 + y'^2 + z'^2)/2",
+        V="k*z*x + g*sin(x)",
+        constraints={"c1": f"x*({factor}) = y"},
+    )
+    assert judged(tied) == []
