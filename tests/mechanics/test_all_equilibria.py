@@ -477,3 +477,29 @@ T: m*(x'^2 + y'^2 + z'^2)/2
 constraints: {a: "x^2*y + y^3 + x = 2", b: {equation: "x*z + z^3 + y = 0", multiplier: N, holds_while: N >= 0}}
 """).dynamics
     assert equilibria(dynamics).everywhere
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_nothing_is_left_open_where_conditions_without_sines_give_all_angles(seed):
+    """A chain with springs at its hinges whose last rod a follower force presses.
+
+    Sum the moments: hinge after hinge, none is bent, whatever angles sin(a - b) could have.
+    """
+    draw = random.Random(seed)
+    n = draw.randint(2, 3)
+    q = [f"a{k}" for k in range(1, n + 1)]
+    bends = [f"({b} - {a})^2" for a, b in pairwise(q)]
+    springs = " + ".join(f"{draw.randint(1, 3)}*c*{x}" for x in [f"{q[0]}^2", *bends])
+    squares = " + ".join(f"{x}'^2" for x in q)
+    loads = ", ".join(f"{x}: P*sin({x} - {q[-1]})" for x in q[:-1])
+    text = (
+        f"coordinates: {{{', '.join(f'{x}: {{unit: rad}}' for x in q)}}}\n"
+        "parameters: {c: {assume: positive}, P: {assume: positive}}\n"
+        f"T: ({squares})/2\nV: ({springs})/2\nforces: {{{loads}}}\n"
+    )
+    rest = RestPoints(derive(text).dynamics)
+    assert [[p.values[x] for x in rest.system.q] for p in rest.points] == [[0] * n]
+    assert rest.complete
+    alone = text.replace(loads, f"{q[0]}: P*sin({q[0]})")  # c a = P sin a: several for a great P
+    rest = RestPoints(derive(alone).dynamics)
+    assert not (rest.points and rest.complete)

@@ -16,7 +16,7 @@ from lagcli.mechanics.discovery.setting import Setting
 from lagcli.mechanics.discovery.under_constraints import UnderConstraints
 from lagcli.mechanics.noether import NoetherCharge, Transformation
 
-ALL_ARE_KNOWN = "all others are functions of these"
+ALL_ARE_KNOWN = "every other integral is a function of these"
 _MOST_IN_SPACE = 4  # measured: at most 3
 
 

@@ -313,9 +313,35 @@ class RestConditions:
         return any(not all(free_of(e, [q]) for e in outside) for q in angles)
 
     def _is_fixed(self, q: Symbol) -> bool:
-        """Whether a condition of its own, without sines, gives the coordinate."""
-        own = (e for e in self.equations if e.free_symbols & {*self.system.q} == {q})
-        return any(not any(f.has(q) for f in e.atoms(*CIRCULAR)) for e in own)
+        """Whether conditions without sines give the coordinate."""
+        return q in self._fixed
+
+    @cached_property
+    def _fixed(self) -> frozenset[Symbol]:
+        """The coordinates that conditions without sines give, linear ones put into the others.
+
+        Of c (b - a) = 0 and 2 a - b = sin(a - b) both: the second is then a = 0.
+        """
+        left, given = [*self.equations], dict[Symbol, Expr]()
+        while (found := next(self._linear(left), None)) is not None:
+            q, value = found
+            given = {s: v.xreplace({q: value}) for s, v in given.items()} | {q: value}
+            left = [simplify(e.xreplace({q: value})) for e in left]
+        all_q = {*self.system.q}
+        own = (e for e in left if not any(f.free_symbols & all_q for f in e.atoms(*CIRCULAR)))
+        fixed = {q for e in own for q in all_q if e.free_symbols & all_q == {q}}
+        return frozenset(fixed | {s for s, v in given.items() if v.free_symbols & all_q <= fixed})
+
+    def _linear(self, equations: Sequence[Expr]) -> Iterator[tuple[Symbol, Expr]]:
+        """A coordinate with its value, of a condition without sines that is linear in it."""
+        for e in equations:
+            within = [q for q in self.system.q if e.has(q)]
+            if len(within) < 2 or any(f.has(*within) for f in e.atoms(*CIRCULAR)):
+                continue
+            for q in within:
+                slope = simplify(e.diff(q))
+                if sign(slope) in (1, -1) and free_of(slope, within):
+                    yield q, simplify(q - e / slope)
 
     def real_where(self, values: Mapping[Symbol, Expr]) -> Iterator[Expr]:
         """The arguments of even roots and logarithms in L that are not known to be positive there.
