@@ -99,7 +99,7 @@ def blocks(section: ConstraintForcesSection, _: Answers) -> Iterator[Block]:
             yield Paragraph(("Not determined.",))
         else:
             yield _forces({name: each for name, each in forces.items() if each is not None})
-        for point, components in section.on_points.get(constraint, {}).items():
+        for point, components in (section.on_points or {}).get(constraint, {}).items():
             along = dict(zip("xyz", components, strict=False))
             known = {
                 part: Label("Q", (name,))

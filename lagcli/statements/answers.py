@@ -90,13 +90,15 @@ class MultipliersSection:
 
 @record(kw_only=True)
 class ConstraintForcesSection:
-    """lambda df/dq by constraint and coordinate, their total, and the force on each point."""
+    """lambda df/dq by constraint and coordinate, their total, and the force on each point.
+
+    `on_points` is empty where the points do not determine the forces on them, None where these
+    have no formulas.
+    """
 
     forces: Mapping[str, Mapping[str, Expression | None] | None]
     total: Mapping[str, Expression] | None
-    on_points: Mapping[str, Mapping[str, tuple[Expression | None, ...]]] = field(
-        default_factory=dict
-    )
+    on_points: Mapping[str, Mapping[str, tuple[Expression | None, ...]]] | None = None
 
 
 @record(kw_only=True)

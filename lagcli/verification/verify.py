@@ -35,6 +35,7 @@ from lagcli.statements.forces import ForcesSection
 from lagcli.statements.motions import HamiltonJacobiSection, SteadySection
 from lagcli.statements.phase_space import BracketsSection, TransformationsSection
 from lagcli.statements.questions import FindSection
+from lagcli.verification.claims.complete import is_complete
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear
 from lagcli.verification.sweeps import Unknown
@@ -127,6 +128,8 @@ def verified(problem: Problem, answers: Answers) -> Answers:
 
 def _examined(examination: Examination, name: str, section: Section) -> Section | None:
     claim = _CLAIMS.get(type(section))
+    if not is_complete(examination, name, section):
+        return None
     if claim is None:
         return section
     module, _, function = claim.partition(".")

@@ -14,6 +14,10 @@ from .motion import Motion, State, rate, slope
 from .system import System
 
 
+#: How often other numbers are drawn for the parameters where no state is found.
+NUMBERS = 4
+
+
 @dataclass(frozen=True)
 class Finding:
     """`verdict` is "wrong" (a false claim) or "missing" (an answer that there is)."""
@@ -28,10 +32,13 @@ class Judge(Charges):
 
     def __init__(self, system: System, sheet: dict, count: int = 3) -> None:
         self.system, self.sheet = system, sheet
-        self.motion = Motion(system, system.seed)
-        self.motion.shared = {k: read(text) for k, text in sheet.get("where", {}).items()}
         self.found: list[Finding] = []
-        self.states = self._states(count)
+        for again in range(NUMBERS):  # a chain of random lengths may not close
+            self.motion = Motion(system, system.seed + again * 7919)
+            self.motion.shared = {k: read(text) for k, text in sheet.get("where", {}).items()}
+            self.states = self._states(count)
+            if self.states or self.stuck:
+                break
 
     def _states(self, count):
         """Each with q'', lam, the kernel of the equations for them, and M."""

@@ -34,16 +34,27 @@ def charges(x: Examination, section: ChargesSection) -> ChargesSection:
 
 def _evident_are_listed(x: Examination, charges: Sequence[Charge]) -> None:
     """Note a momentum of a cyclic coordinate, or the energy, that depends on none of these."""
-    states, reference = x.states(), x.reference
+    reference = x.reference
+    states = x.states(BRANCHED) if reference.rows else x.states()
     if not states or reference.large or reference.of_phase_space or not x.regular:
         return
-    for what, place, conserved in evident(x):
-        if not conserved(states) or (reference.rows and not conserved(x.states(BRANCHED))):
-            continue
-        kept = [c.charge for c in charges if c.conserved and c.charge is not None]
-        known = [each for charge in kept for each in x.places("", [charge]) or ()]
+    for what, place in _evident(x, states):
+        lasts = all(is_zero(s.laws.rate(place)) for s in states)
+        listed = [c.charge for c in charges if (c.conserved or not lasts) and c.charge is not None]
+        known = [each for charge in listed for each in x.places("", [charge]) or ()]
         if _is_independent(x, place, known):
-            x.refute("that all evident conserved quantities are listed", f"{what} is conserved")
+            is_so = "conserved" if lasts else "left out with its rate"
+            x.refute("that all evident charges are listed", f"{what} is {is_so}")
+
+
+def _evident(x: Examination, states: Sequence[State]) -> Iterator[tuple[str, int]]:
+    """p_j where L does not contain q_j, and the energy function."""
+    reference = x.reference
+    for name, q, p in zip(reference.names, reference.q, reference.momenta, strict=True):
+        slope = reference.by(reference.lagrangian, q)
+        if all(is_zero(s.at(slope)) for s in states):
+            yield f"p_{name}", p
+    yield "the energy function", reference.energy
 
 
 def _is_independent(x: Examination, place: int, known: Sequence[int]) -> bool:
@@ -57,23 +68,6 @@ def _is_independent(x: Examination, place: int, known: Sequence[int]) -> bool:
         return rank([*rows, own], len(symbols)) > rank(rows, len(symbols))
     except Unclear:
         return False
-
-
-def evident(x: Examination) -> Iterator[tuple[str, int, Callable[[Sequence[State]], bool]]]:
-    """p_j where L does not contain q_j, and the energy function where it does not contain t."""
-    reference = x.reference
-    named = zip(reference.names, reference.q, reference.momenta, strict=True)
-    moving = [(f"p_{n}", q, p) for n, q, p in named]
-    for what, symbol, place in (*moving, ("the energy function", reference.time, reference.energy)):
-        slope = reference.by(reference.lagrangian, symbol)
-
-        def conserved(states: Sequence[State], place: int = place, slope: int = slope) -> bool:
-            """Whether the slope and the rate are 0."""
-            return all(
-                is_zero(value) for s in states for value in (s.at(slope), s.laws.rate(place))
-            )
-
-        yield what, place, conserved
 
 
 def _charge(x: Examination, charge: Charge) -> Charge:
@@ -165,7 +159,9 @@ def _is_noethers(x: Examination, what: str, charge: Charge) -> bool:
     """Whether Q is that of the transformation and of the boundary term."""
     assert charge.charge is not None
     if not charge.transformation:
-        return True
+        if charge.source in {"cyclic", "time"}:
+            x.refute(what, "its transformation is left out")
+        return charge.source not in {"cyclic", "time"}
     Q = _noether(x, charge)
     return Q is not None and x.holds(what, charge.charge, lambda s: s.at(Q))
 

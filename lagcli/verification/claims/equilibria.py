@@ -27,6 +27,7 @@ from lagcli.verification.claims.rest import (
 from lagcli.verification.claims.stability import refutes
 from lagcli.verification.claims.unlisted import Balance, shown, unlisted
 from lagcli.verification.examination import Examination
+from lagcli.verification.linear import size
 
 #: Relative differences of eigenvalues: those of multiplicity 2 are right to 1e-19.
 _AGREE = 1e-9
@@ -124,7 +125,32 @@ def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
     if other:
         x.refute("that there is no other steady motion", f"there is one with {other}")
         section = replace(section, complete=False)
+    with ctx.workprec(BITS):
+        if not all(_meets(x, section, each) for each in found if each.rates is not None):
+            section = replace(section, conditions={})
     return replace(section, motions=tuple(found))
+
+
+def _meets(x: Examination, section: SteadySection, motion: SteadyMotion) -> bool:
+    """Whether what is printed to vanish for a steady motion vanishes for this one."""
+    what = "the conditions of a steady motion"
+    places = x.places(what, list(section.conditions.values()))
+    momenta = x.places(what, list(motion.momenta.values()))
+    if places is None or momenta is None:
+        return False
+    known = section.eliminated
+    place = RestPlace(x, what, motion.at, motion.rates or {}, motion.on, motion.where, known)
+    for near in place.states():
+        p = {
+            (f"p_{name}", 0): near.at(at) for name, at in zip(motion.momenta, momenta, strict=True)
+        }
+        at = x.reference.values({**near.environment, **p})
+        for each in places:
+            scale = 1 + max(map(size, at.gradient(each).values()), default=0.0)
+            if at(each).is_finite() and size(at(each)) > NOTHING * scale:
+                x.refute(what, f"they do not hold for that with {shown(near)}")
+                return False
+    return True
 
 
 def _mirrored(x: Examination, what: str, motion: SteadyMotion) -> bool:

@@ -14,11 +14,13 @@ from lagcli.record import replace
 from lagcli.statements.answers import ConstraintForcesSection
 from lagcli.statements.forces import ForcesSection, FrictionNeeded, PointForce
 from lagcli.verification.claims.rest import not_confirmed
+from lagcli.verification.comparison import is_zero
 from lagcli.verification.examination import Examination
-from lagcli.verification.linear import dot
+from lagcli.verification.linear import dot, rank
 from lagcli.verification.states import State
 from lagcli.verification.sweeps import column
 
+_THEY_DO = "they do"
 _UNKNOWN = "its printed form was not confirmed at random states"
 
 #: Point -> the printed components of a vector on it.
@@ -52,24 +54,57 @@ def constraint_forces(x: Examination, section: ConstraintForcesSection) -> Const
 
 def _on_points(x: Examination, section: ConstraintForcesSection) -> ConstraintForcesSection:
     """The forces on points that stand beside the generalized forces."""
+    if section.on_points is None:
+        return section
     kept = {
         name: forces
         for name, forces in section.on_points.items()
         if _do_the_work(x, f"the force of '{name}' on points", name, forces)
     }
-    return section if len(kept) == len(section.on_points) else replace(section, on_points=kept)
+    known = {n for n, f in section.forces.items() if f is not None and None not in f.values()}
+    left_out = known - section.on_points.keys()
+    if left_out and (section.on_points or _points_determine(x)):
+        x.refute("that the points do not determine the forces on them", _THEY_DO)
+    return replace(section, on_points=kept)
+
+
+def _points_determine(x: Examination) -> bool:
+    """Whether the points determine the coordinates that they depend on, and have all of T."""
+    state = next(iter(x.states()), None)
+    if state is None or x.reference.large or any(p.mass is None for p in x.problem.points):
+        return False
+    arms = _arms(x, state)
+    slots = [axis for axes in arms.values() for axis in axes if not all(map(is_zero, axis))]
+    moving = _moving(slots, state.laws.size)
+    own = [[row[j] for j in moving] for row in slots]
+    if not slots or len(slots) != len(moving) or rank(own, len(moving)) < len(moving):
+        return False
+    masses = {p.name: state.at(x.reference.place(p.mass)) for p in x.problem.points if p.mass}
+    weighted = [(masses[name], axis) for name, axes in arms.items() for axis in axes]
+    return all(
+        is_zero(entry - sum((m * axis[j] * axis[k] for m, axis in weighted), arb(0)))
+        for j, row in enumerate(state.laws.mass_matrix)
+        for k, entry in enumerate(row)
+        if j in moving
+    )
+
+
+def _moving(rows: Sequence[Sequence[arb]], size: int) -> list[int]:
+    """The coordinates on which a point depends."""
+    return [j for j in range(size) if not all(is_zero(row[j]) for row in rows)]
 
 
 def forces(x: Examination, section: ForcesSection) -> ForcesSection:
     """Signed magnitudes and directions, torques, and the friction that is needed."""
     if section.forces is None:
         return section
-    names = dict.fromkeys(each.constraint for each in section.forces)
+    names = [row.constraint.name for row in x.reference.rows]
     if not all(_hold(x, name, section) for name in names):
         return ForcesSection(forces=None, reason=not_confirmed("a force"))
     found = tuple(_as_it_acts(x, each) for each in section.forces)
     friction = tuple(_needed(x, each, section) for each in section.friction_needed)
-    torques = {n: by for n, by in section.torques.items() if _turn(x, n, by)}
+    torques = {n: section.torques.get(n, {}) for n in names if _turn(x, n, section)}
+    torques = {n: by for n, by in torques.items() if by}
     return replace(section, forces=found, friction_needed=friction, torques=torques)
 
 
@@ -80,6 +115,10 @@ def _hold(x: Examination, name: str, section: ForcesSection) -> bool:
     acting = [each for each in section.forces if each.constraint == name]
     if any(each.force is None for each in acting):
         return True
+    axes = {point.name: len(point.position) for point in x.problem.points}
+    if any(len(each.direction) != axes[each.point] for each in acting):
+        x.refute(what, "a component is left out")
+        return False
     vectors = {
         each.point: [Product((each.force or ZERO, axis)) for axis in each.direction]
         for each in acting
@@ -130,15 +169,27 @@ def _unit(s: State, places: Sequence[int], widths: Sequence[int]) -> tuple[list[
     return [dot(vector, vector) for vector in vectors], [arb(1)] * len(vectors)
 
 
-def _turn(x: Examination, name: str, torques: Mapping[str, Expression]) -> bool:
-    """The torque about the point is the generalized force."""
+def _turn(x: Examination, name: str, section: ForcesSection) -> bool:
+    """The torque about the point is the generalized force, along each angle of a body alone."""
     k = [row.constraint.name for row in x.reference.rows].index(name)
-    where = [x.reference.names.index(q) for q in torques]
-    return x.hold(
-        f"the torque of '{name}'",
-        list(torques.values()),
-        lambda s: [s.laws.constraint_force(k)[j] for j in where],
-    )
+    size, torques = len(x.reference.names), section.torques.get(name, {})
+    printed = [torques.get(q, ZERO) for q in x.reference.names]
+    what = f"the torque of '{name}'"
+    places = x.places(what, printed)
+    if places is None:
+        return False
+    if torques and not x.determined(what, lambda s: s.laws.motion.determined(size + k)):
+        return False
+
+    def sides(s: State) -> tuple[list[arb], list[arb]]:
+        if not s.laws.motion.determined(size + k):
+            return [], []
+        moving = _moving([axis for axes in _arms(x, s).values() for axis in axes], size)
+        turning = [j for j in range(size) if j not in moving]
+        true = s.laws.constraint_force(k)
+        return [s.at(places[j]) for j in turning], [true[j] for j in turning]
+
+    return x.decide(what, sides)
 
 
 def _needed(x: Examination, each: FrictionNeeded, section: ForcesSection) -> FrictionNeeded:
@@ -198,8 +249,7 @@ def _do_the_work(x: Examination, what: str, name: str, vectors: Vectors) -> bool
             for axis in arms[point][: len(vector)]:
                 force = next(acting)
                 total = [w + force * arm for w, arm in zip(total, axis, strict=True)]
-        rows = [axis for axes in arms.values() for axis in axes]
-        moving = [j for j in range(s.laws.size) if any(not axis[j].is_zero() for axis in rows)]
+        moving = _moving([axis for axes in arms.values() for axis in axes], s.laws.size)
         true = s.laws.constraint_force(k)
         return [total[j] for j in moving], [true[j] for j in moving]
 

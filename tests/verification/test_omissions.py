@@ -1,0 +1,44 @@
+"""The verification notices what is left out, and conditions that are not those of the motions."""
+
+from __future__ import annotations
+
+import pytest
+
+from lagcli.expression import Name, Sum
+from lagcli.record import replace
+
+from .omissions import derived, refuted, silent
+
+PROMISED = (
+    ("pendulums/pendulum-cartesian", ("accelerations", "multipliers", "constraint_forces")),
+    ("pulleys/atwood-tension", ("accelerations", "multipliers", "forces")),
+    ("reactions/round-body-on-incline", ("forces", "constraint_forces")),
+    ("hoop", ("equations", "momenta", "constraint_forces", "canonical_equations", "find")),
+    ("oscillations/damped-oscillator", ("equations", "charges")),
+    ("hamiltonian/brackets-of-angular-momentum", ("brackets",)),
+    ("hamiltonian/oscillator-by-generating-function", ("canonical",)),
+)
+
+
+@pytest.mark.parametrize(("name", "sections"), PROMISED)
+def test_what_a_section_promises_is_not_left_out_in_silence(
+    name: str, sections: tuple[str, ...]
+) -> None:
+    problem, answers = derived(name, sections)
+    assert set(sections) <= set(answers.sections)
+    found = [path for section in sections for path in silent(problem, answers, section)]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    "name", ["steady/conical-pendulum", "steady/circular-orbits", "steady/rolling-hoop"]
+)
+def test_conditions_of_steady_motions_hold_for_those_listed(name: str) -> None:
+    problem, answers = derived(name, ["steady_motions"])
+    section = answers.sections["steady_motions"]
+    assert section.conditions
+    assert not refuted(problem, answers, "steady_motions", section)
+    for key, condition in section.conditions.items():
+        changed = {**section.conditions, key: Sum((condition, Name(problem.parameters[0].name)))}
+        other = replace(section, conditions=changed)
+        assert refuted(problem, answers, "steady_motions", other)
