@@ -13,7 +13,6 @@ from .grammar import Undefined, Unreadable, read, sides
 from .motion import Motion, State, rate, slope
 from .system import System
 
-
 #: How often other numbers are drawn for the parameters where no state is found.
 NUMBERS = 4
 
