@@ -63,6 +63,9 @@ def compose(text: SourceText) -> tuple[DocumentNode, list[Diagnostic]]:
 def _one_of(key: Scalar, first: DocumentNode, second: DocumentNode) -> str:
     """What to do where a key is given twice: two formulas are terms of a sum."""
     hint = "leave out one of them"
+    if isinstance(first, Sequence) and isinstance(second, Sequence):
+        listed = [each.value for each in (*first.items, *second.items) if isinstance(each, Scalar)]
+        return f"write {key.label}: [{', '.join(dict.fromkeys(listed))}]"
     values = [each.value for each in (first, second) if isinstance(each, Scalar)]
     if len(values) == 2 and all("=" in each for each in values):
         return f"{hint}, or give it another name"
@@ -206,11 +209,13 @@ class _Composer:
                 twice += 1
                 if twice > 1:  # a second group of the same keys
                     continue
-                first = entries[key.label][0]
+                first, first_value = entries[key.label]
                 related = ((first.span, "first given here"),)
                 message = f"the key '{key.label}' is given twice"
                 hint = _one_of(*entries[key.label], value)
                 self._report(key.start, key.end, message, hint, related)
+                if isinstance(first_value, Sequence) and isinstance(value, Sequence):
+                    first_value.items.extend(value.items)
             else:
                 entries[key.label] = (key, value)
         return list(entries.values())

@@ -264,6 +264,10 @@ def read_by_coordinate(
             hint = f"write {along}" if along in coordinates else ""
             hint = hint or did_you_mean(key.label, coordinates)
             pointed = ", or as 'force' of a point" if section == "forces" else ""
+            moved = [x for x in coordinates if re.search(rf"(?<!\w){x}'", source_of(value))]
+            if section == "forces" and len(moved) == 1 and not hint:
+                terms = [source_of(v) for k, v in entries if k.label in (moved[0], key.label)]
+                hint = f"write {moved[0]}: {' + '.join(terms).replace('+ -', '- ')}"
             hint = hint or f"it is given along a coordinate: {', '.join(coordinates)}{pointed}"
             if not file.scope.refused:
                 file.error(f"'{key.label}' in {section} is not a coordinate", key.span, hint)

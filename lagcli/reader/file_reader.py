@@ -255,6 +255,9 @@ class FileReader:
         if len(given) == 2 * len(names):
             names += [f"{name}'" for name in names]
         values = [each.rpartition("=")[2].strip() or "…" for each in given]
+        moving = [name for name in names if re.search(rf"(?<!\w){name}'", values[0])]
+        if len(values) == len(moving) == 1:  # -c*x' is the force along x
+            names = moving
         fits = len(values) == len(names)
         pairs = zip(names, values, strict=True) if fits else [(names[0], "…")]
         return "write " + ", ".join(f"{name}: {value}" for name, value in pairs)

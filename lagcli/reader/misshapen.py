@@ -73,6 +73,10 @@ def one_sum(node: DocumentNode, what: str) -> str:
         return CASE
     if what.startswith("the value of"):
         return SEVERAL
+    if what.startswith("the definition of") and isinstance(node, Sequence) and written:
+        name = what.split("'")[1]
+        parts = (f"{name}_{axis}: {each}" for axis, each in zip("xyz", written, strict=False))
+        return f"a vector is written by its components: {', '.join(parts)}"
     if what == "'until'" and written:
         return f"a motion begins at t = 0: write {written[-1].split()[-1]}"
     return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""

@@ -36,6 +36,7 @@ class _Said(TypedDict, total=False):
 _COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
 _PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
 _RANGE = re.compile(r"\s*[\[(]?\s*(-?[\d.]*\d)\s*(?:\.\.+|…|to|bis|:|–)\s*-?[\d.:]+\s*[\])]?\s*")
+_WORDS = re.compile(r"[^\W\d_]{4,}(?: [^\W\d_]+)*")
 _ONE_NAME = re.compile(r"write (\w+)(?:, without .*)?")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 
@@ -178,11 +179,15 @@ def _declared(
     """The names of a list or of a map's keys, as far as they could be declared."""
     entries: list[tuple[Scalar, DocumentNode | None]]
     if given := _pairs(node, section):
-        listed = ", ".join(re.findall(r"(\w+):", given))
+        named = [(name, value) for name, _, value in (x.partition(": ") for x in given.split(", "))]
+        listed = ", ".join(name for name, _ in named)
         state = f"write [{listed}], and below it initial: {{{given}}}"
+        if all(_WORDS.fullmatch(value) and value not in NO_VALUE for _, value in named):
+            described = (f"{name}: {{description: {value}}}" for name, value in named)
+            state = given = ", ".join(described)
         hint = state if section == "coordinates" and "{" not in given else f"write {{{given}}}"
         coordinates = "coordinates have no values; their state is initial"
-        message = coordinates if hint is state else f"{section} with values are a map"
+        message = coordinates if hint is state else f"{section} with more than names are a map"
         file.error(message, node.span, hint)
         file.scope.refused.append("")
         return

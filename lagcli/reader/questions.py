@@ -128,16 +128,13 @@ def _translated(name: str, coordinates: list[str]) -> str:
 def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
     """The questions."""
     questions: list[Question] = []
-    hint = (
-        "write {name: {where: equation, for: x}}, or in the inner braces value: expression, "
-        "in_terms_of: [x]; always: inequality, for: p; reaches: x = value, for: p"
-    )
+    unknown = next(iter(file.scope.of_kind("coordinate")), "x")
+    hint = f"write {{name: {{where: {unknown}' = 0, for: {unknown}}}}}"
     words = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
     if words and {*words} <= FOUND:
         hint = ALREADY_FOUND
     elif words and not any("=" in word for word in words):
-        hint = f"leave it out: equations of motion and charges are found; or {hint}"
-    unknown = next(iter(file.scope.of_kind("coordinate")), "x")
+        hint = f"leave it out: equations, frequencies and charges are found; or {hint}"
     for key, value in file.named(node, "find", ("", *_QUESTION_ATTRIBUTES), hint):
         what = f"the question '{key.label}'"
         found = file.attributes(value, what, _QUESTION_ATTRIBUTES)

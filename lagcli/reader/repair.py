@@ -10,6 +10,7 @@ from lagcli.diagnostics import Diagnostic, Source
 from lagcli.expression import Equation, Expression
 from lagcli.problem_data import Inequality
 from lagcli.reader.expressions import read_equation, read_expression
+from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary
 from lagcli.reader.habits import name_meant
@@ -143,7 +144,8 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     sides = re.split("==?", value)
     if equation and len(sides) == 3 and re.fullmatch(r"\s*\w+\([\w, ]*\)\s*", sides[0]):
         return ["=".join(sides[1:])]  # f(x, y) = … = 0
-    value = behind_words(value, scope.kinds)
+    value = re.sub(r"^[\"“”„«](.*)[\"“”»]$", r"\1", value.strip())
+    value = behind_words(without_cases(value), scope.kinds)
     return [value] if equation else [value, _LEFT_SIDE.sub("", value)]
 
 

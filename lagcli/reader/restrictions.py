@@ -34,6 +34,8 @@ _SCALED = re.compile(
 _TURNED = re.compile(r"\b(?:cos|sin|cosh|sinh|exp)\(\s*-?([^\W\d]\w*)\s*\)")
 _WORDS = frozenset("yes no true false True False none None null auto".split())
 _ON_LOSS = ("stop", "release")
+_FORMULA = re.compile("[-+*/^=(]")
+_ROLLING = "equation, as in rolling: x' = R*theta'"
 _FORCES: dict[str, ForceKind] = {
     "normal": "normal",
     "friction": "friction",
@@ -44,9 +46,12 @@ _FORCES: dict[str, ForceKind] = {
 def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     """Enter the multipliers into the scope."""
     lines = node.items if isinstance(node, Sequence) else [node]
-    first = [each.value for each in lines if isinstance(each, Scalar) and "=" in each.value]
-    written = first[0] if first else "equation, as in rolling: x' = R*theta'"
-    named = file.named(node, "constraints", _CONSTRAINT_ATTRIBUTES, f"write name: {written}")
+    given = [re.sub("={2,}", "=", each.value) for each in lines if isinstance(each, Scalar)]
+    given = [each for each in given if _FORMULA.search(each)] or [_ROLLING]
+    names = [f"c{place}" for place in range(1, len(given) + 1)] if given[1:] else ["name"]
+    written = ", ".join(map("{}: {}".format, names, given))
+    hint = f"write {{{written}}}" if given[1:] else f"write {written}"
+    named = file.named(node, "constraints", _CONSTRAINT_ATTRIBUTES, hint)
     entries = file.of_section(named, "constraints", _CONSTRAINT_ATTRIBUTES)
     for (name, equation), (key, value) in pairwise(entries):
         if key.in_flow and value.is_empty and isinstance(equation, Scalar):  # {rod: x = l, N}
@@ -54,8 +59,8 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
             file.error("a comma ends the equation", key.span, f"write {name.label}: {inner}")
             file.scope.refused.append(key.label)
             entries = [entry for entry in entries if entry[0] is not key]
-    given = (declared(file, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
-    return [one for one in given if one is not None]
+    found = (declared(file, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
+    return [one for one in found if one is not None]
 
 
 def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constraint, ...]:

@@ -83,7 +83,8 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
             hint = "group with parentheses ( ), without '<' and '>'"
         return Diagnostic(message, _span(token, excerpt), hint)
     following = tokens[place + 1] if place + 1 < len(tokens) else None
-    message, hint = _unexpected(token, previous, tokens[:place], start, following)
+    whole = " ".join(excerpt.value.split())
+    message, hint = _unexpected(token, previous, tokens[:place], start, following, whole)
     return Diagnostic(message, _span(token, excerpt), hint)
 
 
@@ -116,7 +117,8 @@ def _unexpected_end(tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
         return Diagnostic(f"nothing follows '{last}'", _span(last, excerpt), hint)
     open_ = _open_parenthesis(tokens)
     if open_ is not None:
-        hint = "a ')' is missing"
+        missing = ")" * (excerpt.value.count("(") - excerpt.value.count(")"))
+        hint = f"did you mean {' '.join(excerpt.value.split())}{missing}?"
         if excerpt.in_flow and re.match(r"\s*,", excerpt.text.source.text[excerpt.offsets[-1] :]):
             hint = "inside { } and [ ] a comma ends the value: put it in quotes"
         return Diagnostic("this parenthesis is never closed", _span(open_, excerpt), hint)
@@ -201,13 +203,18 @@ def _missing_product(
 
 
 def _unexpected(
-    token: Token, previous: Token | None, before: list[Token], start: str, following: Token | None
+    token: Token,
+    previous: Token | None,
+    before: list[Token],
+    start: str,
+    following: Token | None,
+    written: str,
 ) -> tuple[str, str]:
     """Sentence and advice for a token that cannot stand where it stands."""
     inside = _open_parenthesis(before)
     if token.type == "RPAR":
         if inside is None:
-            return "this parenthesis was never opened", "leave it out, or write its '('"
+            return "this parenthesis was never opened", f"did you mean ({written}?"
         if previous is not None and previous.type == "LPAR":
             return "nothing stands between the parentheses", "leave them out"
         return f"nothing stands between '{previous}' and ')'", f"leave out '{previous}'"

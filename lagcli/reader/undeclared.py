@@ -26,6 +26,7 @@ _QUOTED = re.compile(r"'[^ ]+'+(?=[ ,:;]|$)")
 #: Of the hints for one cause.
 _SHOWN = 3
 _SHAPE = re.compile(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
+_OTHER_WORD = re.compile(r"unknown key ('.*') in the problem: the key is (\w+)")
 _NAME = re.compile(r"unknown name '(\w+)' in (.*)")
 
 
@@ -52,7 +53,7 @@ def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
         By their place.
     """
     kept: dict[tuple[str, str], Diagnostic] = {}
-    for each in _with_value(diagnostics):
+    for each in _of_one_language(list(_with_value(diagnostics))):
         found = _KEY.fullmatch(each.message)
         place = found["place"] if found else _ORDER.sub(r"\1 \3", each.message)
         same = found is None or place != "the problem" or each.hint.startswith("it is one sum")
@@ -129,6 +130,9 @@ def _with_value(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
         meant = re.search(r"the key is (\w+)$", last.hint) if last is not None else None
         begins = rf"'?{meant[1]}'? (?:must be|is one)\b" if meant else ""
         shape = re.match(begins, each.message) or each.hint.startswith("write ")
+        if last is not None and meant and each.span == last.span:
+            last = each  # which says what to do with it
+            continue
         if last is not None and meant and shape and each.hint and _next_to(last, each):
             last = replace(last, hint=f"{last.hint}; {each.hint}")
             continue
@@ -137,6 +141,19 @@ def _with_value(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
         last = each
     if last is not None:
         yield last
+
+
+def _of_one_language(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
+    """The mistakes, with one for all keys of the problem that are other words for its keys."""
+    found = [(each, _OTHER_WORD.fullmatch(f"{each.message}: {each.hint}")) for each in diagnostics]
+    words = [(each, match[1], match[2]) for each, match in found if match]
+    if not words[1:]:
+        return diagnostics
+    keys = ", ".join(meant for _, _, meant in words)
+    message = f"unknown keys {', '.join(word for _, word, _ in words)} in the problem"
+    whole = replace(words[0][0], message=message, hint=f"the keys are {keys}")
+    kept = (whole if each is words[0][0] else each for each, _ in found)
+    return [each for each in kept if all(each is not other for other, *_ in words[1:])]
 
 
 def _next_to(key: Diagnostic, value: Diagnostic) -> bool:

@@ -32,6 +32,7 @@ _NEAR = 0.7
 _PROBLEM = "the problem"
 _WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
 _FRICTION = "friction"
+_MANUAL = "leave it out, or see lagcli help problem-format"
 
 
 class UnknownKey(NamedTuple):
@@ -87,8 +88,9 @@ def unknown_key(
     if "at" in names and word in scope.of_kind("coordinate"):
         hint = f"write at: {{{word}: {written}}}"
     if not hint and isinstance(value, Mapping) and value.entries:
-        inner = [each.label for each, _ in value.entries]
-        hint = f"leave it out: {inner[0]} begins a line" if {*inner} <= {*names} else ""
+        inner = [(key_meant(each.label, names), source_of(part)) for each, part in value.entries]
+        lines = ", ".join(f"{each}: {part}" for each, part in inner)
+        hint = f"leave it out, and begin lines with {lines}" if all(k for k, _ in inner) else ""
     if "=" in word:
         hint = f"write {name_meant(word)}"
     elif key.in_flow and value.is_empty:
@@ -97,7 +99,8 @@ def unknown_key(
         scope.refused.append(word)
     if hint.startswith("did you mean"):
         meant = meant or closest(word, names, _NEAR)
-    hint = hint or f"known are {', '.join(names)}"
+    known = f"known are {', '.join(names)}" if names != KEYS else _MANUAL
+    hint = hint or known
     return UnknownKey(f"unknown key '{word}' in {what}", hint, meant)
 
 
@@ -106,7 +109,7 @@ def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[
     is_time = word == "t" and "'" not in written
     other = "" if is_time else word.casefold()  # the time is not T
     alike = [name for name in names if name.casefold() == other]
-    meant = alike[0] if len(alike) == len(word) == 1 else key_meant(word, names)
+    meant = alike[0] if len(alike) == 1 else key_meant(word, names)
     if meant == "dissipation" and "'" not in written:  # a coefficient
         return meant, _advice(_FRICTION, written, what, names)
     if meant:

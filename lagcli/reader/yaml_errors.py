@@ -7,6 +7,7 @@ import re
 from typing import TYPE_CHECKING, Any
 
 from lagcli.diagnostics import Diagnostic
+from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.habits import (
     CASE,
     COMMENT,
@@ -186,7 +187,11 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
             return Diagnostic(message, text.span(start, end), colon_advice(lines[place]))
     span = text.span(offset, offset + 1)
     if re.search(r"\S\s+\?\s+\S", lines[line - 1]):
-        return Diagnostic("a formula has no cases", span, CASE)
+        value = lines[line - 1].partition(":")[2].strip()
+        whole = without_cases(value)
+        return Diagnostic(
+            "a formula has no cases", span, CASE if whole == value else f"write {whole}"
+        )
     word = re.search(r":\s.*\S\s+(\w+)\s*$", lines[line - 1][: column - 1])
     inner = re.match(r"\s*(\w+):\s+([^\W\d]\w*'*:.*\S)", lines[line - 1])
     if inner and inner[1] in MAPS:
