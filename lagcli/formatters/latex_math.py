@@ -30,6 +30,7 @@ from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.latex_width import BINARY, SCRIPT, THIN_SPACE, digits, text_width
 from lagcli.formatters.layout import (
     AFTER_BRACKET,
+    BRACKETS,
     COMMA,
     PRODUCT,
     SUM,
@@ -44,6 +45,7 @@ from lagcli.formatters.precedence import (
     FractionPrinter,
     Level,
     begins_with_number,
+    is_bracket,
     parted_root,
     whole_ratio,
 )
@@ -161,7 +163,8 @@ class LatexPrinter(FractionPrinter[Box]):
         pieces: list[TextPiece] = []
         for position, (factor, box) in enumerate(zip(node.factors, boxes, strict=True)):
             if position:
-                pieces.append(_between(boxes[position - 1], factor, box))
+                before = node.factors[position - 1]
+                pieces.append(_between(boxes[position - 1], before, factor, box))
             follower = boxes[position + 1] if position + 1 < len(boxes) else None
             open_end = follower is None or _is_function(follower)
             pieces += box.pieces if open_end or box.closed is None else box.closed
@@ -351,7 +354,7 @@ def _breakable(text: str, width: float, rank: int, broken: str, broken_width: fl
     return TextPiece(text, width, rank=rank, broken=broken, broken_width=broken_width)
 
 
-def _between(before: Box, after: Expression, shown: Box) -> TextPiece:
+def _between(box: Box, before: Expression, after: Expression, shown: Box) -> TextPiece:
     r"""Set the gap between two factors: \cdot before a number, a thin space at brackets and words.
 
     x\,(a + b) is a product, U(a + b) a function.
@@ -359,8 +362,10 @@ def _between(before: Box, after: Expression, shown: Box) -> TextPiece:
     if begins_with_number(after):
         return _breakable(r" \cdot ", BINARY, PRODUCT, r"\cdot ", BINARY)
     first = shown.pieces[0]
-    neighbours = before.pieces[-1].text + first.text
-    rooted = before.pieces[-1].text.startswith(r"\sqrt") and not first.text.startswith(r"\sqrt")
+    if is_bracket(before) and is_bracket(after):
+        return _breakable(r" \, ", THIN_SPACE, BRACKETS, r"\cdot ", BINARY)
+    neighbours = box.pieces[-1].text + first.text
+    rooted = box.pieces[-1].text.startswith(r"\sqrt") and not first.text.startswith(r"\sqrt")
     if first.nesting or rooted or "text" in neighbours or "mathit" in neighbours:
         return _breakable(r" \, ", THIN_SPACE, PRODUCT, r"\cdot ", BINARY)
     return _breakable(" ", 0.3, PRODUCT, r"\cdot ", BINARY)

@@ -13,11 +13,11 @@ from lagcli.record import record, replace
 #: What is added to the rank of a break inside a short bracket.
 WHOLE = 100
 #: How bad a break is, apart from its brackets.
-RELATION, SUM, COMMA, QUOTIENT, PRODUCT, OPENING, DIGITS = 0, 1, 1, 5, 25, 40, 50
+RELATION, SUM, COMMA, QUOTIENT, BRACKETS, PRODUCT, OPENING, DIGITS = 0, 1, 1, 5, 5, 25, 40, 50
 
-#: One more pair of brackets around a break; a bracket is parted from its factor only where
-#: nothing else fits.
-_NESTING = 3.0
+#: One more pair of brackets around a break: worse than a slash, or a break between two brackets,
+#: outside of them.  A bracket is parted from a letter only where nothing else fits.
+_NESTING = 5.0
 #: An empty line is as bad as this many ranks.
 _RAGGEDNESS = 6.0
 

@@ -257,6 +257,11 @@ def _is_short(node: Expression) -> bool:
     return sum(isinstance(part, (Name, Number)) for part in walk(node)) <= _SLOPED
 
 
+def is_bracket(node: Expression) -> bool:
+    """Whether a factor is a sum in brackets, or a power of one."""
+    return isinstance(node.base if isinstance(node, Power) else node, Sum)
+
+
 def begins_with_number(node: Expression) -> bool:
     """Whether the first thing that is read is a number: behind a letter it needs a dot."""
     while isinstance(node, (Power, Quotient)):

@@ -5,14 +5,15 @@
 from __future__ import annotations
 
 import unicodedata
+from itertools import pairwise
 
 from lagcli.document import Integral, Label
 from lagcli.expression import Call, Diff, Expression, Name, Number, PartialCall, Power, Product
 from lagcli.formatters.functions import ON_PAPER, POWERED
 from lagcli.formatters.grammar import GrammarPrinter, text
-from lagcli.formatters.layout import PRODUCT, Layout, TextPiece, joined
+from lagcli.formatters.layout import BRACKETS, PRODUCT, Layout, TextPiece, joined
 from lagcli.formatters.numbers import DecimalParts, decimal_parts
-from lagcli.formatters.precedence import Level
+from lagcli.formatters.precedence import Level, is_bracket
 from lagcli.notation.greek import BY_NAME, romanized
 from lagcli.notation.letters import in_ascii
 from lagcli.notation.naming import name_parts
@@ -38,8 +39,8 @@ class UnicodePrinter(GrammarPrinter):
     def product(self, node: Product) -> Layout:
         first, *others = self.factors(node)
         pieces = [*first]
-        for after, factor in zip(node.factors[1:], others, strict=True):
-            pieces += [_before(after), *factor]
+        for (before, after), factor in zip(pairwise(node.factors), others, strict=True):
+            pieces += [_between(before, after), *factor]
         return tuple(pieces)
 
     def factors(self, node: Product) -> list[Layout]:
@@ -69,7 +70,7 @@ class UnicodePrinter(GrammarPrinter):
         return (*self.at(base, Level.ATOM), *raised)
 
     def call(self, node: Call) -> Layout:
-        if _is_root_of_whole(node):
+        if _is_root_of_one(node):
             return (*text("√"), *self.show(node.arguments[0]))
         if node.function in _NAMES:
             return (*text(_NAMES[node.function]), *self.arguments(node.arguments))
@@ -117,7 +118,7 @@ class UnicodePrinter(GrammarPrinter):
             return Level.PRODUCT
         if isinstance(node, Call) and node.function == "integral":
             return Level.QUOTIENT
-        if _is_root_of_whole(node):
+        if _is_root_of_one(node):
             return Level.POWER  # (√5)³
         return Level.QUOTIENT if isinstance(node, Diff) else super().level(node)
 
@@ -184,10 +185,11 @@ def _with_primes(name: str, primes: int) -> str:
     return name + {0: "", 1: "′", 2: "″", 3: "‴"}.get(primes, "′" * primes)
 
 
-def _before(after: Expression) -> TextPiece:
+def _between(before: Expression, after: Expression) -> TextPiece:
     """Put a space between factors, a dot where a space could be misread or overlooked."""
     dotted = _begins_with_digit(after)
-    return TextPiece("·" if dotted else " ", 1, rank=PRODUCT, broken="· ", broken_width=2)
+    rank = BRACKETS if is_bracket(before) and is_bracket(after) else PRODUCT
+    return TextPiece("·" if dotted else " ", 1, rank=rank, broken="· ", broken_width=2)
 
 
 def _begins_with_digit(node: Expression) -> bool:
@@ -196,9 +198,10 @@ def _begins_with_digit(node: Expression) -> bool:
     return isinstance(node, Number) and (node.decimal or node.value.denominator == 1)
 
 
-def _is_root_of_whole(node: Expression) -> bool:
-    """Whether it is printed as √5."""
+def _is_root_of_one(node: Expression) -> bool:
+    """Whether it is printed as √5 or √k."""
     if not isinstance(node, Call) or node.function != "sqrt":
         return False
     inner = node.arguments[0]
-    return isinstance(inner, Number) and not inner.decimal and inner.value.denominator == 1
+    whole = isinstance(inner, Number) and not inner.decimal and inner.value.denominator == 1
+    return whole or isinstance(inner, Name)

@@ -9,9 +9,10 @@ import pytest
 from lagcli.expression import Call, Name, Negative, Sum
 from lagcli.formatters.built_in.text import render
 from lagcli.formatters.display_width import display_width
-from lagcli.formatters.layout import joined
+from lagcli.formatters.layout import break_lines, joined
 from lagcli.formatters.options import Options
 from lagcli.formatters.unicode import UnicodePrinter, unicode_name
+from lagcli.reader.expressions import parse_text
 from lagcli.statements.answers import LagrangianSection
 
 from .examples import (
@@ -69,7 +70,7 @@ def test_names_are_read_as_on_paper(name, primes, text):
         (times(TWO, Call("sqrt", (number(5),)), x), "2 √5 x"),
         (square(Call("sqrt", (number(5),))), "(√5)²"),
         (Call("sqrt", (number(1, 2),)), "√(1/2)"),
-        (times(TWO, Call("sqrt", (x,))), "2 √(x)"),
+        (times(TWO, Call("sqrt", (x,))), "2 √x"),
     ],
 )
 def test_formulas_are_read_without_doubt(node, text):
@@ -138,3 +139,22 @@ def test_functions_in_functions_and_long_numbers_fit():
         answers = replace(HOOP, sections={"lagrangian": LagrangianSection(lagrangian=node)})
         for line in render([answers], Options(width=40)).splitlines():
             assert display_width(line) <= 40
+
+
+#: Of the double pendulum: two brackets over a denominator, a Hamiltonian.
+RATE = (
+    "(m2*l2*p1*cos(x - y) - (m1 + m2)*l1*p2)*(l1*p2*cos(x - y) - l2*p1)*sin(x - y)"
+    "/(l1^2*l2^2*(m1 + m2*sin(x - y)^2)^2) - m2*g*l2*sin(y)"
+)
+HAMILTONIAN = (
+    "(m2*l2^2*p1^2 - 2*m2*l1*l2*p1*p2*cos(x - y) + (m1 + m2)*l1^2*p2^2)"
+    "/(2*m2*l1^2*l2^2*(m1 + m2*sin(x - y)^2)) - (m1 + m2)*g*l1*cos(x)"
+)
+
+
+@pytest.mark.parametrize("formula", [RATE, HAMILTONIAN])
+@pytest.mark.parametrize("width", [64, 74])
+def test_a_line_breaks_outside_of_brackets_that_fit_into_it(formula, width):
+    lines = break_lines(UnicodePrinter().show(parse_text(formula)), width, width)
+    assert len(lines) > 1
+    assert all(line.text.count("(") == line.text.count(")") for line in lines)
