@@ -15,7 +15,7 @@ from lagcli import load
 from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
 
-from .constancy import digits_kept, discovered, kept_at
+from .constancy import digits_kept, discovered, kept_at, special_values
 from .examine import DIGITS, examine
 from .reference import Reference
 from .states import random_moments
@@ -26,10 +26,8 @@ PROBLEMS = sorted(LIBRARY.rglob("*.yaml"))
 
 def stays(path: Path) -> None:
     problem = load(path)
-    charges, special, _ = discovered(problem)
+    charges, _ = discovered(problem)
     kept = digits_kept(problem, charges)
-    for case in special:
-        kept |= kept_at(problem, case)
     assert {name: digits for name, digits in kept.items() if digits < 20} == {}
     for conditions in {tuple(c.get("where", ())) for c in charges}:
         given = [c for c in charges if tuple(c.get("where", ())) == conditions]
@@ -50,10 +48,25 @@ def seed_where(problem: Problem, conditions: Sequence[str]) -> int:
         )  # fmt: skip
 
 
+def one_of_many(path: Path) -> object:
+    mark = pytest.mark.long if path.parent.name == "discovery" else pytest.mark.hours
+    return pytest.param(path, marks=mark, id=str(path.relative_to(LIBRARY)))
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("path", PROBLEMS, ids=lambda p: str(p.relative_to(LIBRARY)))
 def test_no_library_problem_gets_a_false_charge(path: Path) -> None:
     stays(path)
+
+
+@pytest.mark.parametrize("path", [*map(one_of_many, PROBLEMS)])
+def test_special_values_get_no_false_charge(path: Path) -> None:
+    """A search at each value: those of the folder on discovery, and `-m hours` the others."""
+    problem = load(path)
+    kept = {}
+    for case in special_values(problem):
+        kept |= kept_at(problem, case)
+    assert {name: digits for name, digits in kept.items() if digits < 20} == {}
 
 
 def test_a_special_charge_that_changes_elsewhere_is_noticed() -> None:
@@ -66,6 +79,6 @@ def test_a_special_charge_that_changes_elsewhere_is_noticed() -> None:
 
 def test_a_charge_that_changes_is_noticed() -> None:
     problem = load(LIBRARY / "central/kepler.yaml")
-    [energy, *_], _, _ = discovered(problem)
+    [energy, *_], _ = discovered(problem)
     wrong = {**energy, "charge": energy["charge"] + " + x*x'/10^12"}
     assert 10 < digits_kept(problem, [wrong])["energy"] < 14
