@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.expression import Name, Sum
+from lagcli.expression import ZERO, Name, Sum
 from lagcli.record import replace
 
 from .omissions import derived, refuted, silent
@@ -42,3 +42,22 @@ def test_conditions_of_steady_motions_hold_for_those_listed(name: str) -> None:
         changed = {**section.conditions, key: Sum((condition, Name(problem.parameters[0].name)))}
         other = replace(section, conditions=changed)
         assert refuted(problem, answers, "steady_motions", other)
+
+
+def test_a_frequency_that_is_left_out_is_missed() -> None:
+    problem, answers = derived("steady/bead-on-rotating-hoop", ["steady_motions"])
+    section = answers.sections["steady_motions"]
+    assert section.motions
+    for place, motion in enumerate(section.motions):
+        motions = [*section.motions]
+        motions[place] = replace(motion, frequencies_squared=())
+        other = replace(section, motions=tuple(motions))
+        assert refuted(problem, answers, "steady_motions", other)
+
+
+def test_what_nothing_damps_is_not_called_damped() -> None:
+    problem, answers = derived("chains/coupled-pendulums", ["modes"])
+    section = answers.sections["modes"]
+    damped = [replace(mode, damped=True, decay=ZERO) for mode in section.modes]
+    assert not refuted(problem, answers, "modes", section)
+    assert refuted(problem, answers, "modes", replace(section, modes=tuple(damped)))

@@ -301,6 +301,9 @@ def _with_momenta(x: Examination, what: str, place: RestPlace, motion: SteadyMot
         if known and not occur(near, [near.at(square) for square in squares]):
             x.refute(what, "a frequency is not one of the linear motion near it")
             return False
+        if known and near.still and len(motion.mass) == 1 and not squares:
+            x.refute(what, "its frequency is left out")
+            return False
         if known and not _same_motion(near, [[near.at(p) for p in m or ()] for m in matrices]):
             x.refute(what, "the matrices are not those of the linear motion near it")
             return False

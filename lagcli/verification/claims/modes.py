@@ -206,6 +206,9 @@ def _decays_so(
     flat = x.places(what, [shape[n] for shape in shapes for n in x.reference.names])
     if complex_ is None or real is None or flat is None:
         return False
+    if resting and not x.reference.pushed and all(near.still for near in resting):
+        x.refute(what, "it is called damped, and nothing acts on velocities")
+        return False
     size = len(x.reference.names)
     for near in resting:
         values = [near.at(p) for p in (*complex_, *real)]
