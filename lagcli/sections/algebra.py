@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Paragraph
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import Object, fields_of
+from lagcli.notation.letters import names_in
 from lagcli.problem_data import ExpectAlgebra, ExpectSpecial
 from lagcli.reader.scope import CONSTANTS
 from lagcli.reader.shapes import (
@@ -70,7 +71,7 @@ def _named_where(statements: Statements, name: str | None) -> tuple[Above, ...]:
         return ()
     charges = statements.derivation.discovery.charges
     found = [each for c in charges for each in real_where(c, statements.derivation.system)]
-    return tuple(dict.fromkeys(found))
+    return tuple(each for each in dict.fromkeys(found) if "t" not in names_in(each))
 
 
 def _separates(statements: Statements) -> bool:

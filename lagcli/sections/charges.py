@@ -26,7 +26,7 @@ from lagcli.reader.shapes import Shape, of_known
 from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, Charge, ChargesSection, EnergySection
 from lagcli.statements.declaration import always, declared
-from lagcli.statements.wording import TRIVIAL, conditions, listed
+from lagcli.statements.wording import TRIVIAL, listed, where_real
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_charges import LargeCharge
@@ -150,9 +150,7 @@ def blocks(section: ChargesSection, answers: Answers) -> Iterator[Block]:
         if rows := tuple(_rows(charge, shown)):
             yield Equations(rows)
         yield Paragraph(tuple(_verdict(charge)))
-        if charge.where:
-            rest = "; elsewhere its real and its imaginary part are conserved."
-            yield Paragraph(("Real where ", *conditions(charge.where), rest))
+        yield from where_real(charge.where)
 
 
 def _heading(charge: Charge) -> Heading:

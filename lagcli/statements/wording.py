@@ -21,7 +21,7 @@ from lagcli.expression import (
     operation_count,
     walk,
 )
-from lagcli.notation.letters import own
+from lagcli.notation.letters import names_in, own
 from lagcli.statements.answers import (
     EquilibriaSection,
     ModesOfFrequency,
@@ -361,6 +361,16 @@ def in_any_direction(mode: ModesOfFrequency) -> Iterator[Paragraph]:
     """That a swing through a pole is one along each meridian."""
     if mode.pole is not None and (mode.shape or {}).get(mode.pole.radius, ZERO) != ZERO:
         yield Paragraph(("in the direction of any ", Name(next(iter(mode.pole.turning))), "."))
+
+
+def where_real(where: Sequence[Above]) -> Iterator[Paragraph]:
+    """For which times a charge is meant, and for which parameters it is real."""
+    timed = [each for each in where if "t" in names_in(each)]
+    if timed:
+        yield Paragraph(("This is for ", *conditions(timed), "."))
+    if others := [each for each in where if each not in timed]:
+        rest = "; otherwise its real and its imaginary part are conserved."
+        yield Paragraph(("It is real for ", *conditions(others), rest))
 
 
 def there_may_be_others(section: SteadySection) -> Paragraph:

@@ -21,6 +21,7 @@ from lagcli.algebra import is_zero
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.discovery import limits
+from lagcli.mechanics.discovery.reality import real_where
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.reader import parse_text
@@ -230,3 +231,37 @@ def test_a_force_without_an_antiderivative_leaves_both_linear_charges(force: str
     assert is_zero(slopes.det()) is False
     for Q in charges:
         assert is_zero(Q.diff(t) + v * Q.diff(x) + acceleration * Q.diff(v)) is True
+
+
+#: Of which the exponents may be real or complex, for some values of the parameters.
+OF_EITHER_SIGN = (
+    "parameters: {{m: {{assume: positive}}, k: }}\nT: {n}*m*x'^2/2\nV: k*x^2/2",
+    "parameters: {{m: {{assume: positive}}, k: , c: {{assume: positive}}}}\n"
+    "T: m*x'^2/2\nV: k*x^2/2\ndissipation: {n}*c*x'^2/2",
+    "parameters: {{m: {{assume: positive}}, k: {{assume: positive}}}}\n"
+    "T: m*x'^2/2\nV: {n}*m*k*x^2/(8*t^2)",
+    "parameters: {{m: {{assume: positive}}, k: , w: }}\nT: m*x'^2/2\nV: (k - {n}*m*w^2)*x^2/2",
+)
+
+
+@pytest.mark.parametrize("n", [1, 3])
+@pytest.mark.parametrize("text", OF_EITHER_SIGN)
+def test_a_charge_is_real_exactly_where_it_is_said_to_be(text, n):
+    """cos(sqrt(k) t) is cosh(sqrt(-k) t) where k < 0: even in the root, it is real there, too."""
+    d = derive("coordinates: [x]\n" + text.format(n=n))
+    draw, seen = Random(n), set()
+    for charge in d.discovery.charges:
+        where = real_where(charge, d.system)
+        build = d.system.build
+        for _ in range(30):
+            values = {s: sympy.Float(draw.uniform(0.2, 3)) for s in charge.charge.free_symbols}
+            values |= {
+                s: -x for s, x in values.items() if not s.is_positive and draw.random() < 0.5
+            }
+            values |= {d.system.t: sympy.Float(draw.uniform(0.3, 2))}
+            bounds = [(build(w.left) - build(w.right)).xreplace(values) for w in where]
+            found = complex(sympy.N(charge.charge.xreplace(values)))
+            real = abs(found.imag) < 1e-9 * max(abs(found), 1e-9)
+            assert real == all(bound > 0 for bound in bounds), (charge.charge, values)
+            seen.add(real)
+    assert seen == {True, False}

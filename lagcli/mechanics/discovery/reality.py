@@ -1,12 +1,16 @@
-"""Where a charge is real: square roots of parameters that may have either sign."""
+"""Where a charge is real: roots of parameters that may have either sign, and of the time."""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 import sympy
 from sympy import Expr
 
+from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.real_roots import not_negative_where_real
+from lagcli.algebra.signs import sign
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
@@ -14,14 +18,36 @@ from lagcli.statements.motions import Above
 
 
 def real_where(charge: NoetherCharge, system: System) -> tuple[Above, ...]:
-    """What must be positive for the transformation, gauge and charge to be real where L is."""
-    given = charge.transformation
+    """What must be positive for the transformation, gauge and charge to be real where L is.
+
+    What is even in sqrt(k) is real for k < 0, too: cos(sqrt(k) t) is then cosh(sqrt(-k) t).
+    """
+    given, t = charge.transformation, system.t
     formulas = [*given.changes, given.time, charge.charge, charge.gauge or sympy.S.Zero]
-    moving = {system.t, *system.q, *system.qdot}
-    bounds = {bound for formula in formulas for bound in not_negative_where_real(formula)}
-    constant = (b for b in bounds if not b.free_symbols & moving and weak_sign(b) != 1)
+    bounds = dict.fromkeys(bound for formula in formulas for bound in _bounds(formula))
+    positive = t in bounds
+    if positive:  # sqrt(k/t) is then sqrt(k)/sqrt(t)
+        formulas = [f.xreplace({t: sympy.Symbol(t.name, positive=True)}) for f in formulas]
+        bounds = dict.fromkeys(bound for formula in formulas for bound in _bounds(formula))
+    moving = {*system.q, *system.qdot}
+    constant = [b for b in bounds if not b.free_symbols & moving and weak_sign(b) != 1]
+    constant = [b for b in constant if not all(_is_even(formula, b) for formula in formulas)]
     given_real = tuple(not_negative_where_real(system.L))
-    return conditions(sorted(constant, key=_by_length), system.order, given_real)
+    wanted = [*([t] if positive else []), *sorted(constant, key=_by_length)]
+    return conditions(wanted, system.order, given_real)
+
+
+def _bounds(formula: Expr) -> Iterator[Expr]:
+    """What must not be negative in roots and logarithms."""
+    yield from not_negative_where_real(formula)
+    yield from (node.args[0] for node in formula.atoms(sympy.log))
+
+
+def _is_even(formula: Expr, radicand: Expr) -> bool:
+    """Whether the other sign of the square root of the radicand gives the same."""
+    roots = (p for p in formula.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q == 2)
+    turned = {p: -p for p in roots if sign(simplify(p.base / radicand)) == 1}
+    return is_zero(formula.xreplace(turned) - formula) is True
 
 
 def _by_length(bound: Expr) -> tuple[int, object]:

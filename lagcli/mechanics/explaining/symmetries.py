@@ -19,7 +19,7 @@ from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, says
 from lagcli.statements.answers import AlgebraSection, Charge, ChargesSection, Section
-from lagcli.statements.wording import PRESCRIBED, conditions, values_of
+from lagcli.statements.wording import PRESCRIBED, conditions, values_of, where_real
 
 #: A table of brackets of more charges than these is not read.
 _MOST = 7
@@ -115,9 +115,7 @@ def _charge(explainer: Explainer, charge: Charge) -> Iterator[Block]:
         )
     elif any(_quick(change) for change in charge.transformation.values()):
         yield says("The change depends on the velocities, so this is not a point transformation.")
-    if charge.where:
-        yield says("It is real for ", conditions(charge.where),
-                   "; otherwise its real and its imaginary part are conserved.")  # fmt: skip
+    yield from where_real(charge.where)
 
 
 def _quick(change: Expression) -> bool:
