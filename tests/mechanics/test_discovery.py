@@ -236,10 +236,14 @@ def test_a_force_without_an_antiderivative_leaves_both_linear_charges(force: str
 #: Of which the exponents may be real or complex, for some values of the parameters.
 OF_EITHER_SIGN = (
     "parameters: {{m: {{assume: positive}}, k: }}\nT: {n}*m*x'^2/2\nV: k*x^2/2",
-    "parameters: {{m: {{assume: positive}}, k: , c: {{assume: positive}}}}\n"
-    "T: m*x'^2/2\nV: k*x^2/2\ndissipation: {n}*c*x'^2/2",
-    "parameters: {{m: {{assume: positive}}, k: {{assume: positive}}}}\n"
-    "T: m*x'^2/2\nV: {n}*m*k*x^2/(8*t^2)",
+    (
+        "parameters: {{m: {{assume: positive}}, k: , c: {{assume: positive}}}}\n"
+        "T: m*x'^2/2\nV: k*x^2/2\ndissipation: {n}*c*x'^2/2"
+    ),
+    (
+        "parameters: {{m: {{assume: positive}}, k: {{assume: positive}}}}\n"
+        "T: m*x'^2/2\nV: {n}*m*k*x^2/(8*t^2)"
+    ),
     "parameters: {{m: {{assume: positive}}, k: , w: }}\nT: m*x'^2/2\nV: (k - {n}*m*w^2)*x^2/2",
 )
 
