@@ -22,9 +22,10 @@ from lagcli.reader.dynamics import (
 )
 from lagcli.reader.expectations import ExpectReader
 from lagcli.reader.file_reader import FileReader
-from lagcli.reader.habits import KEYS, colon_advice
+from lagcli.reader.habits import KEYS, colon_advice, key_meant
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.misplaced import lifted
+from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, kind
 from lagcli.reader.phase_space import read_brackets, read_observables, read_transformations
 from lagcli.reader.quantities import (
@@ -119,16 +120,18 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
     if problem is not None and not file.diagnostics:
         file.diagnostics += _dimension_mistakes(problem, alone=alone) or slips(problem)
     by_place = one_for_alike(sorted(file.diagnostics, key=lambda each: each.span))
-    declared = one_for_undeclared(by_place, together=not _declares(root))
+    declared = one_for_undeclared(by_place, _parameters(root))
     starts = [key.span.line for key, _ in root.entries] if isinstance(root, Mapping) else []
     found = one_for_habit(declared, starts)
     has_errors = any(diagnostic.is_error for diagnostic in found)
     return ProblemReading(source, None if has_errors else problem, found)
 
 
-def _declares(root: DocumentNode) -> bool:
-    """Whether the file has parameters."""
-    return isinstance(root, Mapping) and any(key.label == "parameters" for key, _ in root.entries)
+def _parameters(root: DocumentNode) -> str:
+    """The parameters as the file writes them; nothing where it has none."""
+    given = root.entries if isinstance(root, Mapping) else []
+    found = (source_of(v) for k, v in given if key_meant(k.label, KEYS) == "parameters")
+    return next(found, "")
 
 
 def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | None:

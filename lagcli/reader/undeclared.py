@@ -25,6 +25,8 @@ _NO_COORDINATE = re.compile(r"'(\w+)'*' (?:in (?:initial|the symmetry)|is not a 
 _QUOTED = re.compile(r"'[^ ]+'+(?=[ ,:;]|$)")
 #: Of the hints for one cause.
 _SHOWN = 3
+#: A longer list of parameters is not repeated.
+_LONGEST = 80
 _SHAPE = re.compile(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
 _OTHER_WORD = re.compile(r"unknown key ('.*') in the problem: the key is (\w+)")
 _NAME = re.compile(r"unknown name '(\w+)' in (.*)")
@@ -161,7 +163,7 @@ def _next_to(key: Diagnostic, value: Diagnostic) -> bool:
 
 
 def one_for_undeclared(
-    diagnostics: Sequence[Diagnostic], *, together: bool
+    diagnostics: Sequence[Diagnostic], parameters: str
 ) -> tuple[Diagnostic, ...]:
     """The mistakes, with one for each name that is not known and its advice.
 
@@ -169,8 +171,8 @@ def one_for_undeclared(
     ----------
     diagnostics
         By their place.
-    together
-        Whether one is enough for all names to be declared: the file declares no parameter.
+    parameters
+        The list or map of parameters as the file writes it; nothing where it has none.
     """
     diagnostics = _once_by_name(diagnostics)
     moving = {each.message.split("'")[1] for each in diagnostics if each.hint == COORDINATE}
@@ -190,14 +192,29 @@ def one_for_undeclared(
             kept.append(each)
         if found is not None:
             reported.add((found[1], hint))
-            if UNDECLARED in each.hint:
+            if each.hint.partition(",")[0] == UNDECLARED:  # and nothing else is advised
                 undeclared.setdefault(found[1], each)
-    if not (together and len(undeclared) > 1):
+    if not undeclared:
         return tuple(kept)
     first = next(iter(undeclared.values()))
-    names = ", ".join(undeclared)
-    place = first.message.partition("' in ")[2]
-    message = f"unknown names {names}: the first stands in {place}"
-    whole = Diagnostic(message, first.span, f"declare them: parameters: [{names}]")
+    entry = _declaration(parameters, [*undeclared])
+    if len(undeclared) == 1:
+        hint = first.hint.replace(UNDECLARED, f"declare it: {entry}")
+        whole = replace(first, hint=hint if entry else first.hint)
+    else:
+        place = first.message.partition("' in ")[2]
+        message = f"unknown names {', '.join(undeclared)}: the first stands in {place}"
+        hint = f"declare them: {entry}" if entry else "declare them under 'parameters'"
+        whole = Diagnostic(message, first.span, hint)
     one = [whole if each is first else each for each in kept]
     return tuple(each for each in one if not any(each is other for other in undeclared.values()))
+
+
+def _declaration(parameters: str, names: list[str]) -> str:
+    """The parameters with further names, or the lines to add; nothing for a long list."""
+    begin, inner = parameters[:1] or "[", parameters[1:-1].strip()
+    listed = f"{begin}{inner}{', ' * bool(inner)}{', '.join(names)}{']' if begin == '[' else '}'}"
+    if begin in {"[", "{"}:
+        return f"parameters: {listed}" if len(listed) <= _LONGEST else ""
+    lines = ", ".join(f"'- {each}'" if begin == "-" else f"'{each}:'" for each in names)
+    return f"{lines} below 'parameters:'"

@@ -331,7 +331,7 @@ HABITS = [
     (text(constraints="{rod: x = 1, N}"), "write rod: {equation: x = 1, multiplier: N}"),
     (text(constraints="{rod: x = 1 for all t}"), "leave out 'for all t'"),
     (text(constraints="{rod: x -> 1}"), "write x = 1"),
-    (text(V="k*x**2/2 + λ*x**4"), "unknown name 'λ' in V; declare it under 'parameters'"),
+    (text(V="k*x**2/2 + λ*x**4"), "unknown name 'λ' in V; declare it: parameters: "),
     (text(T=None, points="{bob: m}"), "write {position: [x, y], mass: m}"),
     (text(T=None, points="[bob]"), "write bob: {position: [x, y], mass: m}"),
     (text(V=None, V1="k*x^2/2", V2="-m*g*x"), "it is one sum: write V: k*x^2/2 - m*g*x"),
@@ -423,7 +423,7 @@ HABITS = [
     (text(V="m*dot(g, r)"), "write the sum over the components"),
     (text(V="piecewise(x < 0, 0, k)"), "(1 + sign(x))/2"),
     (text(V="if(x > 0, k*x, 0)"), "(1 + sign(x))/2"),
-    (text(V="k*(x - x0)^2/2"), "declare it under 'parameters'"),
+    (text(V="k*(x - x0)^2/2"), "declare it: parameters: {m: 1, k: 2, g: 9.81, "),
     (text(V=None) + "V(x): k*x\n", "the key is V"),
     (text(expect="{x'': -g}"), "write accelerations: {x: -g}"),
     (text(coordinates="{x: height}"), "write {description: height}"),
@@ -439,7 +439,7 @@ HABITS = [
     (text(initial="{x: 0.1 m}"), "write 0.1: numbers are in the units of the file"),
     (text(coordinates="- x\n  - y"), "begin the list on a new line"),
     (text(simulation="{final_time: 5}"), "the key is until"),
-    (text(forces="{x: -mu*k}"), "declare it under 'parameters'"),
+    (text(forces="{x: -mu*k}"), "declare it: parameters: {m: 1, k: 2, g: 9.81, "),
     (text(coords="[x]", coordinates=None), "the key is coordinates"),
     (text(coordinates="{x: [m]}"), "write {unit: m}"),
     (text(coordinates="{x: [0, 2*pi]}"), "a coordinate has no range"),
@@ -505,7 +505,7 @@ HABITS = [
     (text(points="[bob: [x, 0]]"), "write {bob: [x, 0]}"),
     ("coordinates: [x_1..x_3]\nT: x_1'^2 + x_2'^2 + x_3'^2\n", "write x_1, x_2, x_3"),
     (text(expect="x = cos(t)"), "write {trajectory: {x: cos(t)}}"),
-    (text(V="k*(x-a)^2/2"), "declare it under 'parameters'"),
+    (text(V="k*(x-a)^2/2"), "declare it: parameters: {m: 1, k: 2, g: 9.81, "),
     (text(V="(3 kg)*g*x"), "write parameters: {m: {value: 3, unit: kg}}"),
     (text(initial="{x': 10 deg/s}"), "write 10*pi/180"),
     (text(parameters="{m: 1, k: 90 deg/s}"), "write {value: 90*pi/180, unit: rad/s}"),
@@ -606,6 +606,9 @@ HABITS = [
         text(parameters="[m: mass, k: stiffness]"),
         "m: {description: mass}, k: {description: stiffness}",
     ),
+    (text(V="k*x^2/2 + a*x + b"), "declare them: parameters: {m: 1, k: 2, g: 9.81, a, b}"),
+    (text(parameters="\n  m: 1\n  k: 2", V="k*x + a*x^2"), "declare it: 'a:' below 'parameters:'"),
+    (text(parameters="\n  - m", V="b*x + a"), "declare them: '- b', '- a' below 'parameters:'"),
     (text(lagrangian="T - V"), "leave out L: it is T - V"),
     (
         "Koordinaten: [x]\nKonstanten: {m: 1}\nKinetische Energie: m*x'^2/2\n",
@@ -631,7 +634,7 @@ def test_a_habit_gets_one_mistake_with_the_hint_that_helps(written, hint):
 @pytest.mark.parametrize("written", ["k[0]*x", "k_{0}*x"])
 def test_a_name_with_an_index_is_still_to_be_declared(written):
     undeclared, foreign = sorted(messages(text(V=written)), key=lambda each: "meaning" in each)
-    assert undeclared.startswith("unknown name 'k_0' in V; declare it under 'parameters'")
+    assert undeclared.startswith("unknown name 'k_0' in V; declare it: parameters: ")
     assert foreign.endswith("; write k_0*x")
 
 
