@@ -384,10 +384,13 @@ def there_may_be_others(section: SteadySection) -> Paragraph:
 
 def in_moving_frames(section: SteadySection) -> Iterator[Paragraph]:
     """That all move along at a common velocity, too."""
+    lead = "The same at any constant "
+    if len(section.motions or ()) > 1:
+        lead = "All of these motions are possible at any constant "
     for rates in section.frames:
         parts: list[Part] = []
         for rate, pairs in groupby(rates.items(), key=lambda pair: pair[1]):
-            parts += [", " if parts else "The same at any constant "]
+            parts += [", " if parts else lead]
             parts += [part for name, _ in pairs for part in (Name(name, 1), " = ")]
             parts += [rate]
         yield Paragraph((*parts, ": the equations of motion hold in a frame that moves along."))

@@ -722,6 +722,47 @@ def test_an_instability_by_two_frequencies_that_agree_has_its_reason(n):
     assert "Unstable where w ≠ 0. Two frequencies agree, and the motion with them grows" in told
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_multiple_frequency_says_whether_amplitudes_grow(seed):
+    """Free in a turning frame, x = (a + b t) exp(-i w t); with a spring to rest, w ± sqrt(k)."""
+    source = random.Random(seed)
+    a, b, c, d = source.choice([(1, 2, 0, 1), (1, 1, -1, 2), (2, -1, 1, 1)])
+    u, v = f"({a}*x + {b}*y)", f"({c}*x + {d}*y)"
+    du, dv = f"({a}*x' + {b}*y')", f"({c}*x' + {d}*y')"
+    T = f"(({du} - w*{v})^2 + ({dv} + w*{u})^2)/2"
+    given = f"coordinates: [x, y], parameters: {{w, k: {{assume: positive}}}}, T: {T}"
+    growing = "The root is multiple, and where w ≠ 0 it has fewer independent shapes: to first"
+    assert growing in said(f"{{{given}}}", "Small oscillations", "modes")
+    held = f"{{{given}, V: k*({u}^2 + {v}^2)/2}}"
+    assert "fewer independent" not in said(held, "Small oscillations", "modes")
+
+
+def test_equal_frequencies_of_separate_motions_do_not_grow():
+    """Two charges in one field: each turns with q B/m."""
+    terms = (f"{x}'^2/2 + {y}'^2/2 + W*({x}*{y}' - {y}*{x}')/2" for x, y in ("xy", "uv"))
+    text = f"{{coordinates: [x, y, u, v], parameters: [W], L: {' + '.join(terms)}}}"
+    told = said(text, "Small oscillations", "modes")
+    assert "fewer independent" not in told
+    assert "where W ≠ 0 what is displaced stays displaced." in told
+
+
+@pytest.mark.parametrize(
+    ("V", "kept"), [("x^4", True), ("3*x^6 - x^7", True), ("x^3", False), ("-x^4", False)]
+)
+def test_a_drift_to_first_order_is_held_by_a_minimum_of_higher_order(V, kept):
+    told = said(f"{{coordinates: [x], T: x'^2/2, V: '{V}'}}", "Small oscillations", "modes")
+    assert "a uniform drift" in told
+    assert ("terms of higher order keep it near" in told) is kept
+
+
+def test_answers_without_constraints_do_not_speak_of_multipliers():
+    free = (
+        "{coordinates: {x: {}}, parameters: {a: {assume: positive}}, T: x'^2/2, V: x^2/2, "
+        "initial: {x: a}, find: {speed: {value: x'^2, in_terms_of: [x]}}}"
+    )
+    assert "The solved accelerations are substituted, and every" in said(free, "Questions", "find")
+
+
 # -- displacements that are written by others -----------------------------------------------------
 
 

@@ -32,6 +32,7 @@ from lagcli.mechanics.conditions import conditions as above_zero
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, difference, displacements, says, shows
 from lagcli.mechanics.rest.singular import AtPole
+from lagcli.mechanics.stability.near import Near
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
 from lagcli.statements.plus_minus import modes_in_pairs
 from lagcli.statements.wording import conditions, in_any_direction, linear_equations, place_rows
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
 _SQUARE = Number(Fraction(2))
 #: A characteristic polynomial of more operations is not printed.
 _LONG = 120
+_KEPT = "; terms of higher order keep it near the equilibrium."
 
 
 def oscillations(explainer: Explainer, section: Section) -> Iterator[Block]:
@@ -119,8 +121,33 @@ def _undamped(
         return
     yield says("An oscillation with the angular frequency ", omega,
                " needs the determinant of ", form, " to vanish. The roots are")  # fmt: skip
+    growing = modes_in_pairs(_with_growing_amplitudes(modes, place))
     for mode in modes_in_pairs(modes):
         yield from _mode(explainer, mode, omega, place)
+        if mode in growing:
+            yield says(*_growing(explainer, mode, place))
+
+
+def _with_growing_amplitudes(
+    modes: Sequence[ModesOfFrequency], place: Place
+) -> list[ModesOfFrequency]:
+    """Those of a multiple ω that is not 0 and has a Jordan block."""
+    near = Near(place.near, place.characteristic)
+    return [
+        mode
+        for mode, each in zip(modes, place.modes, strict=True)
+        if each.frequency is not None and each.square is not None and each.multiplicity > 1
+        and each.square != 0 and not near.semisimple(each.square, each.multiplicity)
+    ]  # fmt: skip
+
+
+def _growing(explainer: Explainer, mode: ModesOfFrequency, place: Place) -> list[Part]:
+    squares = [each.square for each in place.modes if each.multiplicity == mode.multiplicity]
+    weak = {f for W in squares if W is not None and W != 0 for f, _ in factors_of(W)}
+    where = _not_zero(explainer, [f for f in weak if sign(f) not in (1, -1)], place)
+    power = "the time" if mode.multiplicity == 2 else "a power of the time"
+    rest = f"the amplitudes of other displacements grow in proportion to {power}"
+    return [*_fewer(where), f"to first order {rest}."]
 
 
 def _mode(
@@ -152,7 +179,7 @@ def _mode(
         if 0 < len(shapes) < mode.multiplicity:
             yield says(*_with_fewer_shapes(explainer, place))
         else:
-            yield says(_without_oscillation(mode, place))
+            yield says(*_without_oscillation(explainer, mode, place))
 
 
 def _with_fewer_shapes(explainer: Explainer, place: Place) -> list[Part]:
@@ -160,25 +187,36 @@ def _with_fewer_shapes(explainer: Explainer, place: Place) -> list[Part]:
     entries = [x for row in place.near.K for x in row if is_zero(x) is not True]
     factors = [{f for f, _ in factors_of(x)} for x in entries]
     common = set.intersection(*factors) if factors else set()
-    weak = sorted((f for f in common if sign(f) not in (1, -1)), key=str)
-    where = above_zero([f**2 for f in weak], explainer.system.order, place.point.positive)
-    parts: list[Part] = ["The root is multiple", ", and where " if where else " and has"]
-    parts += [*conditions(where), " it has"] if where else []
+    where = _not_zero(explainer, [f for f in common if sign(f) not in (1, -1)], place)
     rest = "to first order other displacements grow in proportion to a higher power of the time."
-    return [*parts, f" fewer independent shapes: {rest}"]
+    return [*_fewer(where), rest]
 
 
-def _without_oscillation(mode: ModesOfFrequency, place: Place) -> str:
+def _not_zero(explainer: Explainer, factors: Sequence[Expr], place: Place) -> list[Part]:
+    """Where none of these vanishes; empty where that is known."""
+    squares = [f**2 for f in sorted(factors, key=str)]
+    return [*conditions(above_zero(squares, explainer.system.order, place.point.positive))]
+
+
+def _fewer(where: Sequence[Part]) -> list[Part]:
+    parts: list[Part] = ["The root is multiple", ", and where " if where else " and has"]
+    return [*parts, *where, *([" it has"] if where else []), " fewer independent shapes: "]
+
+
+def _without_oscillation(explainer: Explainer, mode: ModesOfFrequency, place: Place) -> list[Part]:
     """What a root 0 is: each is two roots s = 0, and a null vector of K stays displaced."""
     staying = len(nullspace(place.near.K))
+    lead = "To first order this is not an oscillation"
     if staying == mode.multiplicity:
-        return "To first order this is not an oscillation but a uniform drift."
+        kept = place.verdict.stable is True and Near(place.near).dimension == 0
+        return [f"{lead} but a uniform drift{_KEPT if kept else '.'}"]
     if staying == 2 * mode.multiplicity:
-        return "To first order this is not an oscillation: what is displaced stays displaced."
-    return (
-        "To first order this is not an oscillation: displacements stay, or grow in proportion to "
-        "the time."
-    )
+        lowest = next(c for c in place.characteristic.in_s or [] if c != 0)
+        weak = [f for f, _ in factors_of(lowest) if sign(f) not in (1, -1)]
+        where = _not_zero(explainer, weak, place)
+        among: list[Part] = ["where ", *where, " "] if where else []
+        return [f"{lead}: ", *among, "what is displaced stays displaced."]
+    return [f"{lead}: displacements stay, or grow in proportion to the time."]
 
 
 def _amplitudes(shape: Mapping[str, Expression]) -> Equations:

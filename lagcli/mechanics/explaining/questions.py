@@ -33,7 +33,7 @@ def questions(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says("The file has no questions.")
         return
     along = AlongTheMotion(explainer.dynamics, explainer.derivation.noether)
-    yield from _known(along)
+    yield from _known(explainer, along)
     for question in explainer.problem.find:
         yield Heading(question.name, 2)
         yield says(*_asked(question))
@@ -44,11 +44,12 @@ def questions(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield from _answer(answers[question.name], is_open=is_open or along.initial is None)
 
 
-def _known(along: AlongTheMotion) -> Iterator[Block]:
+def _known(explainer: Explainer, along: AlongTheMotion) -> Iterator[Block]:
+    constrained = bool(explainer.dynamics.constraints.equations)
     if along.initial is None:
+        more = " and multipliers and the constraints" if constrained else ""
         yield says(
-            "The file gives no initial state, so only the solved accelerations and multipliers and "
-            "the constraints are used."
+            f"The file gives no initial state, so only the solved accelerations{more} are used."
         )
         return
     laws = dict.fromkeys(along.tree(law) for law in along.level_set.laws)
@@ -57,8 +58,12 @@ def _known(along: AlongTheMotion) -> Iterator[Block]:
         if laws
         else "but no conserved quantity is known."
     )
-    put_in = "The solved accelerations and multipliers are substituted, the constraints are used"
-    yield says(f"{put_in}, {kept}")
+    put_in = (
+        "The solved accelerations and multipliers are substituted, the constraints are used, "
+        if constrained
+        else "The solved accelerations are substituted, "
+    )
+    yield says(f"{put_in}{kept}")
     yield equations_of((ZERO, law) for law in laws)
 
 
