@@ -726,3 +726,23 @@ V: m*g*cos(theta)
         given = {name for name, p in motion.momenta.items() if to_grammar(p) != f"p_{name}"}
         assert given == {"phi"}
         assert {*motion.free} == {f"p_{name}" for name in names if name not in given}
+
+
+@pytest.mark.parametrize("start", ["", "initial: {x: 1, x': 0}\n"])
+@pytest.mark.parametrize("constraints", [0, 1, 2])
+def test_an_answer_says_what_is_used(constraints, start):
+    """Without constraints there are no multipliers, and one constraint is not several."""
+    tied = "".join(f"  c{k}: {name} = {k + 2}*x\n" for k, name in enumerate("yz"[:constraints]))
+    text = f"""
+coordinates: [x{"".join(f", {name}" for name in "yz"[:constraints])}]
+parameters: {{m: {{assume: positive}}, k: {{assume: positive}}}}
+T: m*(x'^2{"".join(f" + {name}'^2" for name in "yz"[:constraints])})/2
+V: k*x^2/2
+{start}find: {{speed: {{value: x'^2, in_terms_of: [x]}}}}
+"""
+    text += f"constraints:\n{tied}" if tied else ""
+    told = said(text, "Questions", "find")
+    assert "solved accelerations" in told
+    assert ("multipliers" in told) == bool(constraints)
+    assert ("constraint" in told) == bool(constraints)
+    assert ("constraints" in told) == (constraints == 2)

@@ -45,12 +45,12 @@ def questions(explainer: Explainer, section: Section) -> Iterator[Block]:
 
 
 def _known(explainer: Explainer, along: AlongTheMotion) -> Iterator[Block]:
-    constrained = bool(explainer.dynamics.constraints.equations)
+    equations = explainer.dynamics.constraints.equations
+    constraints, are = ("constraints", "are") if len(equations) > 1 else ("constraint", "is")
+    solved = "solved accelerations" + " and multipliers" * bool(equations)
     if along.initial is None:
-        more = " and multipliers and the constraints" if constrained else ""
-        yield says(
-            f"The file gives no initial state, so only the solved accelerations{more} are used."
-        )
+        used = f"only the {solved}" + f" and the {constraints}" * bool(equations)
+        yield says(f"The file gives no initial state, so {used} are used.")
         return
     laws = dict.fromkeys(along.tree(law) for law in along.level_set.laws)
     kept = (
@@ -58,12 +58,8 @@ def _known(explainer: Explainer, along: AlongTheMotion) -> Iterator[Block]:
         if laws
         else "but no conserved quantity is known."
     )
-    put_in = (
-        "The solved accelerations and multipliers are substituted, the constraints are used, "
-        if constrained
-        else "The solved accelerations are substituted, "
-    )
-    yield says(f"{put_in}{kept}")
+    put_in = f"The {solved} are substituted" + f", the {constraints} {are} used" * bool(equations)
+    yield says(f"{put_in}, {kept}")
     yield equations_of((ZERO, law) for law in laws)
 
 

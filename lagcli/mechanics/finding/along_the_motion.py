@@ -161,10 +161,17 @@ class AlongTheMotion:
             plans += [(relations, remove) for relations, _ in plans]
         return plans
 
+    @property
+    def relations(self) -> str:
+        """What a formula is sought with, in words."""
+        number = len(self.dynamics.constraints.equations)
+        parts = [f"the constraint{'s' * (number > 1)}"] * bool(number)
+        parts += ["the conserved quantities"] if self.initial else []
+        return " and ".join(parts) or "the accelerations alone"
+
     def _not_found(self, keep: Sequence[Symbol]) -> str:
         names = ", ".join(s.name for s in keep) or "the parameters"
-        known = "constraints and conserved quantities" if self.initial else "constraints"
-        reason = f"no formula of it in {names} alone was found from the {known}"
+        reason = f"no formula of it in {names} alone was found from {self.relations}"
         if self.initial is None:
             reason += "; with an `initial` state the conserved quantities could be used"
         return reason

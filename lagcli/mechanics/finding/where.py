@@ -212,7 +212,7 @@ class WhereSearch:
                 return None if found is None else self._sorted(list(found.values))
             if self.along.work.over:
                 break
-        known = "the constraints and conserved quantities"
+        known = self.along.relations
         self.along.why_not = f"no formula of {self.unknown} was found from {known}"
         return None
 
