@@ -48,7 +48,7 @@ def blocks(section: BracketsSection, _: Answers) -> Iterator[Block]:
     if rows:
         yield Equations(tuple(rows))
     elif not section.brackets:
-        yield Paragraph(("None: the file names no observables and no pairs.",))
+        yield Paragraph(("None: the file names no two functions.",))
     if section.rates:
         yield Paragraph(("Rates on the motion, from the brackets with H:",))
         yield equations_of((Name(name, 1), value) for name, value in section.rates.items())

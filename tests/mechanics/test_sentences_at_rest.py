@@ -763,6 +763,34 @@ def test_answers_without_constraints_do_not_speak_of_multipliers():
     assert "The solved accelerations are substituted, and every" in said(free, "Questions", "find")
 
 
+POISSON = "act, so the bracket of two constants of the motion need not be constant"
+
+
+@pytest.mark.parametrize(
+    ("more", "act"),
+    [
+        ("", ""),
+        ("constraints: {c: x = y}, ", "Forces of constraints that are not in H "),
+        ("constraints: {c: x' = z*y'}, ", "Forces of constraints that are not in H "),
+        ("dissipation: x'^2/2, ", "Forces that are not in H "),
+        ("forces: {y: -y'}, constraints: {c: x = z}, ", "Forces of constraints and others that "),
+    ],
+)
+def test_poisson_s_theorem_is_about_the_motion_by_the_hamiltonian(more, act):
+    """m W^2 x, the bracket of two constants of a ball on a turntable, is not constant."""
+    shifts = "{one: {x: 1}, two: {x: t}}"
+    text = f"{{coordinates: [x, y, z], {more}T: (x'^2 + y'^2 + z'^2)/2, symmetries: {shifts}}}"
+    told = said(text, "Poisson brackets", "brackets")
+    assert "For the Q of the transformations of the file" in told
+    assert (POISSON in told) is bool(act)
+    assert act in told
+
+
+def test_one_function_is_not_called_none():
+    text = "{coordinates: [x], T: x'^2/2, symmetries: {one: {x: 1}}}"
+    assert "The file names no two functions." in said(text, "Poisson brackets", "brackets")
+
+
 # -- displacements that are written by others -----------------------------------------------------
 
 

@@ -65,7 +65,7 @@ def _momentum_rates(explainer: Explainer) -> list[Part]:
     return [f"{lead}{added}:"]
 
 
-def brackets(_: Explainer, section: Section) -> Iterator[Block]:
+def brackets(explainer: Explainer, section: Section) -> Iterator[Block]:
     """{A, B} = sum of dA/dq dB/dp - dA/dp dB/dq."""
     found = cast(BracketsSection, section)
     A, B, q, p = own("A"), own("B"), own("q_j"), own("p_j")
@@ -75,7 +75,7 @@ def brackets(_: Explainer, section: Section) -> Iterator[Block]:
         " over all coordinates, so that a coordinate and its momentum have the bracket 1.",
     )  # fmt: skip
     if not found.brackets and not found.reason:
-        yield says("The file names no functions.")
+        yield says("The file names no two functions.")
     if found.observables:
         yield equations_of((Name(name), value) for name, value in found.observables.items())
     if found.reason:
@@ -86,8 +86,11 @@ def brackets(_: Explainer, section: Section) -> Iterator[Block]:
         if value is not None:
             rows.append(Row(Bracket(each.left, each.right), value))
     if rows:
-        yield says("For the functions of the file")
+        given = explainer.problem.observables or explainer.problem.brackets
+        of = "functions" if given else "Q of the transformations"
+        yield says(f"For the {of} of the file")
         yield Equations(tuple(rows))
+        yield from _beside(explainer)
     if found.rates:
         yield says(
             "The rates on the motion are the brackets with H plus the partial "
@@ -95,6 +98,19 @@ def brackets(_: Explainer, section: Section) -> Iterator[Block]:
             "respect to t:"
         )
         yield equations_of((Name(name, 1), rate) for name, rate in found.rates.items())
+
+
+def _beside(explainer: Explainer) -> Iterator[Block]:
+    """That Poisson's theorem on two constants is about the motion by H alone."""
+    constrained = bool(explainer.problem.constraints)
+    forced = any(force != 0 for force in explainer.system.applied_forces)
+    act = "Forces of constraints" * constrained + " and others" * (constrained and forced)
+    act = act or "Forces" * forced
+    if act:
+        yield says(
+            f"{act} that are not in H act, so the bracket of two constants of the motion need not "
+            "be constant (Poisson's theorem is about the motion by H alone)."
+        )
 
 
 def hamilton_jacobi(explainer: Explainer, section: Section) -> Iterator[Block]:
