@@ -27,7 +27,7 @@ from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import AlgebraSection, Answers, SpecialValue
 from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.motions import Above
-from lagcli.statements.wording import PRESCRIBED, conditions, rows_by_name, values_of
+from lagcli.statements.wording import PRESCRIBED, conditions, rows_by_name, values_of, where_real
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
@@ -38,6 +38,7 @@ _AS_WELL = ("R^", "R with", "Heisenberg", "Galilei")
 
 def derive(statements: Statements) -> AlgebraSection | None:
     """From the brackets of the generators; None where one is missing."""
+    from lagcli.mechanics.discovery.reality import real_where
     from lagcli.mechanics.discovery.summary import algebra_section, summary
 
     discovery = statements.derivation.discovery
@@ -53,6 +54,9 @@ def derive(statements: Statements) -> AlgebraSection | None:
             number=case.number,
             charges={c.name: statements.by_terms(c.charge) for c in case.charges},
             given={p.name: statements.as_written(value) for p, value in case.given},
+            where=tuple(
+                dict.fromkeys(w for c in case.charges for w in real_where(c, statements.system))
+            ),
         )
         for case in statements.derivation.special_cases
     )
@@ -112,6 +116,7 @@ def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
         plural = "y" if number == 1 else "ies"
         yield Paragraph(("Where ", *where, f": {number} symmetr{plural}, of which new"))
         yield rows_by_name(cases[0].charges)
+        yield from where_real(cases[0].where, several=True)
 
 
 def _alike(special: Sequence[SpecialValue]) -> list[list[SpecialValue]]:

@@ -187,7 +187,8 @@ class ChargesSection:
 class SpecialValue:
     """A parameter's value at which there are more charges: their number, and the new ones.
 
-    Where they come only with values of other parameters, too, these are `given`.
+    Where they come only with values of other parameters, too, these are `given`.  All of the new
+    ones are real where each of `where` holds.
     """
 
     parameter: str
@@ -195,6 +196,7 @@ class SpecialValue:
     number: int
     charges: Mapping[str, Expression]
     given: Mapping[str, Expression] = field(default_factory=dict)
+    where: tuple[Above, ...] = ()
 
     @property
     def values(self) -> dict[str, Expression]:

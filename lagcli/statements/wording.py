@@ -363,14 +363,15 @@ def in_any_direction(mode: ModesOfFrequency) -> Iterator[Paragraph]:
         yield Paragraph(("in the direction of any ", Name(next(iter(mode.pole.turning))), "."))
 
 
-def where_real(where: Sequence[Above]) -> Iterator[Paragraph]:
+def where_real(where: Sequence[Above], *, several: bool = False) -> Iterator[Paragraph]:
     """For which times a charge is meant, and for which parameters it is real."""
     timed = [each for each in where if "t" in names_in(each)]
     if timed:
-        yield Paragraph(("This is for ", *conditions(timed), "."))
+        yield Paragraph(("These are for " if several else "This is for ", *conditions(timed), "."))
     if others := [each for each in where if each not in timed]:
-        rest = "; otherwise its real and its imaginary part are conserved."
-        yield Paragraph(("It is real for ", *conditions(others), rest))
+        subject, their = ("All of them are", "their") if several else ("It is", "its")
+        rest = f"; otherwise {their} real and {their} imaginary part{'s' * several} are conserved."
+        yield Paragraph((f"{subject} real for ", *conditions(others), rest))
 
 
 def there_may_be_others(section: SteadySection) -> Paragraph:

@@ -24,7 +24,7 @@ from lagcli.mechanics.discovery import limits
 from lagcli.mechanics.discovery.reality import real_where
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.summary import summary
-from lagcli.reader import parse_text
+from lagcli.reader import parse_text, read_problem
 from tests.solved import solve
 
 from .derived import derive
@@ -269,3 +269,23 @@ def test_a_charge_is_real_exactly_where_it_is_said_to_be(text, n):
             assert real == all(bound > 0 for bound in bounds), (charge.charge, values)
             seen.add(real)
     assert seen == {True, False}
+
+
+@pytest.mark.parametrize("drive", ["W*cos(w*t)", "W*t"])
+def test_charges_at_special_values_say_where_they_are_real(drive):
+    """Without the drive an oscillator is left, of which k may be negative."""
+    read = read_problem(
+        "p.yaml",
+        f"""title: p
+coordinates: [x, y]
+parameters: {{m: {{assume: positive}}, k: , W: , w: {{assume: positive}}}}
+T: m*(x'^2 + y'^2)/2
+V: (k + {drive})*(x^2 + y^2)/2
+""".encode(),
+    )
+    section = solve(read.problem, ["algebra"]).sections["algebra"]
+    [case] = [each for each in section.special if each.parameter == "W"]
+    assert [(to_grammar(w.left), to_grammar(w.right)) for w in case.where] == [("k", "0")]
+    for each in section.special:
+        rooted = any("sqrt(k" in to_grammar(value) for value in each.charges.values())
+        assert bool(each.where) == rooted

@@ -158,6 +158,7 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
         lead: list[Part] = ["For ", *values_of(case)]
         yield says(lead, f" the same search finds {many}, of which {new} of those above:")
         yield equations_of((Name(name), value) for name, value in case.charges.items())
+        yield from where_real(case.where, several=not one)
 
 
 def _no_brackets(explainer: Explainer) -> list[Part]:
