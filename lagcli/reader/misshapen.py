@@ -97,93 +97,90 @@ def range_end(written: str) -> str:
     return found[2] if found else ""
 
 
+#: The first key of a map, what stands for the map (a text, a list), and how it is written.
+_AS_MAP = (
+    (
+        "where",
+        Scalar,
+        r"[\"']?(?:solve\s+)?(.*=.*\S)\s+for\s+(\w+'*)[\"']?",
+        r"{where: \1, for: \2}",
+    ),
+    (
+        "where",
+        Scalar,
+        r"[\"']?(\w+'*)\s+(?:where|when|if|at)\s+(.*=.*\S)[\"']?",
+        r"{where: \2, for: \1}",
+    ),
+    ("where", Scalar, r"(?:where\s+)?(.*=.*)", r"{where: \1, for: UNKNOWN}"),
+    ("where", Scalar, r".*\S\s+\S+\s+\S.*", "a question as {where: UNKNOWN' = 0, for: UNKNOWN}"),
+    ("where", Scalar, r".*", r"{value: \g<0>, in_terms_of: [UNKNOWN]}"),
+    ("at", DocumentNode, r"\{?\s*(\w+)\s*[:=]\s*([^=:]+?)\s*\}?", r"{at: {\1: \2}}"),
+    ("until", Sequence, r"\[(?:.*,)?\s*([^,\[\]{}]+?)\s*\]", r"{until: \1}"),
+    ("until", Scalar, r"(?:until[\s=:]+)?(\d[\d.]*)\s*(?:s|sec|seconds?)\b.*", r"{until: \1}"),
+    ("until", Scalar, r"\D*", "{until: 10}, with the time of the end"),
+    ("until", Scalar, r"(?:until[\s=:]+)?(.*)", r"{until: \1}"),
+    ("position", Scalar, r"\((.*)\)", r"{position: [\1]}"),
+    ("position", Scalar, r".+", r"{position: [\g<0>]}"),
+    ("position", Sequence, r"\[.*", r"{position: \g<0>}"),
+    ("degrees_of_freedom", Scalar, r"([^\W\d]\w*)''\s*=\s*(.+)", r"{accelerations: {\1: \2}}"),
+    ("degrees_of_freedom", Scalar, r"([^\W\d]\w*)(?:\(t\))?\s*=\s*(.+)", r"{trajectory: {\1: \2}}"),
+)
+
+
 def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str] = ()) -> str:
     """How a text or a list is written as the map that it should be."""
     written = node.text.source.text[node.start : node.end].strip()
-    names_given = [*coordinates]
-    present = [x for x in names_given if x in re.findall(r"\w+", written)]
-    unknown = next(iter([*present, *names_given]), "x")
-    question = re.fullmatch(r"[\"']?(?:solve\s+)?(.*=.*\S)\s+for\s+(\w+'*)[\"']?", written)
-    if isinstance(node, Scalar) and names[0] == "where" and question:
-        return f"write {{where: {question[1]}, for: {question[2]}}}"
-    asked = re.fullmatch(r"[\"']?(\w+'*)\s+(?:where|when|if|at)\s+(.*=.*\S)[\"']?", written)
-    if isinstance(node, Scalar) and names[0] == "where" and asked:
-        return f"write {{where: {asked[2]}, for: {asked[1]}}}"
-    if isinstance(node, Scalar) and names[0] == "where" and "=" in written:
-        return f"write {{where: {written}, for: {unknown}}}"
-    if isinstance(node, Scalar) and written in get_args(Assumption) and "assume" in names:
-        return f"write {{assume: {written}}}"
-    if isinstance(node, Scalar) and unit_behind(f"1 {written}") == written and "unit" in names:
-        return f"write {{unit: {written}}}"
-    if names[0] == "at":
-        within = re.fullmatch(r"\{?\s*(\w+)\s*[:=]\s*([^=:]+?)\s*\}?", written)
-        if within:
-            return f"write {{at: {{{within[1]}: {within[2]}}}}}"
-        place = written if len(names_given) == 1 and isinstance(node, Scalar) else "0"
-        return f"write {{at: {{{unknown}: {place or '0'}}}}}"
-    if isinstance(node, Sequence) and names[0] == "unit" and unit_behind(f"1 {written[1:-1]}"):
-        return f"write {{unit: {written[1:-1]}}}"
-    if isinstance(node, Sequence) and names[0] == "unit" and "value" not in names:
-        return "a coordinate has no range: leave it out"
-    if isinstance(node, Sequence) and "value" in names:
-        inner = written[1:-1]
-        if not written.startswith("["):
-            inner = ", ".join(each.value for each in node.items if isinstance(each, Scalar))
-        number, _, unit = (each.strip() for each in inner.partition(","))
-        if unit_behind(f"1 {number}"):
-            number, unit = unit, number
-        if unit and unit_behind(f"1 {unit}"):
-            return f"write {{value: {number}, unit: {unit}}}"
-        return SEVERAL
-    if isinstance(node, Scalar) and names[0] == "unit" and is_constant("x", written):
-        return "a state stands under initial, as in initial: {x: 1}"
-    if isinstance(node, Scalar) and names[0] == "unit" and written == "angle":
-        return "write {unit: rad}"
-    if isinstance(node, Scalar) and names[0] == "unit" and "value" not in names:
-        return f"write {{description: {written}}}"
-    if isinstance(node, Scalar) and names[0] == "where" and written in FOUND:
+    known = [*coordinates]
+    present = [x for x in known if x in re.findall(r"\w+", written)]
+    unknown = next(iter([*present, *known]), "x")
+    if names[0] == "unit" and (advice := _as_attributes(node, written, names)):
+        return advice
+    if names[0] == "where" and isinstance(node, Scalar) and written in FOUND:
         return ALREADY_FOUND
-    if isinstance(node, Scalar) and names[0] == "where" and len(written.split()) > 2:
-        return f"write a question as {{where: {unknown}' = 0, for: {unknown}}}"
-    if isinstance(node, Scalar) and names[0] == "where":
-        return f"write {{value: {written or '…'}, in_terms_of: [{unknown}]}}"
-    if (
-        isinstance(node, Sequence)
-        and names[0] == "until"
-        and isinstance(node.items[-1:], list)
-        and all(isinstance(each, Scalar) for each in node.items)
-    ):
-        return f"write {{until: {written.strip('[]').split(',')[-1].strip()}}}"
-    if (
-        isinstance(node, Scalar)
-        and names[0] == "position"
-        and re.match(r"(position|mass) ", written)
-    ):
+    if names[0] == "position" and isinstance(node, Scalar):
         entries = re.sub(r"(?:^|(?<=, ))(position|mass|force) +", r"\1: ", written)
-        return f"write {{{entries}}}"
-    is_position = isinstance(node, Scalar) and names[0] == "position" and written
-    if is_position and not present and written.isidentifier():  # ball: m
-        return f"write {{position: [x, y], mass: {written}}}"
-    if is_position:
-        within = re.fullmatch(r"\((.*)\)", written)
-        return f"write {{position: [{within[1] if within else written}]}}"
+        if re.match(r"(position|mass) ", written):
+            return f"write {{{entries}}}"
+        if not present and written.isidentifier():  # ball: m
+            return f"write {{position: [x, y], mass: {written}}}"
+    for key, kind, form, advice in _AS_MAP:
+        found = re.fullmatch(form, written or "…") if isinstance(node, kind) else None
+        if found and names[0] == key:
+            return f"write {found.expand(advice).replace('UNKNOWN', unknown)}"
+    if names[0] == "at":
+        place = written if len(known) == 1 and isinstance(node, Scalar) else "0"
+        return f"write {{at: {{{unknown}: {place or '0'}}}}}"
     if (words := written.split(None, 1)) and words[0] in names and words[1:]:
         return f"write {{{words[0]}: {words[1].lstrip('=: ')}}}"
-    if "accelerations" in names and (
-        known := re.fullmatch(r"([^\W\d]\w*)(''|\(t\)|)\s*=\s*(.+)", written)
-    ):
-        key = "accelerations" if known[2] == "''" else "trajectory"
-        return f"write {{{key}: {{{known[1]}: {known[3]}}}}}"
-    if names[0] == "until" and (known := re.match(r"(\d[\d.]*)\s*(?:s|sec|seconds?)\b", written)):
-        return f"write {{until: {known[1]}}}"
     if isinstance(node, Sequence) and all(isinstance(each, Mapping) for each in node.items):
         return WITHOUT_HYPHENS
-    if names[0] == "until" and isinstance(node, Scalar) and not re.search(r"\d", written):
-        return "write {until: 10}, with the time of the end"
-    fits = {"until": Scalar, "position": Sequence}.get(names[0])
-    if fits and isinstance(node, fits) and written:
-        return f"write {{{names[0]}: {written}}}"
     return f"it has the keys {', '.join(names)}"
+
+
+def _as_attributes(node: DocumentNode, written: str, names: tuple[str, ...]) -> str:
+    """How a text or a list is written as the attributes of a coordinate or a parameter."""
+    if isinstance(node, Scalar):
+        if written in get_args(Assumption):
+            return f"write {{assume: {written}}}"
+        if unit_behind(f"1 {written}") == written:
+            return f"write {{unit: {written}}}"
+        if is_constant("x", written):
+            return "a state stands under initial, as in initial: {x: 1}"
+        if "value" in names:
+            return ""
+        return "write {unit: rad}" if written == "angle" else f"write {{description: {written}}}"
+    if not isinstance(node, Sequence):
+        return ""
+    listed = [each.value for each in node.items if isinstance(each, Scalar)]
+    if unit_behind(f"1 {', '.join(listed)}"):
+        return f"write {{unit: {listed[0]}}}"
+    if "value" not in names:
+        return "a coordinate has no range: leave it out"
+    units = [each for each in listed if unit_behind(f"1 {each}")]
+    if len(units) == 1 and len(listed) == 2:
+        [number] = [each for each in listed if each not in units]
+        return f"write {{value: {number}, unit: {units[0]}}}"
+    return SEVERAL
 
 
 def key_by_shape(value: DocumentNode, problem: Mapping) -> str | None:
