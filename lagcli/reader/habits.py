@@ -60,7 +60,7 @@ _VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "�
 
 @cache
 def habits() -> dict[str, Any]:
-    """The tables in `habits.json`: by what is meant, the words that are written for it."""
+    """The tables in `habits.json`: words by what is meant, and rows of forms with their advice."""
     text = Path(__file__).with_name("habits.json").read_text("utf-8")
     tables: dict[str, Any] = json.loads(text)
     return tables

@@ -8,8 +8,8 @@ from typing import get_args
 
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
-from lagcli.reader.habits import CASE, MAPS, is_constant, key_meant, unit_behind
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.habits import CASE, MAPS, habits, is_constant, key_meant, unit_behind
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import unit_mistake
 
 #: What is found without a question.
@@ -97,36 +97,6 @@ def range_end(written: str) -> str:
     return found[2] if found else ""
 
 
-#: The first key of a map, what stands for the map (a text, a list), and how it is written.
-_AS_MAP = (
-    (
-        "where",
-        Scalar,
-        r"[\"']?(?:solve\s+)?(.*=.*\S)\s+for\s+(\w+'*)[\"']?",
-        r"{where: \1, for: \2}",
-    ),
-    (
-        "where",
-        Scalar,
-        r"[\"']?(\w+'*)\s+(?:where|when|if|at)\s+(.*=.*\S)[\"']?",
-        r"{where: \2, for: \1}",
-    ),
-    ("where", Scalar, r"(?:where\s+)?(.*=.*)", r"{where: \1, for: UNKNOWN}"),
-    ("where", Scalar, r".*\S\s+\S+\s+\S.*", "a question as {where: UNKNOWN' = 0, for: UNKNOWN}"),
-    ("where", Scalar, r".*", r"{value: \g<0>, in_terms_of: [UNKNOWN]}"),
-    ("at", DocumentNode, r"\{?\s*(\w+)\s*[:=]\s*([^=:]+?)\s*\}?", r"{at: {\1: \2}}"),
-    ("until", Sequence, r"\[(?:.*,)?\s*([^,\[\]{}]+?)\s*\]", r"{until: \1}"),
-    ("until", Scalar, r"(?:until[\s=:]+)?(\d[\d.]*)\s*(?:s|sec|seconds?)\b.*", r"{until: \1}"),
-    ("until", Scalar, r"\D*", "{until: 10}, with the time of the end"),
-    ("until", Scalar, r"(?:until[\s=:]+)?(.*)", r"{until: \1}"),
-    ("position", Scalar, r"\((.*)\)", r"{position: [\1]}"),
-    ("position", Scalar, r".+", r"{position: [\g<0>]}"),
-    ("position", Sequence, r"\[.*", r"{position: \g<0>}"),
-    ("degrees_of_freedom", Scalar, r"([^\W\d]\w*)''\s*=\s*(.+)", r"{accelerations: {\1: \2}}"),
-    ("degrees_of_freedom", Scalar, r"([^\W\d]\w*)(?:\(t\))?\s*=\s*(.+)", r"{trajectory: {\1: \2}}"),
-)
-
-
 def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str] = ()) -> str:
     """How a text or a list is written as the map that it should be."""
     written = node.text.source.text[node.start : node.end].strip()
@@ -143,8 +113,8 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
             return f"write {{{entries}}}"
         if not present and written.isidentifier():  # ball: m
             return f"write {{position: [x, y], mass: {written}}}"
-    for key, kind, form, advice in _AS_MAP:
-        found = re.fullmatch(form, written or "…") if isinstance(node, kind) else None
+    for key, kinds, form, advice in habits()["maps"]:
+        found = re.fullmatch(form, written or "…") if kind(node) in kinds else None
         if found and names[0] == key:
             return f"write {found.expand(advice).replace('UNKNOWN', unknown)}"
     if names[0] == "at":

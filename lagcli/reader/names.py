@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, get_args
+from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import (
@@ -17,9 +17,8 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.notation.greek import BY_NAME as GREEK
-from lagcli.problem_data import Assumption
 from lagcli.reader.foreign.words import Vocabulary, rate_meant
-from lagcli.reader.habits import foreign_function, instead, is_angle, meanings
+from lagcli.reader.habits import foreign_function, habits, instead, is_angle, meanings
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import alike, closest, did_you_mean
 from lagcli.reader.undeclared import COORDINATE, UNDECLARED
@@ -218,6 +217,19 @@ def _other_name(node: Name, scope: Scope, role: Role, what: str) -> Iterator[Dia
         )
 
 
+def _meant(name: str, what: str, order: str) -> str:
+    """What is written instead of a name in a place; nothing where the tables do not say it.
+
+    The order is `first`, or `unlike` for a name that no known one is spelled like.
+    """
+    said = (
+        each.expand(advice)
+        for place, form, advice in habits()["names_in"][order]
+        if re.match(place, what) and (each := re.fullmatch(form, name))
+    )
+    return next(said, meanings("names").get(name, "") if order == "unlike" else "")
+
+
 def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     coordinates = list(scope.of_kind("coordinate"))
     if role.momenta and name in {"p", "P"} and coordinates:
@@ -226,24 +238,14 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return _MOMENTA
     if role.momenta and name.startswith("p_") and not closest(name, scope.usable(role), 0.8):
         return f"declare {name[2:]} under 'coordinates'"
-    if name.casefold() in {"inf", "infinity", "oo"}:
-        return "there is no infinity"
+    if said := _meant(name, what, "first"):
+        return said
     if not role.parameters and not role.definitions and role.order < 0:
         return role.why
-    if what.startswith("the symmetry") and name in {"eps", "epsilon", "ε", "s", "a", "delta"}:
-        return "the value is the change by itself: write x: 1 for x → x + ε"
-    if what.startswith("the constraint") and name in {"lambda", "λ", "lam"}:
-        return "a constraint is written without its multiplier"
-    if what in {"T", "V", "L"} and name in {"lambda", "lam"}:
-        return f"a constraint stands under 'constraints', without its multiplier; or {UNDECLARED}"
     words = Vocabulary(tuple(coordinates), frozenset(), moving=scope.moving)
     rate = role.order > 0 and rate_meant(name, words)
-    along = re.fullmatch(r"v_?(\w+)", name)
-    radius = next((x for x in coordinates if x in {"r", "rho", "ρ", "s"}), "")
-    if role.order > 0 and along and radius and along[1] in coordinates and is_angle(along[1]):
-        polar = next((x for x in coordinates if x in {"theta", "θ"} and x != along[1]), "")
-        sine = f"*sin({polar})" if polar and along[1] in {"phi", "φ", "ϕ"} else ""
-        return f"the speed along {along[1]} is {radius}{sine}*{along[1]}'"
+    if role.order > 0 and (speed := _speed_along(name, coordinates)):
+        return speed
     known = [*coordinates, *scope.definitions] if primes else scope.usable(role)
     known = [each for each in known if each != "pi" or name not in GREEK]  # phi is not pi
     hint = "" if rate else did_you_mean(name, known)
@@ -251,30 +253,31 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return f"did you mean {name[:-1]}*t?"
     if re.fullmatch(r"_?\d+", name.removeprefix(closest(name, scope.usable(role)))):
         return UNDECLARED  # x0 beside x is another quantity
-    if name == "T" and role.time and what.startswith(("the force", "the constraint", "the symm")):
-        return "the time is t"
-    if (not hint or name == "T") and name in {"T", "V", "L", "H"}:  # t is near to T
-        return f"{name} is a key and not a name: write its formula"
-    if not hint and name in {"v", "velocity", "speed", "d"} and role.order > 0 and coordinates:
+    if hint:
+        return hint
+    if name in {"v", "velocity", "speed", "d"} and role.order > 0 and coordinates:
         return "the velocities are " + "' and ".join(coordinates) + "'"
-    if not hint and primes and role.order > 0:
+    if primes and role.order > 0:
         return COORDINATE
-    if not hint and what.startswith("the value of") and name in NO_VALUE:
-        return "a parameter without a value is written without ':', or as [m, k]"
-    if not hint and name in (usual := meanings("names")):
-        return usual[name]
-    if not hint and name in get_args(Assumption):
-        return f"an assumption is written {{assume: {name}}}"
-    if not hint and name.casefold() in {"const", "constant"}:
-        return f"a constant has a name and a value: write it as C, and {UNDECLARED}"
-    if not hint and name in {"I", "i", "j"}:
-        return f"every quantity is real; {UNDECLARED}"
+    if said := _meant(name, what, "unlike"):
+        return said
     multipliers = list(scope.of_kind("multiplier")) if role.multipliers else []
-    if not hint and len(multipliers) == 1 and re.fullmatch(r"[A-Z]\w?|F_?\w|lam\w*|λ", name):
+    if len(multipliers) == 1 and re.fullmatch(r"[A-Z]\w?|F_?\w|lam\w*|λ", name):
         return f"the multiplier of the constraint is {multipliers[0]}; or {UNDECLARED}"
     if rate:
         return f"the velocity of {rate[0]} is {rate[0]}'"
-    return hint or UNDECLARED + (", or its formula under 'definitions'" if role.definitions else "")
+    return UNDECLARED + (", or its formula under 'definitions'" if role.definitions else "")
+
+
+def _speed_along(name: str, coordinates: list[str]) -> str:
+    """`r*sin(theta)*phi'` for `v_phi` beside a radius; nothing for other names."""
+    along = re.fullmatch(r"v_?(\w+)", name)
+    radius = next((x for x in coordinates if x in {"r", "rho", "ρ", "s"}), "")
+    if not (along and radius and along[1] in coordinates and is_angle(along[1])):
+        return ""
+    polar = next((x for x in coordinates if x in {"theta", "θ"} and x != along[1]), "")
+    sine = f"*sin({polar})" if polar and along[1] in {"phi", "φ", "ϕ"} else ""
+    return f"the speed along {along[1]} is {radius}{sine}*{along[1]}'"
 
 
 def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnostic]:
