@@ -365,6 +365,9 @@ def test_it_is_told_why_there_are_none():
     assert absent.reason.endswith("do not exist for the values of the file")
     falling = modes(dynamics("coordinates: [x]\nT: x'^2/2\nV: x\n"))
     assert (falling.modes, falling.reason) == ((), "there is no equilibrium to expand about")
+    masses = "parameters: {a: {assume: positive}, b: {assume: positive}}\n"
+    balanced = modes(dynamics(f"coordinates: [x]\n{masses}T: (a + b)*x'^2/2\nV: (a - b)*x\n"))
+    assert balanced.reason == "in general there is no equilibrium to expand about"  # but for a = b
 
 
 def test_what_a_moving_constraint_carries_along_is_not_at_rest():

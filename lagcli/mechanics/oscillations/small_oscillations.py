@@ -126,7 +126,8 @@ def modes(dynamics: Dynamics) -> ModesSection:
             modes=None, reason=f"no equilibrium is known ({oscillations.rest.reason})"
         )
     if not places:
-        return ModesSection(modes=(), reason="there is no equilibrium to expand about")
+        general = "in general " * any(each.rest.unless != () for each in oscillations.held)
+        return ModesSection(modes=(), reason=f"{general}there is no equilibrium to expand about")
     chosen = [p for p in places if p.verdict.stable is not False] or places
     found = [mode for place in chosen for mode in oscillations.modes(place)]
     if not found and all(not place.linear.M and not place.held.firmly for place in places):

@@ -34,7 +34,7 @@ from lagcli.mechanics.stability.verdict import Stability, undecided, unstable
 from lagcli.record import replace
 
 #: Of contacts without a force.
-GRAZES = "nothing presses on the contact, which may open"
+GRAZES = "nothing presses on a closed contact, which may open"
 #: Of constraints whose displacements move.
 DRIFTS = "a velocity constraint has a term without velocities that depends on the place"
 #: Of a system without a degree of freedom.
