@@ -146,6 +146,7 @@ def state(derivation: Derivation, request: Request) -> Answers:
     """
     from lagcli.notation.manner import Manner
     from lagcli.rewriting import rewritten
+    from lagcli.statements.answers import CanonicalSection
     from lagcli.verification import verified
 
     answers = _ended(lambda: _statements(derivation)).answers(request.sections)
@@ -159,6 +160,8 @@ def state(derivation: Derivation, request: Request) -> Answers:
     sections: dict[str, Section] = {}
     for name, section in answers.sections.items():
         manner.anew()
+        if isinstance(section, CanonicalSection):  # the brackets of q' occur in p' as they are
+            rewritten(tuple(pair.q for pair in (section.equations or {}).values()), manner)
         sections[name] = rewritten(section, manner)
     answers = replace(
         answers,

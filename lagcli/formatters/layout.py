@@ -17,7 +17,7 @@ RELATION, SUM, COMMA, QUOTIENT, BRACKETS, PRODUCT, OPENING, DIGITS = 0, 1, 1, 5,
 
 #: One more pair of brackets around a break: worse than a slash, or a break between two brackets,
 #: outside of them.  A bracket is parted from a letter only where nothing else fits.
-_NESTING = 5.0
+_NESTING = 6.0
 #: An empty line is as bad as this many ranks.
 _RAGGEDNESS = 6.0
 

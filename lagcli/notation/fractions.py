@@ -211,6 +211,26 @@ class Brackets:
         more = sum(map(operation_count, found)) + len(found) - 1 - operation_count(term)
         return found if more <= _GROWTH + (fractional or form) else [term]
 
+    def velocity(self, terms: list[Expression]) -> list[Expression]:
+        """l₁ l₂ p − l₁ p_φ − l₂ p_ψ for l₁ (l₂ p − p_φ) − l₂ p_ψ: each term has one momentum."""
+        if len(terms) == 1 or any(self._degree(term) != 1 for term in terms):
+            return terms
+        found = [part for term in terms for part in self._each_momentum(term)]
+        return terms if len(found) == len(terms) else sorted(found, key=self._ordering.term)
+
+    def _each_momentum(self, term: Expression) -> list[Expression]:
+        """l₁ l₂ p and l₁ p_φ of l₁ (l₂ p + p_φ), a bracket of momenta behind letters alone."""
+        minus, above, below = parts_of(term)
+        brackets = [f for f in above if isinstance(f, Sum)]
+        if len(brackets) != 1 or any(self._degree(each) != 1 for each in brackets[0].terms):
+            return [term]
+        outside = _Monomial.product(minus, [f for f in above if f is not brackets[0]], below)
+        parts = [_Monomial.of(each) for each in brackets[0].terms]
+        single = not any(isinstance(base, Sum) for part in parts for base in part.powers)
+        if not single or not all(isinstance(base, Name) for base in outside.powers):
+            return [term]
+        return [part.times(outside).written(self._ordering) for part in parts]
+
     def spread(self, node: Expression) -> list[Expression]:
         """2 g/(m (x − y)³) and ω² x of (2 g/(x − y)³ + m ω² x)/m."""
         minus, above, below = parts_of(node)

@@ -90,6 +90,7 @@ class Manner:
         self._below: dict[Key, int] = {}  # of a denominator: its sign when it was first written
         self._squares: dict[Key, int] = {}  # of a squared bracket: its sign when first written
         self._within: dict[Key, int] = {}  # of a bracket in a denominator: the same
+        self._above: dict[Key, int] = {}  # of a factor above that may stand either way: the same
         self._beside: dict[frozenset[tuple[Monomial, Fraction]], Expression] = {}  # roots
         quantities = (*problem.parameters, *problem.coordinates)
         self._positive = frozenset(q.name for q in quantities if q.assume == "positive")
@@ -113,7 +114,14 @@ class Manner:
 
     def anew(self) -> None:
         """Begin another section, which is written as if it were the only one."""
-        for memory in (self._known, self._below, self._within, self._squares, self._beside):
+        for memory in (
+            self._known,
+            self._below,
+            self._within,
+            self._above,
+            self._squares,
+            self._beside,
+        ):
             memory.clear()
 
     def __call__(self, node: Expression) -> Expression:
@@ -125,7 +133,17 @@ class Manner:
         ):
             terms = self._opened(node)
         node = Sum((*positive_first(terms),)) if len(terms) > 1 else self._without_minus(node)
+        self._keep_brackets(node)
         return self._fractions(squares_as_brackets(self._potential(node), self._squares))
+
+    def _keep_brackets(self, node: Expression) -> None:
+        """Of c (a − b)/d: a product of brackets after it has a − b."""
+        for term in terms_of(node):
+            for factor in parts_of(term)[1]:
+                base, odd = odd_base(factor)
+                if base is not None and odd:
+                    sign, key = signed_key(base)
+                    self._above.setdefault(key, sign)
 
     def _without_minus(self, node: Expression) -> Expression:
         """(b − a − c)/d for −(a − b + c)/d; of a whole answer also b − a for −(a − b)."""
@@ -133,9 +151,12 @@ class Manner:
             turned = negative_of(node.operand)
             return node if isinstance(turned.terms[0], Negative) else turned
         minus, above, below = parts_of(node)
+        several = sum(odd_base(factor)[1] for factor in above) > 1
         for place, factor in enumerate(above if minus else ()):
             base, odd = odd_base(factor)
             if base is None or not odd or self._wrong(base) is not None:
+                continue
+            if several and signed_key(base)[1] in self._above:
                 continue
             minuses = sum(isinstance(term, Negative) for term in base.terms)
             if 2 * minuses + 1 >= len(base.terms):  # no more minus signs than before
@@ -280,6 +301,7 @@ class Manner:
         """The sum without brackets around inner sums, a positive term first where there is one."""
         terms = [each for term in node.terms for each in terms_of(term)]
         terms = [each for term in terms for each in self._opened(term)]
+        terms = self._brackets.velocity(terms)
         if not isinstance(terms[0], Negative):
             return node if tuple(terms) == node.terms else Sum(tuple(terms))
         if accelerates(terms[0]):  # m l² θ'' − m l y'' sin θ + …
@@ -437,9 +459,19 @@ class Manner:
                     minus = not minus
                 elif wrong is None:
                     free.append((factors, place))
+        several = len(free) > 1
+        for factors, place in free if several else ():
+            base, _ = odd_base(factors[place])
+            assert base is not None
+            sign, key = signed_key(base)
+            if self._above.get(key, sign) != sign:
+                factors[place] = with_base(factors[place], negative_of(base))
+                minus = not minus
         for factors, place in free if minus else ():
             base, _ = odd_base(factors[place])
             assert base is not None
+            if several and signed_key(base)[1] in self._above:
+                continue
             if 2 * sum(isinstance(t, Negative) for t in base.terms) >= len(base.terms):
                 factors[place] = with_base(factors[place], negative_of(base))
                 minus = False

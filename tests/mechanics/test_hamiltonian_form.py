@@ -8,13 +8,16 @@ import pytest
 import sympy
 
 import lagcli
-from lagcli.expression import Quotient, Sum, walk
+from lagcli.expression import Quotient, Sum, factors_of, opposite, walk
 from lagcli.reader.expressions import parse_text
 
 TOP = "I1*(theta'^2 + phi'^2*sin(theta)^2)/2 + I3*(psi' + phi'*cos(theta))^2/2"
 
 
-def solved(coordinates, lagrangian="", positive="m", others="", **keys):
+SECTIONS = ("hamiltonian", "energy", "equations", "accelerations")
+
+
+def solved(coordinates, lagrangian="", positive="m", others="", sections=SECTIONS, **keys):
     letters = [f"{x}: {{assume: positive}}" for x in positive.split()] + [
         f"{x}: {{}}" for x in others.split()
     ]
@@ -22,8 +25,7 @@ def solved(coordinates, lagrangian="", positive="m", others="", **keys):
     lines += [f'L: "{lagrangian}"'] if lagrangian else []
     lines += [f'{key}: "{text}"' for key, text in keys.items() if key != "constraints"]
     lines += [f"constraints: {keys['constraints']}"] if "constraints" in keys else []
-    sections = ["hamiltonian", "energy", "equations", "accelerations"]
-    return lagcli.solve(lagcli.loads("\n".join(lines) + "\n"), sections=sections)
+    return lagcli.solve(lagcli.loads("\n".join(lines) + "\n"), sections=[*sections])
 
 
 def formula(found):
@@ -159,3 +161,48 @@ def test_denominators_are_positive_and_numbers_stay_in_the_fraction():
     assert formula(atwood["accelerations"].accelerations["x"]) == (
         "(m1*m2 + m1*m3 - 4*m2*m3)*g/(m1*m2 + m1*m3 + 4*m2*m3)"
     )
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {
+            "coordinates": "x, y",
+            "positive": "a b k l g",
+            "T": "(a + b)*k^2*x'^2/2 + b*l^2*y'^2/2 + b*k*l*x'*y'*cos(x - y)",
+            "V": "-(a + b)*g*k*cos(x) - b*g*l*cos(y)",
+        },
+        {
+            "coordinates": "x, theta",
+            "positive": "M m l J g",
+            "T": "M*x'^2/2 + m*(x'^2 + 2*l*x'*theta'*cos(theta) + l^2*theta'^2)/2 + J*theta'^2/2",
+            "V": "m*g*l*cos(theta)",
+        },
+        {
+            "coordinates": "x, u, v",
+            "positive": "M m n k l g",
+            "T": "M*x'^2/2 + m*(x'^2 + k^2*u'^2 + 2*k*x'*u'*cos(u))/2"
+            " + n*(x'^2 + l^2*v'^2 + 2*l*x'*v'*cos(v))/2",
+            "V": "-m*g*k*cos(u) - n*g*l*cos(v)",
+        },
+    ],
+)
+def test_the_brackets_of_the_velocities_stand_in_the_rates_of_the_momenta(given):
+    """p1' = -A B sin(x - y)/(...)^2 - ... with the A of x' and the B of y', for two pendulums."""
+    section = solved(**given, sections=["canonical_equations"])["canonical_equations"]
+    pairs = section.equations.values()
+    velocities, rates = ({*brackets(getattr(pair, side) for pair in pairs)} for side in "qp")
+    assert velocities & rates
+    assert not {opposite_terms(each) for each in velocities} & rates
+
+
+def brackets(formulas):
+    """The sums above fraction bars, as sets of their terms."""
+    for part in (part for each in formulas for part in walk(parse_text(formula(each)))):
+        for factor in factors_of(part.numerator) if isinstance(part, Quotient) else ():
+            if isinstance(factor, Sum):
+                yield frozenset(factor.terms)
+
+
+def opposite_terms(bracket):
+    return frozenset(map(opposite, bracket))
