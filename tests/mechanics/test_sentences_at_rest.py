@@ -102,6 +102,19 @@ def test_a_blade_across_the_slope_is_not_without_a_force(seed):
     assert "no force" not in said(text, "Equilibria", "equilibria")
 
 
+@pytest.mark.parametrize("f", ["y", "2*y - y^3", "sin(y)", "y^2"])
+def test_a_level_wire_that_may_be_tilted_is_no_rest_without_a_force(f):
+    """(1 + f^2) x'' = -g f on z' = f(y) x' with y' = 0: K is 0 on the surface y = 0 alone."""
+    text = (
+        "{coordinates: [x, y, z], parameters: {g: {assume: positive}}, "
+        "T: (x'^2 + y'^2 + z'^2)/2, V: g*z, "
+        f"constraints: {{along: z' = ({f})*x', level: y' = 0}}}}"
+    )
+    verdicts = [each.verdict for each in equilibria(derive(text).dynamics).equilibria or ()]
+    assert verdicts
+    assert all(v.stable is False and "constant acceleration" in v.reason for v in verdicts)
+
+
 @pytest.mark.parametrize("inertia", random.Random(17).sample(range(1, 9), 2))
 @pytest.mark.parametrize(
     ("F", "where"), [("sin(b)", "where … ≠ 0"), ("g*b", "where b ≠ 0"), ("g + b^2", "")]

@@ -150,8 +150,8 @@ def _judged(near: Near) -> Stability:
 
 def _without_roots(near: Near) -> Stability:
     """Where all roots are 0."""
-    forced = any(x != 0 for row in near.linear.K for x in row)
-    if forced and (leaving := by_uniform_acceleration(near.linear.dynamics)):
+    if (leaving := by_uniform_acceleration(near.linear.dynamics)) is not None:
         return leaving
+    forced = any(x != 0 for row in near.linear.K for x in row)
     found = by_higher_order(near) or by_both_sides(near)
     return found or undecided(_POWERS if forced else NO_FORCE)
