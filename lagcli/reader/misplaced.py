@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 _ENERGIES = frozenset("TVLH")
+_RELATION = re.compile("[=<>]")
 #: Sections whose entries are called by names of the user's, never by these keys.
 _SECTIONS = frozenset(
     "coordinates parameters points constraints contacts forces symmetries initial find".split()
@@ -23,7 +24,8 @@ _SECTIONS = frozenset(
 def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
     """The problem with such entries as keys of its own, and a mistake at each of them.
 
-    An energy has a formula of coordinates: `T: 2` is a parameter.  What is a key already is none.
+    An energy has a formula of coordinates: `T: 2` is a parameter, `H: x = y` a constraint, and
+    the T of a coordinate T its own.  What is a key already is none.
     """
     given = {key.label for key, _ in root.entries}
     coordinates = [name for key, node in root.entries if key.label == "coordinates"
@@ -34,7 +36,10 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
         if key.in_flow or key.label in given:
             return False
         if key.label in _ENERGIES:
-            return isinstance(value, Scalar) and mentions.search(value.value) is not None
+            formula = (
+                value.value if isinstance(value, Scalar) and key.label not in coordinates else ""
+            )
+            return mentions.search(formula) is not None and not _RELATION.search(formula)
         return key.label in MAPS and isinstance(value, Mapping | Sequence)
 
     entries: list[tuple[Scalar, DocumentNode]] = []

@@ -269,3 +269,12 @@ def test_a_parameter_may_be_called_like_an_energy():
     assert not errors(
         "coordinates: [x]\nT: x'^2\nparameters:\n  V: 2\n  L: 3*V\nforces: {x: V*L*x}\n"
     )
+
+
+@pytest.mark.parametrize("name", "TVLH")
+def test_a_constraint_and_a_coordinate_may_be_called_like_an_energy(name):
+    energy = "L" if name in "TVH" else "T"
+    tied = f"coordinates: [x, y]\n{energy}: x'^2 + y'^2\nconstraints:\n  {name}: x' = y*y'\n"
+    assert not errors(tied)
+    pushed = f"coordinates: [{name}]\n{energy}: {name}'^2\nforces:\n  {name}: -2*{name}'\n"
+    assert not errors(pushed)
