@@ -29,6 +29,7 @@ from lagcli.reader.misshapen import (
     as_text,
     behind_words,
     by_its_name,
+    entries_of,
     is_sentence,
     one_sum,
     source_of,
@@ -75,6 +76,12 @@ _UNIT_WITHIN = re.compile(
     r"([\d.]+)\s+([A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+|kg|[cmk]m|k?Hz|k?N|k?J|k?W|k?Pa)(?![\w(])"
 )
 _NO_EQUATION = Equation(ZERO, ZERO)
+
+
+def _pairs(given: list[tuple[str, str]], *, braces: bool = True) -> str:
+    """`write {x: 1, x': 0}`."""
+    inner = ", ".join(map("{0[0]}: {0[1]}".format, given))
+    return f"write {{{inner}}}" if braces else f"write {inner}"
 
 
 class Required(NamedTuple):
@@ -160,10 +167,7 @@ class FileReader:
             first = node.items[0] if isinstance(node, Sequence) and node.items else None
             labels = {key.label for key, _ in getattr(first, "entries", ())}
             if first is not None and labels and labels <= SECTIONS.keys():
-                inner = ", ".join(
-                    f"{k.label}: {source_of(v)}" for k, v in getattr(first, "entries", ())
-                )
-                hint = f"each has a name: write name: {{{inner}}}, without '-'"
+                hint = f"each has a name: write name: {{{entries_of(first)}}}, without '-'"
             # behind its key a map has braces: forces: {x: -c*x'}
             hint = re.sub(r"^write ([^{}]+: [^{}]+)$", r"write {\1}", hint)
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
@@ -233,34 +237,33 @@ class FileReader:
         written = behind_words(written, self.scope.kinds)
         pairs_given = _GIVEN.findall(written) or _SIDE_BY_SIDE.findall(written)
         stated = [(self.coordinate_meant(name), value) for name, value in pairs_given]
-        if len(stated) == 1 and isinstance(node, Scalar) and stated[0][0] in names:
-            return "write {}: {}".format(*stated[0])
-        if len(stated) > 1 or (stated and isinstance(node, Sequence)):
-            return "write {" + ", ".join(f"{name}: {value}" for name, value in stated) + "}"
-        given = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
-        given = [] if is_sentence(written, self.scope.kinds) else given
-        if len(given) == 1 and isinstance(node, Scalar):
-            given = [behind_words(given[0], self.scope.kinds)]
-        if not given:
-            state = [*names, *(f"{name}'" for name in names)]
-            return "write {" + ", ".join(f"{name}: …" for name in state) + "}"
-        if isinstance(node, Scalar) and (one := as_list(node.value)) != f"[{node.value.strip()}]":
-            given = one[1:-1].split(", ")
-        elif isinstance(node, Scalar) and (listed := re.search(r"\(\[(.*)\]\)$", node.value)):
-            given = listed[1].split(",")
-        given = [part.strip() for each in given for part in each.split(";")]
-        if len(given) % 2 == 0 and {*given[::2]} <= {*names}:  # [x, -c*x']
-            stated = list(zip(given[::2], given[1::2], strict=True))
-            return "write {" + ", ".join(f"{name}: {value}" for name, value in stated) + "}"
-        if len(given) == 2 * len(names):
+        if stated and (stated[1:] or isinstance(node, Sequence) or stated[0][0] in names):
+            return _pairs(stated, braces=len(stated) > 1 or isinstance(node, Sequence))
+        values = [] if is_sentence(written, self.scope.kinds) else self._values(node)
+        if not values:
+            return _pairs([(name, "…") for name in (*names, *(f"{name}'" for name in names))])
+        if len(values) % 2 == 0 and {*values[::2]} <= {*names}:  # [x, -c*x']
+            return _pairs([*zip(values[::2], values[1::2], strict=True)])
+        if len(values) == 2 * len(names):
             names += [f"{name}'" for name in names]
-        values = [each.rpartition("=")[2].strip() or "…" for each in given]
+        values = [each.rpartition("=")[2].strip() or "…" for each in values]
         moving = [name for name in names if re.search(rf"(?<!\w){name}'", values[0])]
         if len(values) == len(moving) == 1:  # -c*x' is the force along x
             names = moving
         fits = len(values) == len(names)
-        pairs = zip(names, values, strict=True) if fits else [(names[0], "…")]
-        return "write " + ", ".join(f"{name}: {value}" for name, value in pairs)
+        return _pairs([*zip(names, values if fits else ["…"], strict=False)], braces=False)
+
+    def _values(self, node: DocumentNode) -> list[str]:
+        """The values in a list, or in a text that is one."""
+        values = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+        if isinstance(node, Scalar):
+            [text] = values = [behind_words(each, self.scope.kinds) for each in values]
+            one = as_list(node.value)
+            if one != f"[{node.value.strip()}]":
+                values = one[1:-1].split(", ")
+            elif listed := re.search(r"\(\[(.*)\]\)$", text):
+                values = listed[1].split(",")
+        return [part.strip() for each in values for part in each.split(";")]
 
     def coordinate_meant(self, name: str) -> str:
         """The coordinate of a force that is called `F`, `F_x` or `Q_x`; the velocity v."""
@@ -479,7 +482,7 @@ class FileReader:
             hint = one_sum(node, what)
             is_force = isinstance(node, Mapping) and source_of(node).count(": -")
             if what == "dissipation" and is_force:
-                hint = f"these are forces: write forces: {source_of(node)}"
+                hint = f"these are forces: write forces: {{{entries_of(node)}}}"
             elif what == "dissipation" and not re.search(r"\^2|\*\*2|²", hint):
                 hint = "one function for all coordinates, such as c*x'^2/2"
             self.error(f"{what} must be an expression, not {kind(node)}", node.span, hint)

@@ -209,6 +209,12 @@ def by_its_name(node: Sequence) -> str:
     )
 
 
+def entries_of(node: DocumentNode | None) -> str:
+    """The entries of a map in one line, as between braces."""
+    entries = node.entries if isinstance(node, Mapping) else []
+    return ", ".join(f"{key.label}: {source_of(value)}" for key, value in entries)
+
+
 def source_of(node: DocumentNode) -> str:
     """What the file has there, in one line."""
     return " ".join(node.text.source.text[node.start : node.end].split())

@@ -62,6 +62,8 @@ def read_brackets(
     if (pair := _pair(node)) and not isinstance(node, Mapping):
         file.error("brackets have names", node.span, f"write {{name: [{', '.join(pair)}]}}")
         return ()
+    if isinstance(node, Sequence) and node.items and (pair := _pair(node.items[0])):
+        hint = f"write name: [{', '.join(pair)}]"
     names = [HAMILTONIAN, *(symmetry.name for symmetry in symmetries)]
     with file.scope.also(names, "observable"):
         for key, value in file.entries(node, "brackets", hint):

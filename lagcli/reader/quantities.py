@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, TypedDict, cast, get_args
 from lagcli.expression import FUNCTIONS, Expression, Name, walk
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
-from lagcli.reader.habits import SIGNS, is_constant, names_among, unit_behind
+from lagcli.reader.habits import SIGNS, is_constant, meanings, names_among, unit_behind
 from lagcli.reader.headings import system_meant, without_headings
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.names import NO_VALUE
@@ -373,7 +373,10 @@ def _check_unit(file: FileReader, text: Scalar) -> None:
     try:
         read_unit(text.value)
     except UnitMistake as wrong:
-        file.error(wrong.message, text.excerpt().span(wrong.start, wrong.end), wrong.hint)
+        words = (meanings("units").get(each.casefold(), each) for each in text.value.split())
+        spoken = re.sub(r"\s*\b(?:per|pro|par|por)\b\s*", "/", " ".join(words))
+        hint = f"write {spoken}" if unit_behind(f"1 {spoken}") == spoken else wrong.hint
+        file.error(wrong.message, text.excerpt().span(wrong.start, wrong.end), hint)
 
 
 def _check_symbol(file: FileReader, text: Scalar) -> None:

@@ -108,7 +108,7 @@ def _state_name(
     primes = sum(2 if prime == "″" else 1 for prime in key.label[len(letters) :])
     if primes > 1:
         message = f"{key.label} in initial is an acceleration"
-        file.error(message, key.span, "a state has coordinates x and velocities x'")
+        file.error(message, key.span, "leave it out: a state has x and x'")
         return None
     return Name(letters, primes)
 

@@ -84,7 +84,7 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
         return Diagnostic(message, _span(token, excerpt), hint)
     following = tokens[place + 1] if place + 1 < len(tokens) else None
     whole = " ".join(excerpt.value.split())
-    message, hint = _unexpected(token, previous, tokens[:place], start, following, whole)
+    message, hint = _unexpected(token, tokens[:place], start, following, whole)
     return Diagnostic(message, _span(token, excerpt), hint)
 
 
@@ -203,14 +203,10 @@ def _missing_product(
 
 
 def _unexpected(
-    token: Token,
-    previous: Token | None,
-    before: list[Token],
-    start: str,
-    following: Token | None,
-    written: str,
+    token: Token, before: list[Token], start: str, following: Token | None, written: str
 ) -> tuple[str, str]:
     """Sentence and advice for a token that cannot stand where it stands."""
+    previous = before[-1] if before else None
     inside = _open_parenthesis(before)
     if token.type == "RPAR":
         if inside is None:
@@ -233,6 +229,9 @@ def _unexpected(
         hint = f"leave out '{previous} ='" if alone else "leave out '=' and what follows it"
         return "'=' stands only in constraints and equations", hint
     several = token.type == "COMMA" and "EQUAL" in {each.type for each in before}
+    if several and (named := re.fullmatch(r"([^,]*=[^,]*?)\s*,\s*(\w+)", written)):
+        hint = f"write {{equation: {named[1]}, multiplier: {named[2]}}}"
+        return "a comma ends the equation", hint
     if several and start == "equation" and inside is None:
         return "two equations in one", "write each by itself, under its own name"
     if token.type == "COMMA" and previous is not None and previous.type in END_VALUE:

@@ -204,7 +204,7 @@ def _leibniz(text: str, names: Vocabulary) -> str:
                 text = re.sub(form, f" {prime} ", text)
             times = "t" * order
             text = re.sub(
-                rf"(?<![\w.(,])\\?(?:{spelled})_?\{{?,{times}\}}?(?![\w.)])", f" {prime} ", text
+                rf"(?<![\w.(,[{{])\\?(?:{spelled})_?\{{?,{times}\}}?(?![\w.)])", f" {prime} ", text
             )
     return text
 
