@@ -24,21 +24,36 @@ _TWO = Number(Fraction(2))
 
 
 def with_versines(terms: Sequence[Expression]) -> list[Expression]:
-    """a (1 - cos x) for a - a cos x among other terms."""
+    """a (1 − cos x) for a − a cos x, a (1 + sin² x) for a + a sin² x, among other terms."""
     found = list(terms)
     for term in terms:
         minus, above, below = parts_of(term)
-        cosines = [f for f in above if isinstance(f, Call) and f.function == "cos"]
-        if len(cosines) != 1 or len(above) == 1:
+        waves = [f for f in above if _is_cosine(f) or _is_square(f)]
+        if len(waves) != 1 or len(above) == 1:
             continue
-        rest = quotient_of([f for f in above if f is not cosines[0]], below)
-        other = rest if minus else Negative(rest)
+        (wave,) = waves
+        rest = quotient_of([f for f in above if f is not wave], below)
+        negative = minus == _is_square(wave)
+        other = Negative(rest) if negative else rest
         if other in found and len(found) > 2:
-            versine = Sum((ONE, Negative(cosines[0])))
-            joined = quotient_of([*(f for f in above if f is not cosines[0]), versine], below)
-            found[found.index(other)] = joined if minus else Negative(joined)
+            bracket = Sum((ONE, wave if _is_square(wave) else Negative(wave)))
+            joined = quotient_of([*(f for f in above if f is not wave), bracket], below)
+            found[found.index(other)] = Negative(joined) if negative else joined
             found.remove(term)
     return found
+
+
+def _is_cosine(node: Expression) -> bool:
+    return isinstance(node, Call) and node.function == "cos"
+
+
+def _is_square(node: Expression) -> bool:
+    """Whether it is sin² x or cos² x."""
+    match node:
+        case Power(base=Call(function="sin" | "cos"), exponent=exponent):
+            return exponent == _TWO
+        case _:
+            return False
 
 
 _OTHER = {"sin": "cos", "cos": "sin"}

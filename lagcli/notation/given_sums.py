@@ -274,7 +274,7 @@ class GivenPotential:
     """
 
     def __init__(self, potential: Expression | None, ordering: Ordering) -> None:
-        own = potential if isinstance(potential, Sum) and not has_like_terms(potential) else None
+        own = None if isinstance(potential, Sum) and has_like_terms(potential) else potential
         value = own and multiplied_out(own)
         self._value = value if own and value and _is_tidy_inside(own) else None
         self._node = None if potential is None else _arranged(potential, ordering)
@@ -314,10 +314,10 @@ def has_like_terms(node: Sum) -> bool:
     return len(set(found)) < len(found)
 
 
-def _is_tidy_inside(node: Sum) -> bool:
+def _is_tidy_inside(node: Expression) -> bool:
     """Whether it is tidy behind other terms, where it may begin with a minus."""
-    first, *rest = node.terms
-    return is_tidy(Sum((opposite(first), *rest)) if isinstance(first, Negative) else node)
+    first, *rest = terms_of(node)
+    return is_tidy(Sum((opposite(first), *rest)) if rest and isinstance(first, Negative) else node)
 
 
 def _cost(term: Expression) -> int:

@@ -138,6 +138,12 @@ def test_terms_follow_the_file():
     assert formula(found["energy"].function) == "m*(x'^2 + y'^2)/2 + I*psi'^2/2 + J*phi'^2/2"
 
 
+def test_a_potential_of_one_term_is_written_as_in_the_file():
+    found = solved("u", positive="m g a", T="m*a^2*u'^2/2", V="m*g*(a*cos(u) + a*u*sin(u))")
+    book = "p_u^2/(2*m*a^2) + m*g*(a*cos(u) + a*u*sin(u))"
+    assert formula(found["hamiltonian"].hamiltonian) == book
+
+
 def test_a_constraint_stands_as_in_the_file():
     found = solved(
         "theta, psi", positive="m r R g",

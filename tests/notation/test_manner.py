@@ -53,6 +53,9 @@ def manner():
         ("m*(r + sin(phi))^2*g/(r + sin(phi))", "m*g*(r + sin(phi))"),
         ("g*(a + m)*(m - a)", "g*(m^2 - a^2)"),
         ("g*abs(m)*r", "g*abs(m)*r"),
+        # what is added to its own multiple by a square
+        ("g + m + m*sin(theta)^2", "g + m*(1 + sin(theta)^2)"),
+        ("g*r - m*a - m*a*cos(phi)^2", "g*r - m*a*(1 + cos(phi)^2)"),
         # a number first
         ("m*g*(cos(theta) - 1)", "-m*g*(1 - cos(theta))"),
         ("-g*(cos(theta) - 3)/r", "g*(3 - cos(theta))/r"),
