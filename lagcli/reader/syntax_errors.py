@@ -13,6 +13,7 @@ from lagcli.reader.habits import (
     COMMENT,
     DERIVED,
     REMARK,
+    habits,
     instead,
     meanings,
     superscript,
@@ -28,10 +29,6 @@ _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 #: A number in powers of ten that is not written as one: 2.0e, 2e - 3, 1.5d-3; 6.67 x 10^-11.
 _EXPONENT = re.compile(r"([\d.]+)(?:\s*([eE])\s*|([dD])(?=[-+\d]))([-+]?)\s*(\d*)(?![\w(.'])")
 _TIMES_TEN = re.compile(r"([\d.]+)\s*[xX]\s*10\s*(?:\^|\*\*|[eE])?\s*[({]?\s*(-?)[\s+]*(\d+)")
-#: What holds without being said.
-_ALWAYS = re.compile(
-    r"(?:for|at)\s+(?:all|every|any|each)\b.*$|\balways\b.*$|\bat\s+t\s*=\s*0\b.*$"
-)
 #: Before a factor of a denominator, as in p^2/2m, where 1/2m may be a half of m.
 _DENOMINATOR = re.compile(r"(?:[\w.]*[^\W\d][\w.']*|[)'²]|\^\s*\d)\s*/\s*$")
 
@@ -136,28 +133,13 @@ def _missing_product(
     if left.type == "NAME" and known in FUNCTIONS:
         message = f"the argument of {left} stands in parentheses"
         return Diagnostic(message, span, f"did you mean {known}({right})?")
-    if left.type == right.type == "NAME" and str(left) == "dt":  # d/dt x
-        return Diagnostic("a rate is written with a prime", span)
-    if str(right) == "and":
-        return Diagnostic("two statements in one", span, "write each by itself, under its own name")
+    for pair, text, message, hint in habits()["side_by_side"]:
+        beside = re.fullmatch(pair, f"{left} {right}")
+        if beside and (within := re.search(text, excerpt.value)):
+            return Diagnostic(message, span, (within if text else beside).expand(hint))
     if str(left) == "lambda" and ":" in excerpt.value:
         written = excerpt.value.partition(":")[2].strip()
         return Diagnostic("a formula is no program", span, f"write {written}")
-    if left.type == "NUMBER" and str(right) == "percent":
-        return Diagnostic("'percent' has no meaning", span, f"write {left}/100")
-    if re.fullmatch(r"Σ|(?:Σ|sum|prod)_\w+", str(left)):
-        return Diagnostic("a formula has no sums", span, instead("sum"))
-    if {"where", "with"} & {left, right} and re.search("[=<>]", excerpt.value):
-        return Diagnostic("a formula has no conditions", span, "values stand under 'parameters'")
-    if always := _ALWAYS.search(excerpt.value):
-        message = "a remark is no part of a formula"
-        return Diagnostic(message, span, f"leave out '{always[0]}'")
-    if {str(left), str(right)} & CASES:
-        return Diagnostic("a formula has no cases", span, CASE)
-    if right.type == "LPAR" and following is not None and following.type == "STAR":
-        return Diagnostic("a comment is no part of a formula", span, COMMENT)
-    if re.search(r"\s\(\s*[^\W\d]{3,}(?:\s+[^\W\d]+)+\s*\)\s*$", excerpt.value):
-        return Diagnostic("a remark is no part of a formula", span, COMMENT)
     if "\n" in excerpt.value[left.end_pos : right.start_pos]:
         hint = "begin the second line with its sign, as in + x"
         return Diagnostic("two lines without a sign between them", span, hint)

@@ -103,10 +103,6 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         begin = text.line_starts[number] + latex.start()
         message = "'\\' has no meaning in an expression"
         return Diagnostic(message, text.span(begin, begin + 1), "put the formula in quotes: '…'")
-    if re.match(r"\s*[–—•·]\s", line):
-        return Diagnostic("this is no item of a list", span, colon_advice(line))
-    if line.startswith("```"):
-        return Diagnostic("this line is none of the file", span, f"leave out '{line}'")
     if text.source.text.startswith("?", offset):
         return Diagnostic("'?' is not a value", span, "leave out what is not known")
     after = text.source.text[offset:]
