@@ -776,6 +776,18 @@ def test_answers_without_constraints_do_not_speak_of_multipliers():
     assert "The solved accelerations are substituted, and every" in said(free, "Questions", "find")
 
 
+@pytest.mark.parametrize("n", random.Random(29).sample(range(1, 9), 2))
+def test_what_cancels_below_a_damped_frequency_is_not_written(n):
+    """Of z'' + (c + i s) z' = 0 the root is -c - i s: it turns with s and decays with c."""
+    text = (
+        "{coordinates: [x, y], parameters: {c: {assume: positive}, s: {assume: positive}}, "
+        f"L: (x'^2 + y'^2)/2 + {n}*s*(x*y' - y*x')/2, dissipation: c*(x'^2 + y'^2)/2}}"
+    )
+    [turning] = [mode for mode in modes(derive(text).dynamics).modes if mode.decay is not None]
+    assert to_grammar(turning.frequency) == ("s" if n == 1 else f"{n}*s")
+    assert to_grammar(turning.decay) == "c"
+
+
 POISSON = "act, so the bracket of two constants of the motion need not be constant"
 
 

@@ -17,9 +17,10 @@ from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import combinations
 
+import sympy
 from sympy import Expr, I, S, Symbol, acos, im
 
-from lagcli.algebra import dot, is_zero
+from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.conjugate_roots import (
     with_number_turned,
     with_positive_factors,
@@ -396,8 +397,12 @@ class SmallOscillations:
         """sqrt(k/m - c²/(4 m²)), the frequency without damping and the decay in their shapes."""
         if mode.decay is None or mode.square is None:
             return None
-        parts = [self._tree(mode.square), self._tree(-(mode.decay**2))]
-        return Call("sqrt", (sum_of(part for part in parts if part != ZERO),))
+        parts = (mode.square, -(mode.decay**2))
+        terms = [sympy.Add.make_args(sympy.expand(e)) for e in (sympy.Add(*parts), *parts)]
+        cancel = len(terms[0]) < len(terms[1]) + len(terms[2])
+        if cancel and mode.decay != 0:  # (c² + s²)/m² - c²/m²
+            return self._tree(sympy.sqrt(simplify(sympy.Add(*parts))))
+        return Call("sqrt", (sum_of(part for part in map(self._tree, parts) if part != ZERO),))
 
     def _alike(self, modes: Sequence[NormalMode]) -> dict[int, Expression]:
         """The frequencies that differ in the sign of sqrt(2) or of another number's root."""
