@@ -32,13 +32,14 @@ def derive(statements: Statements) -> ChargesSection:
     listed = (*discovery.charges, *discovery.momentum_equations)
     if discovery.stopped and not listed:
         statements.lacks("the symmetries", "; ".join(discovery.stopped))
-        return ChargesSection(charges=(), sought=False)
+        return ChargesSection(charges=(), sought=False, discovered=True)
     statements.warnings.extend(discovery.stopped)
     return ChargesSection(
         charges=tuple(
             replace(stated_charge(statements, each), where=real_where(each, statements.system))
             for each in listed
-        )
+        ),
+        discovered=True,
     )
 
 

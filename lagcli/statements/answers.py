@@ -174,13 +174,14 @@ class Charge:
 
 @record(kw_only=True)
 class ChargesSection:
-    """The candidates of the file, then the evident symmetries (or the discovered ones).
+    """The candidates of the file, then the evident symmetries; or the `discovered` ones.
 
     `sought` is False where the search did not come to an end and found none.
     """
 
     charges: tuple[Charge, ...]
     sought: bool = True
+    discovered: bool = False
 
 
 @record(kw_only=True)

@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 
 from lagcli.expression import ZERO, Name, Sum
+from lagcli.reader import read_problem
 from lagcli.record import replace
+from tests.solved import solve
 
 from .omissions import derived, refuted, silent
 
@@ -61,3 +63,24 @@ def test_what_nothing_damps_is_not_called_damped() -> None:
     damped = [replace(mode, damped=True, decay=ZERO) for mode in section.modes]
     assert not refuted(problem, answers, "modes", section)
     assert refuted(problem, answers, "modes", replace(section, modes=tuple(damped)))
+
+
+@pytest.mark.parametrize("force", ["cos(w*t)", "t^2", "cos(w*t)*x"])
+def test_a_search_that_finds_none_promises_none(force: str) -> None:
+    """The candidates of the file, and h with its rate, are among its own charges only."""
+    text = f"""title: t
+coordinates: [x]
+parameters: {{m: {{assume: positive}}, k: {{assume: positive}}, w: {{assume: positive}}}}
+T: m*x'^2/2
+V: k*x^4/4 + x^3*{force}
+symmetries: {{time: {{t: 1}}, shift: {{x: 1}}}}
+"""
+    problem = read_problem("t.yaml", text.encode()).problem
+    assert problem is not None
+    answers = solve(problem, ["charges", "discovered"])
+    assert answers.sections["discovered"].charges == ()
+    assert len(answers.sections["charges"].charges) == 2
+    for name in "charges", "discovered":
+        assert not refuted(problem, answers, name, answers.sections[name])
+    without = replace(answers.sections["charges"], charges=answers.sections["charges"].charges[:1])
+    assert refuted(problem, answers, "charges", without)

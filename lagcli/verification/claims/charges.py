@@ -28,18 +28,24 @@ def charges(x: Examination, section: ChargesSection) -> ChargesSection:
     """Each charge of a section."""
     checked = tuple(_charge(x, charge) for charge in section.charges)
     if section.sought and not any(charge.source == "discovered" for charge in checked):
-        _evident_are_listed(x, checked)
+        _evident_are_listed(x, checked, with_rates=not section.discovered)
     return section if checked == section.charges else replace(section, charges=checked)
 
 
-def _evident_are_listed(x: Examination, charges: Sequence[Charge]) -> None:
-    """Note a momentum of a cyclic coordinate, or the energy, that depends on none of these."""
+def _evident_are_listed(x: Examination, charges: Sequence[Charge], *, with_rates: bool) -> None:
+    """Note a momentum of a cyclic coordinate, or the energy, that depends on none of these.
+
+    Those that are not conserved have their rates among the charges of the file, not among those
+    that a search finds.
+    """
     reference = x.reference
     states = x.states(BRANCHED) if reference.rows else x.states()
     if not states or reference.large or reference.of_phase_space or not x.regular:
         return
     for what, place in _evident(x, states):
         lasts = all(is_zero(s.laws.rate(place)) for s in states)
+        if not (lasts or with_rates):
+            continue
         listed = [c.charge for c in charges if (c.conserved or not lasts) and c.charge is not None]
         known = [each for charge in listed for each in x.places("", [charge]) or ()]
         if _is_independent(x, place, known):

@@ -61,7 +61,7 @@ def _compared(problem: Problem, section: Section) -> Iterator[Compared]:
         case ForcesSection(forces=tuple()):
             friction = [each.name for each in problem.constraints if each.acts_as == "friction"]
             yield [name for each in section.friction_needed for name in each.frictions], friction
-        case ChargesSection() if all(c.source != "discovered" for c in section.charges):
+        case ChargesSection(discovered=False):
             yield [each.name for each in section.charges], [s.name for s in problem.symmetries]
         case SteadySection(motions=tuple(motions)):
             for motion in motions:
