@@ -89,6 +89,9 @@ def declare_definitions(file: FileReader, node: DocumentNode) -> list[tuple[Scal
         written = [each.value for each in lines if isinstance(each, Scalar)]
         file.scope.refused.append("")
         hint = colon_advice(written[0]) if written else hint
+        several = re.findall(r"(\w+)\s*=\s*(.*?)(?=[\s,;]+\w+\s*=|$)", "; ".join(written))
+        if several[1:]:
+            hint = f"write {{{', '.join(map(': '.join, several))}}}"
         file.scope.refused += [line.partition("=")[0].strip() for line in written]
     if found := without_headings(node, ()):
         file.error(f"'{found[0].label}' in definitions is not a formula", found[0].span, found[1])

@@ -315,7 +315,10 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
     elif not scope.refused or instead(name) or foreign_function(name):
         functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]
         best = "" if foreign_function(name) else closest(name, functions)
-        hint = "declare it under 'functions', or write its formula"
+        given = [
+            str(x) if isinstance(x, Name) else "xyzuvw"[i % 6] for i, x in enumerate(node.arguments)
+        ]
+        hint = f"declare it: functions: {{{name}: [{', '.join(given)}]}}, or write its formula"
         hint = f"did you mean {best}(…)?" if best else hint
         hint = instead(name) or hint
         yield Diagnostic(f"unknown function '{name}' in {what}", node.span, hint)

@@ -62,7 +62,7 @@ NUMBERS = Role(
     time=False,
     parameters=False,
     definitions=False,
-    why="only a number can stand here",
+    why="only a number can stand here, as in 10 or 1e-9",
 )
 QUESTION = Role(order=2, why="no law needs a third derivative", multipliers=True, momenta=True)
 #: A column of a numerical run.

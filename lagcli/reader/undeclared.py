@@ -28,7 +28,14 @@ _SHOWN = 3
 #: A longer list of parameters is not repeated.
 _LONGEST = 80
 _SHAPE = re.compile(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
-_OTHER_WORD = re.compile(r"unknown key ('.*') in the problem: the key is (\w+)")
+#: Other words for keys, and constants outside of `parameters`; what is said of all of them.
+_TOGETHER = (
+    (re.compile(r"unknown key ('.*') in the problem: the key is (\w+)"), "the keys are {}"),
+    (
+        re.compile(r"unknown key ('.*') in the problem: a constant .* parameters: \{(.*)\}"),
+        "constants stand under parameters: write parameters: {{{}}}",
+    ),
+)
 _NAME = re.compile(r"unknown name '(\w+)' in (.*)")
 
 
@@ -55,16 +62,19 @@ def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
         By their place.
     """
     kept: dict[tuple[str, str], Diagnostic] = {}
-    for each in _of_one_language(list(_with_value(diagnostics))):
-        found = _KEY.fullmatch(each.message)
-        place = found["place"] if found else _ORDER.sub(r"\1 \3", each.message)
-        same = found is None or place != "the problem" or each.hint.startswith("it is one sum")
+    found = list(_with_value(diagnostics))
+    for form, advice in _TOGETHER:
+        found = _together(found, form, advice)
+    for each in found:
+        wrong = _KEY.fullmatch(each.message)
+        place = wrong["place"] if wrong else _ORDER.sub(r"\1 \3", each.message)
+        same = wrong is None or place != "the problem" or each.hint.startswith("it is one sum")
         key = (place, each.hint) if each.hint and same else (str(each.span), each.message)
         key = (place, "") if _SHAPE.search(each.message) else key
         first = kept.setdefault(key, each)
-        if found and first is not each:
+        if wrong and first is not each:
             earlier = _KEY.sub(r"\g<keys>", first.message)
-            message = f"unknown keys {earlier}, {found['keys']} in {place}"
+            message = f"unknown keys {earlier}, {wrong['keys']} in {place}"
             kept[key] = replace(first, message=message)
     return tuple(kept.values())
 
@@ -145,15 +155,17 @@ def _with_value(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
         yield last
 
 
-def _of_one_language(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
-    """The mistakes, with one for all keys of the problem that are other words for its keys."""
-    found = [(each, _OTHER_WORD.fullmatch(f"{each.message}: {each.hint}")) for each in diagnostics]
+def _together(
+    diagnostics: list[Diagnostic], form: re.Pattern[str], advice: str
+) -> list[Diagnostic]:
+    """The mistakes, with one for all keys of the problem that have advice of one form."""
+    found = [(each, form.fullmatch(f"{each.message}: {each.hint}")) for each in diagnostics]
     words = [(each, match[1], match[2]) for each, match in found if match]
     if not words[1:]:
         return diagnostics
     keys = ", ".join(meant for _, _, meant in words)
     message = f"unknown keys {', '.join(word for _, word, _ in words)} in the problem"
-    whole = replace(words[0][0], message=message, hint=f"the keys are {keys}")
+    whole = replace(words[0][0], message=message, hint=advice.format(keys))
     kept = (whole if each is words[0][0] else each for each, _ in found)
     return [each for each in kept if all(each is not other for other, *_ in words[1:])]
 

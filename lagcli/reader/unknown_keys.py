@@ -97,6 +97,8 @@ def unknown_key(
         hint = "inside { } a comma ends the value: put a text with commas in quotes"
     if "parameters" in names and is_constant(word, written):
         scope.refused.append(word)
+    if isinstance(value, Mapping | Sequence):
+        hint = hint.replace(": …}", f": {source_of(value)}}}")
     if hint.startswith("did you mean"):
         meant = meant or closest(word, names, _NEAR)
     known = f"known are {', '.join(names)}" if names != KEYS else _MANUAL
