@@ -115,6 +115,26 @@ def test_a_level_wire_that_may_be_tilted_is_no_rest_without_a_force(f):
     assert all(v.stable is False and "constant acceleration" in v.reason for v in verdicts)
 
 
+@pytest.mark.parametrize("n", random.Random(31).sample(range(1, 9), 2))
+@pytest.mark.parametrize(
+    ("q", "constraint", "height"),
+    [
+        ("[x, y]", "x*y' = y*x'", "y"),  # a ray: r'' = -g sin(angle)
+        ("[x, y]", "(x + {n}*y)*y' = y*(x' + {n}*y')", "y"),
+        ("[x, y, z]", "y*z' = z*y'", "z"),  # a plane through an axis
+    ],
+)
+def test_a_slope_on_the_surfaces_beside_it_moves_away(q, constraint, height, n):
+    """Of integrable velocity constraints: it may be moved to another ray or plane."""
+    T = " + ".join(f"{name}'^2/2" for name in q.strip("[]").split(", "))
+    given = f"coordinates: {q}, T: {T}, constraints: {{c: {constraint.format(n=n)}}}"
+    told = said(f"{{{given}, V: {n}*{height}}}", "Equilibria", "equilibria")
+    assert "Unstable: beside it, on other surfaces of the constraints, a force moves" in told
+    free = said(f"{{{given}}}", "Equilibria", "equilibria")
+    assert "Stable up to displacements" in free
+    assert "nstable" not in free.replace("Stable", "")
+
+
 @pytest.mark.parametrize("inertia", random.Random(17).sample(range(1, 9), 2))
 @pytest.mark.parametrize(
     ("F", "where"), [("sin(b)", "where … ≠ 0"), ("g*b", "where b ≠ 0"), ("g + b^2", "")]

@@ -89,6 +89,11 @@ class Linearization:
     @cached_property
     def K(self) -> Matrix:
         """The stiffness."""
+        return self._along(self.stiffness)
+
+    @cached_property
+    def stiffness(self) -> Matrix:
+        """Of all coordinates: the change of forces along B with any displacement."""
         q, equations = self.system.q, self.dynamics.constraints.equations
         values = self._there([[-f.diff(x) for x in q] for f in self.rest.forces_at_rest])
         for k, force in self.constraint_forces.items():  # constant: B^T A^T = 0
@@ -97,7 +102,7 @@ class Linearization:
                 [e + force * x for e, x in zip(*rows, strict=True)]
                 for rows in zip(values, turned, strict=True)
             ]
-        return self._along(values)
+        return values
 
     @cached_property
     def constraint_forces(self) -> dict[int, Expr]:

@@ -29,7 +29,7 @@ from lagcli.mechanics.stability.lagrange_dirichlet import (
 from lagcli.mechanics.stability.lyapunov import FALLS, by_a_growing_root, falls
 from lagcli.mechanics.stability.near import Near
 from lagcli.mechanics.stability.roots import by_roots
-from lagcli.mechanics.stability.uniform import by_uniform_acceleration
+from lagcli.mechanics.stability.uniform import by_neighbouring_surfaces, by_uniform_acceleration
 from lagcli.mechanics.stability.verdict import Stability, undecided, unstable
 from lagcli.record import replace
 
@@ -153,5 +153,5 @@ def _without_roots(near: Near) -> Stability:
     if (leaving := by_uniform_acceleration(near.linear.dynamics)) is not None:
         return leaving
     forced = any(x != 0 for row in near.linear.K for x in row)
-    found = by_higher_order(near) or by_both_sides(near)
+    found = by_higher_order(near) or by_both_sides(near) or by_neighbouring_surfaces(near)
     return found or undecided(_POWERS if forced else NO_FORCE)

@@ -12,13 +12,17 @@ from collections.abc import Sequence
 
 from sympy import Expr, Mul, S, Symbol
 
-from lagcli.algebra import is_zero, simplify
+from lagcli.algebra import dot, is_zero, nullspace, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of
+from lagcli.algebra.place import at
+from lagcli.algebra.positivity import sign_of
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.stability.near import Near
 from lagcli.mechanics.stability.verdict import Stability, unstable
 
+_ASIDE = "beside it, on other surfaces of the constraints, a force moves it away"
 #: By an exact solution.
 _ACCELERATES = "near it there are motions with a constant acceleration"
 
@@ -45,6 +49,34 @@ def by_uniform_acceleration(dynamics: Dynamics) -> Stability | None:
     if not fewest:
         return unstable(_ACCELERATES)
     return Stability(growing=Mul(*fewest) ** 2, reason=_ACCELERATES)
+
+
+def by_neighbouring_surfaces(near: Near) -> Stability | None:
+    """Unstable beside a surface of integrable velocity constraints on which it rests everywhere.
+
+    Where a displacement e to another surface brings a force along it, e f(q) + O(e^2) with
+    f(q0) not 0, the scaled time sqrt(e) t has a motion M q'' = f(q) that leaves at once.
+    """
+    linear = near.linear
+    constraints, values = linear.dynamics.constraints, linear.point.values
+    still = dict.fromkeys(linear.system.qdot, S.Zero)
+    slopes = (f.diff(v).xreplace(still) for f in linear.rest.forcing for v in still)
+    if "nonholonomic" in constraints.kinds.values() or any(x != 0 for x in slopes):
+        return None
+    if near.dimension != len(linear.M) or not near.inertia_is_definite:
+        return None
+    rows = [[at(a, values) for a in e.row] for e in constraints.equations if e.holonomic]
+    columns = list(zip(*linear.stiffness, strict=True))
+    forces = [[dot(b, column) for column in columns] for b in linear.basis]
+    changes = (
+        [simplify(dot(f, d)) for f in forces for d in nullspace(rows)]
+        if rows
+        else [simplify(x) for force in forces for x in force]
+    )
+    changes = [each for each in changes if each != 0]
+    if any(sign_of(each**2, near.positive) == 1 for each in changes):
+        return unstable(_ASIDE)
+    return Stability(growing=changes[0] ** 2, reason=_ASIDE) if changes else None
 
 
 def _may_be_zero(a: Expr, state: Sequence[Symbol]) -> list[Expr]:
