@@ -66,9 +66,10 @@ def blocks(section: SteadySection, answers: Answers) -> Iterator[Block]:
         yield from found
         return
     if section.eliminated:
+        lead = "The constraints give " if len(section.eliminated) > 1 else "The constraint gives "
         yield Paragraph(
             (
-                "The constraints give ",
+                lead,
                 *listed(section.eliminated, 1),
                 " in terms of the other velocities.",
             )

@@ -746,3 +746,18 @@ V: k*x^2/2
     assert ("multipliers" in told) == bool(constraints)
     assert ("constraint" in told) == bool(constraints)
     assert ("constraints" in told) == (constraints == 2)
+
+
+@pytest.mark.parametrize("offset", ["a", "2*a", "-a"])
+def test_the_coordinates_that_rest_in_a_steady_motion_are_named(offset):
+    """A sled that runs straight: phi' = 0, as the accelerations depend on phi."""
+    text = f"""
+coordinates: [x, y, phi]
+parameters: {{m: {{assume: positive}}, I: {{assume: positive}}, a: {{assume: positive}}}}
+T: m*((x' - ({offset})*phi'*sin(phi))^2 + (y' + ({offset})*phi'*cos(phi))^2)/2 + I*phi'^2/2
+V: 0
+constraints: {{blade: "y'*cos(phi) = x'*sin(phi)"}}
+"""
+    told = said(text, "Steady motions", "steady_motions")
+    assert told.startswith("The constraint gives y' in terms of the other velocities")
+    assert "So is the coordinate that the accelerations depend on, phi." in told

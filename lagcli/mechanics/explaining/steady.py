@@ -47,7 +47,7 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
     """The relative equilibria: cyclic velocities constant, the other coordinates at rest."""
     found = cast(SteadySection, section)
     if "inertia" in found.acting:
-        yield says(*_with_constant_velocities(explainer, found))
+        yield says(*_with_constant_velocities(found))
         yield from _steady_states(explainer, found)
         return
     if found.motions is None and found.reason == ALL_CYCLIC:
@@ -86,19 +86,31 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
     yield from _steady_states(explainer, found)
 
 
-def _with_constant_velocities(explainer: Explainer, found: SteadySection) -> list[Part]:
+def _with_constant_velocities(found: SteadySection) -> list[Part]:
     """What vanishes where rates are sought that no constant momentum gives."""
     end = ":" if any(each != ZERO for each in found.conditions.values()) else "."
-    rest = (
-        " the coordinates that the accelerations depend on. What is left of the equations of "
-        f"motion vanishes{end}"
-    )
+    rest: list[Part] = [
+        *_that_rest(found),
+        f" What is left of the equations of motion vanishes{end}",
+    ]
     if not found.eliminated:
-        return [f"In a steady motion the velocities are constant. So are{rest}"]
+        return ["In a steady motion the velocities are constant.", *rest]
+    lead = "The constraints give " if len(found.eliminated) > 1 else "The constraint gives "
     given = [*names(found.eliminated, 1), " in terms of the other velocities, which are constant"]
-    several = len(explainer.dynamics.constraints.equations) > 1
-    lead = "The constraints give " if several else "The constraint gives "
-    return [lead, *given, f" in a steady motion. So are{rest}"]
+    return [lead, *given, " in a steady motion.", *rest]
+
+
+def _that_rest(found: SteadySection) -> list[Part]:
+    """The coordinates that the accelerations depend on: phi' = 0 of a sled that runs straight."""
+    states = found.motions or ()
+    resting = dict.fromkeys(
+        name for each in states for name in (*each.at, *each.free) if not name.endswith("'")
+    )
+    if states and not resting:
+        return []
+    one, known = len(resting) == 1, [", ", *names(tuple(resting))] if resting else []
+    kind = " So is the coordinate" if one else " So are the coordinates"
+    return [f"{kind} that the accelerations depend on", *known, "."]
 
 
 def _steady_without_momenta(explainer: Explainer, found: SteadySection) -> str:
