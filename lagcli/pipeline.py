@@ -145,8 +145,9 @@ def state(derivation: Derivation, request: Request) -> Answers:
         When the equations take more work than they are allowed.
     """
     from lagcli.notation.manner import Manner
-    from lagcli.rewriting import rewritten
+    from lagcli.rewriting import parts_in, rewritten
     from lagcli.statements.answers import CanonicalSection
+    from lagcli.statements.motions import Above
     from lagcli.verification import verified
 
     answers = _ended(lambda: _statements(derivation)).answers(request.sections)
@@ -160,6 +161,8 @@ def state(derivation: Derivation, request: Request) -> Answers:
     sections: dict[str, Section] = {}
     for name, section in answers.sections.items():
         manner.anew()
+        for each in parts_in(section, Above):
+            manner.expect(each.left, each.right)
         if isinstance(section, CanonicalSection):  # the brackets of q' occur in p' as they are
             rewritten(tuple(pair.q for pair in (section.equations or {}).values()), manner)
         sections[name] = rewritten(section, manner)

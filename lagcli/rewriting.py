@@ -21,18 +21,23 @@ def rewritten(value: Value, rewrite: Callable[[Expression], Expression]) -> Valu
 
 def expressions_in(value: object) -> Iterator[Expression]:
     """The outermost expressions in a value, in order."""
+    yield from parts_in(value, Expression)
+
+
+def parts_in(value: object, kind: type[Value]) -> Iterator[Value]:
+    """The outermost parts of this class in a value, in order."""
     parts: Iterable[object] = ()
     match value:
-        case Expression():
+        case kind():
             yield value
         case tuple() | list():
             parts = value
         case Mapping():
             parts = value.values()
-        case _ if is_dataclass(value):
+        case _ if is_dataclass(value) and not isinstance(value, Expression):
             parts = (getattr(value, each.name) for each in fields(value))
     for part in parts:
-        yield from expressions_in(part)
+        yield from parts_in(part, kind)
 
 
 def rebuilt(node: Expression, rewrite: Callable[[Expression], Expression]) -> Expression:

@@ -124,6 +124,12 @@ class Manner:
         ):
             memory.clear()
 
+    def expect(self, left: Expression, right: Expression) -> None:
+        """Of a section with the condition a > b: a denominator has a − b."""
+        difference = Sum((*_terms(left), *map(opposite, _terms(right))))
+        if len(difference.terms) > 1:
+            self._keep_sign(difference)
+
     def __call__(self, node: Expression) -> Expression:
         """The formula as the file would write it; its value stays."""
         node = self._in_manner(with_single_angles(node), inside=False)
@@ -345,6 +351,8 @@ class Manner:
             return like[0] < 0
         if below and (found := sign_at_random(node, self._positive)):
             return found < 0
+        if below and (constant := self._constant_term(node)) is not None:
+            return isinstance(constant, Negative)
         if below and (positive := _determinant(node)) is not None:
             return not positive
         if below and (first := self._declared_first(node)) is not None:
@@ -357,6 +365,18 @@ class Manner:
         if (momentum := self._momenta.turned(node)) is not None:
             return momentum
         return True if _all_negative(node) else None
+
+    def _constant_term(self, node: Sum) -> Expression | None:
+        """The a⁴ of a⁴ − (a² − b²) x²; None where others have no square of a coordinate."""
+        constants = [term for term in node.terms if self._ordering.is_parameter(term)]
+        others = [term for term in node.terms if term not in constants]
+        powers = ([*map(whole_power, parts_of(term)[1])] for term in others)
+        squared = (
+            any(self._ordering.is_coordinate(b) and e > 0 and e % 2 == 0 for b, e in each)
+            for each in powers
+        )
+        sign = sign_at_random(constants[0], self._positive) if len(constants) == 1 else 0
+        return constants[0] if sign and others and all(squared) else None
 
     def _declared_first(self, node: Sum) -> bool | None:
         """Whether it is 3 a² − 2 b² with a before b in the file; False of 2 b² − 3 a²."""

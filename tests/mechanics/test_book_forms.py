@@ -343,3 +343,16 @@ constraints: {blade: "x'*sin(theta) - y'*cos(theta) = 0"}
         "steady_motions"
     ]
     assert [to_grammar(each) for each in section.conditions.values()] == ["F"]
+
+
+def test_a_denominator_is_positive_where_the_condition_of_the_answer_holds():
+    """Two beads on a ring that turns freely: their period, where g I² > R p²."""
+    T = "I*phi'^2/2 + m*R^2*(theta'^2 + phi'^2*sin(theta)^2)"
+    file = ("[phi, theta]", "m R g I", f"T: {T}\nV: 2*m*g*R*cos(theta)")
+    found = state(derive(problem_of(*file)), Request(sections=("reduction",))).sections["reduction"]
+    assert isinstance(found, ReductionSection)
+    assert found.one_freedom is not None
+    [series] = found.one_freedom.periods
+    [where] = series.where
+    difference = f"{to_grammar(where.left)} - {to_grammar(where.right)}"
+    assert f"/(16*I*({difference}))" in to_grammar(series.period)

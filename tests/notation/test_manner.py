@@ -53,6 +53,8 @@ def manner():
         ("m*(r + sin(phi))^2*g/(r + sin(phi))", "m*g*(r + sin(phi))"),
         ("g*(a + m)*(m - a)", "g*(m^2 - a^2)"),
         ("g*abs(m)*r", "g*abs(m)*r"),
+        # a denominator that is positive where the coordinates are 0
+        ("g/((m^2 - R^2)*theta^2 - a^4)", "-g/(a^4 + (R^2 - m^2)*theta^2)"),
         # what is added to its own multiple by a square
         ("g + m + m*sin(theta)^2", "g + m*(1 + sin(theta)^2)"),
         ("g*r - m*a - m*a*cos(phi)^2", "g*r - m*a*(1 + cos(phi)^2)"),
