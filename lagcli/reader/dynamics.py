@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Point, Problem
+from lagcli.reader.by_coordinate import by_name, coordinate_meant
 from lagcli.reader.file_reader import Required
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import colon_advice
@@ -255,7 +256,7 @@ def read_by_coordinate(
     """A map coordinate → expression."""
     found = {}
     coordinates = list(file.scope.of_kind("coordinate"))
-    entries = list(file.entries(node, section, file.by_name(node)))
+    entries = list(file.entries(node, section, by_name(node, file.scope)))
     if whole := forces_without_headings(node, coordinates):
         [heading, *_] = [key for key, value in entries if isinstance(value, Mapping)]
         message = f"'{heading.label}' in {section} is not a coordinate"
@@ -263,7 +264,7 @@ def read_by_coordinate(
         return {}
     for key, value in entries:
         if file.scope.kinds.get(key.label) != "coordinate":
-            along = file.coordinate_meant(key.label.rstrip("'"))
+            along = coordinate_meant(key.label.rstrip("'"), file.scope)
             hint = f"write {along}" if along in coordinates else ""
             hint = hint or did_you_mean(key.label, coordinates)
             pointed = ", or as 'force' of a point" if section == "forces" else ""

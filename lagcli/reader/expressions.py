@@ -9,6 +9,8 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar, cast
 
 from lagcli.diagnostics import ProblemError, Source
+from lagcli.expression import Equation
+from lagcli.problem_data import Inequality
 from lagcli.reader.automaton import Token, Unexpected
 from lagcli.reader.builder import excerpt_being_read, mistake
 from lagcli.reader.constants import check_constants
@@ -20,8 +22,7 @@ from lagcli.reader.text import Mistake
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from lagcli.expression import Equation, Expression
-    from lagcli.problem_data import Inequality
+    from lagcli.expression import Expression
 
 
 Tree = TypeVar("Tree")
@@ -101,3 +102,12 @@ def _tokens(value: str) -> list[Token]:
     with suppress(Unexpected):
         tokens.extend(automaton().tokens(value))
     return tokens
+
+
+def sides_of(
+    formula: Expression | Equation | Inequality,
+) -> tuple[Expression, ...]:
+    """A formula, or both sides of a relation."""
+    if isinstance(formula, Equation | Inequality):
+        return formula.left, formula.right
+    return (formula,)

@@ -9,14 +9,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
-from lagcli.reader.expressions import read_comparison, read_equation, read_expression
+from lagcli.reader.expressions import read_comparison, read_equation, read_expression, sides_of
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import (
     LISTS,
     MAPS,
     key_meant,
-    unit_at_end,
-    unit_behind,
 )
 from lagcli.reader.headings import SECTIONS, section_meant
 from lagcli.reader.limits import MISTAKES
@@ -27,16 +25,14 @@ from lagcli.reader.misshapen import (
     as_list,
     as_map,
     as_text,
-    behind_words,
     by_its_name,
     entries_of,
-    is_sentence,
     one_sum,
     source_of,
 )
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
-from lagcli.reader.number_units import unit_mistake
+from lagcli.reader.number_units import unit_in_formula
 from lagcli.reader.scope import INITIAL, VALUES, Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import closest
 from lagcli.reader.text import Mistake
@@ -49,6 +45,7 @@ if TYPE_CHECKING:
     from lagcli.reader.positions import Excerpt
 
 _T = TypeVar("_T")
+_Formula = TypeVar("_Formula", "Expression", "Equation", "Inequality")
 
 #: What stands for an expression that could not be read; the file is refused anyway.
 UNREADABLE = ZERO
@@ -56,32 +53,10 @@ UNREADABLE = ZERO
 _NUMERIC = (VALUES, INITIAL)
 #: The words for it, and what they mean.
 YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
-_NAME = re.compile(r"[^\W\d]\w*")
 _FREQUENCIES = "write [sqrt(g/l)]"
 _RELATION = re.compile("[=<>≤≥]")
 _OF_RELATIONS = frozenset({"holds_while", "where", "always", "reaches"})
-#: `x' = 0` and `x(0): 1`, several of them.
-_GIVEN = re.compile(
-    r"([^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]>|[=:→])\s*([^,;=:→]+?)"
-    r"(?=\s*(?:$|[,;]|[^\W\d]\w*'*(?:\(0\))?\s*(?:[-=]>|[=:→])))"
-)
-#: `x 1, x' 0`.
-_SIDE_BY_SIDE = re.compile(r"(?:^|[,;])\s*([^\W\d]\w*'*)\s+([-+]?[\d.]+)\s*(?=$|[,;])")
-#: A state that is 0.
-_AT_REST = re.compile(
-    r"^(?:\w+\.)?zeros\b|\b(?:rest|equilibrium|standard|default|Ruhe|repos)\b", re.IGNORECASE
-)
-#: A quantity within a formula: the 9.81 m/s² of `m*9.81 m/s²*x`.
-_UNIT_WITHIN = re.compile(
-    r"([\d.]+)\s+([A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+|kg|[cmk]m|k?Hz|k?N|k?J|k?W|k?Pa)(?![\w(])"
-)
 _NO_EQUATION = Equation(ZERO, ZERO)
-
-
-def _pairs(given: list[tuple[str, str]], *, braces: bool = True) -> str:
-    """`write {x: 1, x': 0}`."""
-    inner = ", ".join(map("{0[0]}: {0[1]}".format, given))
-    return f"write {{{inner}}}" if braces else f"write {inner}"
 
 
 class Required(NamedTuple):
@@ -224,63 +199,6 @@ class FileReader:
         self.error(message, beside[0].span, "" if several else whole)
         yield from ((k, v) for k, v in entries if k in own and isinstance(v, Scalar))
 
-    def by_name(self, node: DocumentNode) -> str:
-        """How a list or a text of values is written as a map by coordinate."""
-        if isinstance(node, Mapping):
-            return ""
-        names = list(self.scope.of_kind("coordinate")) or ["x"]
-        if isinstance(node, Scalar) and _AT_REST.search(node.value) and "=" not in node.value:
-            number = re.search(r"\d+(?:\.\d+)?", node.value)
-            begin = f"write {{{names[0]}: {number[0]}}}" if number else "leave it out"
-            return f"{begin}: what is not given is 0"
-        written = node.text.source.text[node.start : node.end].strip("[] \n")
-        written = behind_words(written, self.scope.kinds)
-        pairs_given = _GIVEN.findall(written) or _SIDE_BY_SIDE.findall(written)
-        stated = [(self.coordinate_meant(name), value) for name, value in pairs_given]
-        if stated and (stated[1:] or isinstance(node, Sequence) or stated[0][0] in names):
-            return _pairs(stated, braces=len(stated) > 1 or isinstance(node, Sequence))
-        values = [] if is_sentence(written, self.scope.kinds) else self._values(node)
-        if not values:
-            return _pairs([(name, "…") for name in (*names, *(f"{name}'" for name in names))])
-        if len(values) % 2 == 0 and {*values[::2]} <= {*names}:  # [x, -c*x']
-            return _pairs([*zip(values[::2], values[1::2], strict=True)])
-        if len(values) == 2 * len(names):
-            names += [f"{name}'" for name in names]
-        values = [each.rpartition("=")[2].strip() or "…" for each in values]
-        moving = [name for name in names if re.search(rf"(?<!\w){name}'", values[0])]
-        if len(values) == len(moving) == 1:  # -c*x' is the force along x
-            names = moving
-        fits = len(values) == len(names)
-        return _pairs([*zip(names, values if fits else ["…"], strict=False)], braces=False)
-
-    def _values(self, node: DocumentNode) -> list[str]:
-        """The values in a list, or in a text that is one."""
-        values = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
-        if isinstance(node, Scalar):
-            [text] = values = [behind_words(each, self.scope.kinds) for each in values]
-            one = as_list(node.value)
-            if one != f"[{node.value.strip()}]":
-                values = one[1:-1].split(", ")
-            elif listed := re.search(r"\(\[(.*)\]\)$", text):
-                values = listed[1].split(",")
-        return [part.strip() for each in values for part in each.split(";")]
-
-    def coordinate_meant(self, name: str) -> str:
-        """The coordinate of a force that is called `F`, `F_x` or `Q_x`; the velocity v."""
-        coordinates = list(self.scope.of_kind("coordinate"))
-        bare = re.sub(r"^[FQf]_?", "", name)
-        if bare in coordinates:
-            return bare
-        if not bare and len(coordinates) == 1:
-            return coordinates[0]
-        if bare.isdigit() and 0 < int(bare) <= len(coordinates):
-            by_index = (x for x in coordinates if re.search(rf"\D{bare}$", x))
-            return next(by_index, coordinates[int(bare) - 1])
-        from lagcli.reader.foreign.words import Vocabulary, rate_meant
-
-        rate = rate_meant(name, Vocabulary(tuple(coordinates), frozenset()))
-        return rate[0] + "'" * rate[1] if rate else name
-
     def items(self, node: DocumentNode, what: str, hint: str = "") -> list[DocumentNode]:
         """The items of a list; a mistake when it is none."""
         if isinstance(node, Sequence):
@@ -397,39 +315,10 @@ class FileReader:
     ) -> Expression:
         """A formula whose names are all known and allowed in its role."""
         alone = node.value.strip() if isinstance(node, Scalar) else ""
-        alone = re.sub(
-            r"^[\[(]\s*([^\W\d][^\])]*?)\s*[\])]\s*([-\d.]+)$", r"\2 \1", alone
-        )  # [kg] 1
-        unit = unit_behind(alone)
-        if unit and (role in _NUMERIC or self._is_unit(unit)):
-            declared = what.startswith("the value of")
-            message, hint = unit_mistake(alone, self.scope.kinds, declared=declared) or ("", "")
-            self.error(message, node.span, hint)
+        if wrong := unit_in_formula(alone, what, self.scope.kinds, role in _NUMERIC):
+            self.error(wrong[0], node.span, wrong[1])
             return UNREADABLE
-        if (unit := unit_at_end(alone)) and self._is_unit(unit):
-            number = alone.removesuffix(unit).strip()
-            hint = f"leave out '{unit}': units stand where names are declared"
-            if what.startswith("the value of"):
-                hint = f"write {{value: {number}, unit: {unit}}}"
-            self.error(f"the unit '{unit}' cannot stand in {what}", node.span, hint)
-            return UNREADABLE
-        within = _UNIT_WITHIN.search(alone)
-        if within and self._is_unit(within[2]):
-            name = {"kg": "m", "N": "F", "kN": "F"}.get(within[2], "g" if "/" in within[2] else "a")
-            given = f"parameters: {{{name}: {{value: {within[1]}, unit: {within[2]}}}}}"
-            self.error(
-                f"the unit '{within[2]}' cannot stand in {what}", node.span, f"write {given}"
-            )
-            return UNREADABLE
-        if what.startswith("the value of") and self._is_unit(alone):
-            self.error(f"the unit '{alone}' is not a value", node.span, f"write {{unit: {alone}}}")
-            return UNREADABLE
-        mistakes = len(self.diagnostics)
-        expression = self._read(node, what, read_expression)
-        if expression is not None:
-            self._check_names(expression, role, what, before)
-        self._say_in_all(node, what, role, read_expression, mistakes)
-        return UNREADABLE if expression is None else expression
+        return self._formula(node, what, role, read_expression, before) or UNREADABLE
 
     def _say_in_all(
         self, node: DocumentNode, what: str, role: Role, read: Callable[[Excerpt], Any], before: int
@@ -441,29 +330,29 @@ class FileReader:
 
             self.diagnostics[before:] = with_whole(found, node, what, self.scope, role, read)
 
-    def _is_unit(self, text: str) -> bool:
-        """Whether a text is a unit, and none of its names is one of the file."""
-        names = _NAME.findall(text)
-        known = names and all(name in self.scope.kinds for name in names)
-        return not known and unit_behind(f"1 {text}") == text != ""
-
     def equation(self, node: DocumentNode, what: str, role: Role) -> Equation:
         """`left = right`, or an expression that is 0."""
-        mistakes = len(self.diagnostics)
-        equation = self._read(node, what, read_equation)
-        for side in () if equation is None else (equation.left, equation.right):
-            self._check_names(side, role, what)
-        self._say_in_all(node, what, role, read_equation, mistakes)
-        return _NO_EQUATION if equation is None else equation
+        return self._formula(node, what, role, read_equation) or _NO_EQUATION
 
     def comparison(self, node: DocumentNode, what: str, role: Role) -> Inequality | None:
         """One inequality, or None."""
+        return self._formula(node, what, role, read_comparison)
+
+    def _formula(
+        self,
+        node: DocumentNode,
+        what: str,
+        role: Role,
+        read: Callable[[Excerpt], _Formula],
+        before: int | None = None,
+    ) -> _Formula | None:
+        """A formula or relation that could be read; its names are checked."""
         mistakes = len(self.diagnostics)
-        inequality = self._read(node, what, read_comparison)
-        for side in () if inequality is None else (inequality.left, inequality.right):
-            self._check_names(side, role, what)
-        self._say_in_all(node, what, role, read_comparison, mistakes)
-        return inequality
+        found = self._read(node, what, read)
+        for side in () if found is None else sides_of(found):
+            self._check_names(side, role, what, before)
+        self._say_in_all(node, what, role, read, mistakes)
+        return found
 
     def name(self, node: DocumentNode, what: str, role: Role) -> Name | None:
         """A single name with its primes, such as `x'`."""

@@ -6,13 +6,17 @@ import re
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagcli.reader.habits import number_and_unit
+from lagcli.reader.habits import number_and_unit, unit_at_end, unit_behind
 
 if TYPE_CHECKING:
     from collections.abc import Container
 
 _COUNT = re.compile(r"([\d.]+(?:[eE][-+]?\d+)?)\s*(?![eE]\d+$)([^\W\d]\w*)")
 _ANGLE = re.compile("deg(/.*|)|rpm")
+#: A quantity within a formula: the 9.81 m/s² of `m*9.81 m/s²*x`.
+_UNIT_WITHIN = re.compile(
+    r"([\d.]+)\s+([A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+|kg|[cmk]m|k?Hz|k?N|k?J|k?W|k?Pa)(?![\w(])"
+)
 _TIME = (("s", Fraction(1)),)
 
 
@@ -47,6 +51,36 @@ def unit_mistake(
     if unit in names:
         hint += f"; the product is {number}*{unit}"
     return f"the unit '{unit}' cannot stand behind a number", hint
+
+
+def unit_in_formula(
+    text: str, what: str, names: Container[str], is_number: bool
+) -> tuple[str, str] | None:
+    """What is wrong with a formula that has a unit, and what to write; None without one."""
+
+    def is_unit(text: str) -> bool:
+        """Whether a text is a unit, and none of its names is one of the file."""
+        words = re.findall(r"[^\W\d]\w*", text)
+        known = words and all(word in names for word in words)
+        return not known and unit_behind(f"1 {text}") == text != ""
+
+    text = re.sub(r"^[\[(]\s*([^\W\d][^\])]*?)\s*[\])]\s*([-\d.]+)$", r"\2 \1", text)  # [kg] 1
+    unit, declared = unit_behind(text), what.startswith("the value of")
+    if unit and (is_number or is_unit(unit)):
+        return unit_mistake(text, names, declared=declared)
+    if (unit := unit_at_end(text)) and is_unit(unit):
+        number = text.removesuffix(unit).strip()
+        hint = f"leave out '{unit}': units stand where names are declared"
+        hint = f"write {{value: {number}, unit: {unit}}}" if declared else hint
+        return f"the unit '{unit}' cannot stand in {what}", hint
+    within = _UNIT_WITHIN.search(text)
+    if within and is_unit(within[2]):
+        name = {"kg": "m", "N": "F", "kN": "F"}.get(within[2], "g" if "/" in within[2] else "a")
+        hint = f"write parameters: {{{name}: {{value: {within[1]}, unit: {within[2]}}}}}"
+        return f"the unit '{within[2]}' cannot stand in {what}", hint
+    if declared and is_unit(text):
+        return f"the unit '{text}' is not a value", f"write {{unit: {text}}}"
+    return None
 
 
 def _in_base_units(text: str) -> tuple[float, str]:

@@ -15,6 +15,7 @@ from lagcli.problem_data import (
     SimulationDefaults,
     Where,
 )
+from lagcli.reader.by_coordinate import by_name
 from lagcli.reader.habits import name_meant
 from lagcli.reader.headings import state_without_headings
 from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end, source_of
@@ -54,7 +55,7 @@ def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]
     """The state at t = 0, by coordinate and by velocity."""
     initial: dict[Name, Expression] = {}
     coordinates = list(file.scope.of_kind("coordinate"))
-    entries = list(file.entries(node, "initial", file.by_name(node)))
+    entries = list(file.entries(node, "initial", by_name(node, file.scope)))
     headings = [key for key, value in entries if not isinstance(value, Scalar)]
     if headings and (whole := state_without_headings(node, coordinates)):
         message = f"'{headings[0].label}' in initial has no number"
@@ -88,7 +89,7 @@ def _state_name(
         hint = hint or f"known are {', '.join(coordinates)} and velocities: {coordinates[0]}'"
         order = {"position": "", "angle": "", "velocity": "'", "speed": "'"}.get(key.label)
         if order is not None:
-            entry = file.by_name(value)
+            entry = by_name(value, file.scope)
             hint = re.sub(r"(\w+)(?=:)", rf"\1{order}", entry)
         if re.search(r"[=→>]", key.label):
             hint = f"write {name_meant(key.label)}"

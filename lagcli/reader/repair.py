@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from lagcli.diagnostics import Diagnostic, Source
 from lagcli.expression import Equation, Expression
 from lagcli.problem_data import Inequality
-from lagcli.reader.expressions import read_equation, read_expression
+from lagcli.reader.expressions import read_equation, read_expression, sides_of
 from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary
@@ -72,7 +72,7 @@ def with_whole(
                 gap = re.sub(r"([<>])(?!=)", r"\1=", whole)
                 hint = f"a one-sided contact stands under contacts, as in floor: {gap}"
                 return [replace(found[0], hint=hint)]
-            sides = _sides(read(Excerpt.whole(Source("", whole))))
+            sides = sides_of(read(Excerpt.whole(Source("", whole))))
         except (UnclearText, Mistake):
             continue
         wrong = [each for side in sides for each in name_mistakes(side, scope, role, what)]
@@ -117,21 +117,12 @@ def _exchanged(
             continue
         changed = f"{before}{other}{one}{after}"
         try:
-            sides = _sides(read(Excerpt.whole(Source("", changed))))
+            sides = sides_of(read(Excerpt.whole(Source("", changed))))
         except Mistake:
             continue
         if not any(True for side in sides for _ in name_mistakes(side, scope, role, what)):
             found[str(sides)] = changed
     return found.popitem()[1] if len(found) == 1 else ""
-
-
-def _sides(
-    formula: Expression | Equation | Inequality,
-) -> tuple[Expression, ...]:
-    """A formula, or both sides of a relation."""
-    if isinstance(formula, Equation | Inequality):
-        return formula.left, formula.right
-    return (formula,)
 
 
 def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:

@@ -1,0 +1,89 @@
+"""Values by coordinate, a state or forces, that are written in another shape than a map."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from lagcli.reader.foreign.words import Vocabulary, rate_meant
+from lagcli.reader.misshapen import as_list, behind_words, is_sentence
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+
+if TYPE_CHECKING:
+    from lagcli.reader.scope import Scope
+
+#: `x' = 0` and `x(0): 1`, several of them.
+_GIVEN = re.compile(
+    r"([^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]>|[=:→])\s*([^,;=:→]+?)"
+    r"(?=\s*(?:$|[,;]|[^\W\d]\w*'*(?:\(0\))?\s*(?:[-=]>|[=:→])))"
+)
+#: `x 1, x' 0`.
+_SIDE_BY_SIDE = re.compile(r"(?:^|[,;])\s*([^\W\d]\w*'*)\s+([-+]?[\d.]+)\s*(?=$|[,;])")
+#: A state that is 0.
+_AT_REST = re.compile(
+    r"^(?:\w+\.)?zeros\b|\b(?:rest|equilibrium|standard|default|Ruhe|repos)\b", re.IGNORECASE
+)
+
+
+def _pairs(given: list[tuple[str, str]], *, braces: bool = True) -> str:
+    """`write {x: 1, x': 0}`."""
+    inner = ", ".join(map("{0[0]}: {0[1]}".format, given))
+    return f"write {{{inner}}}" if braces else f"write {inner}"
+
+
+def by_name(node: DocumentNode, scope: Scope) -> str:
+    """How a list or a text of values is written as a map by coordinate."""
+    if isinstance(node, Mapping):
+        return ""
+    names = list(scope.of_kind("coordinate")) or ["x"]
+    if isinstance(node, Scalar) and _AT_REST.search(node.value) and "=" not in node.value:
+        number = re.search(r"\d+(?:\.\d+)?", node.value)
+        begin = f"write {{{names[0]}: {number[0]}}}" if number else "leave it out"
+        return f"{begin}: what is not given is 0"
+    written = node.text.source.text[node.start : node.end].strip("[] \n")
+    written = behind_words(written, scope.kinds)
+    pairs_given = _GIVEN.findall(written) or _SIDE_BY_SIDE.findall(written)
+    stated = [(coordinate_meant(name, scope), value) for name, value in pairs_given]
+    if stated and (stated[1:] or isinstance(node, Sequence) or stated[0][0] in names):
+        return _pairs(stated, braces=len(stated) > 1 or isinstance(node, Sequence))
+    values = [] if is_sentence(written, scope.kinds) else _values(node, scope)
+    if not values:
+        return _pairs([(name, "…") for name in (*names, *(f"{name}'" for name in names))])
+    if len(values) % 2 == 0 and {*values[::2]} <= {*names}:  # [x, -c*x']
+        return _pairs([*zip(values[::2], values[1::2], strict=True)])
+    if len(values) == 2 * len(names):
+        names += [f"{name}'" for name in names]
+    values = [each.rpartition("=")[2].strip() or "…" for each in values]
+    moving = [name for name in names if re.search(rf"(?<!\w){name}'", values[0])]
+    if len(values) == len(moving) == 1:  # -c*x' is the force along x
+        names = moving
+    fits = len(values) == len(names)
+    return _pairs([*zip(names, values if fits else ["…"], strict=False)], braces=False)
+
+
+def _values(node: DocumentNode, scope: Scope) -> list[str]:
+    """The values in a list, or in a text that is one."""
+    values = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+    if isinstance(node, Scalar):
+        [text] = values = [behind_words(each, scope.kinds) for each in values]
+        one = as_list(node.value)
+        if one != f"[{node.value.strip()}]":
+            values = one[1:-1].split(", ")
+        elif listed := re.search(r"\(\[(.*)\]\)$", text):
+            values = listed[1].split(",")
+    return [part.strip() for each in values for part in each.split(";")]
+
+
+def coordinate_meant(name: str, scope: Scope) -> str:
+    """The coordinate of a force that is called `F`, `F_x` or `Q_x`; the velocity v."""
+    coordinates = list(scope.of_kind("coordinate"))
+    bare = re.sub(r"^[FQf]_?", "", name)
+    if bare in coordinates:
+        return bare
+    if not bare and len(coordinates) == 1:
+        return coordinates[0]
+    if bare.isdigit() and 0 < int(bare) <= len(coordinates):
+        by_index = (x for x in coordinates if re.search(rf"\D{bare}$", x))
+        return next(by_index, coordinates[int(bare) - 1])
+    rate = rate_meant(name, Vocabulary(tuple(coordinates), frozenset()))
+    return rate[0] + "'" * rate[1] if rate else name
