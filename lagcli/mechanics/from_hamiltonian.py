@@ -27,7 +27,7 @@ class NoLagrangian(ProblemError):
     def __init__(self, problem: Problem, reason: str) -> None:
         assert problem.hamiltonian is not None
         message = f"this H gives no Lagrangian: {reason}"
-        hint = "--show hamiltonian,canonical_equations needs none"
+        hint = "lagcli solve --show hamiltonian,canonical_equations needs none"
         super().__init__(problem.source, (Diagnostic(message, problem.hamiltonian.span, hint),))
         self.reason = reason
 
