@@ -101,9 +101,6 @@ def _found(parts: Sequence[object], taken: Collection[str]) -> _Abbreviations | 
     return names if names.where else None
 
 
-_TIME = Name("t")
-
-
 class _Abbreviations:
     """The names chosen for some formulas, the one that saves most first."""
 
@@ -145,13 +142,14 @@ class _Abbreviations:
         if isinstance(node, Name):
             return Name(self._final.get(node.name, node.name), node.primes)
         found = rebuilt(node, self._renamed)
-        if isinstance(found, Product) and _TIME in found.factors:  # k2 t, not t k2
-            names = {*self._final.values(), *self._labels}
-            k = found.factors.index(_TIME)
-            after = [f for f in found.factors[k:] if isinstance(f, Name) and f.name in names]
-            rest = (f for f in found.factors[k:] if f not in after)
-            found = Product((*found.factors[:k], *after, *rest))
-        return found
+        return self._in_order(found) if isinstance(found, Product) else found
+
+    def _in_order(self, node: Product) -> Product:
+        """k1 k2 t, not t k2 k1."""
+        place = {name: k for k, name in enumerate((*self._final.values(), "t"))}
+        named = [f for f in node.factors if isinstance(f, Name) and f.name in place]
+        ordered = iter(sorted(named, key=lambda f: place[f.name]))
+        return Product(tuple(next(ordered) if f in named else f for f in node.factors))
 
     def _best(self) -> Expression | None:
         shapes: dict[int, Counter[Expression]] = {}

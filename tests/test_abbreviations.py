@@ -99,6 +99,23 @@ def test_what_recurs_with_the_other_sign_has_one_name(seed):
     same_values(written_out(short).sections, plain.sections)
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_names_follow_each_other_in_every_product_as_in_the_list(seed):
+    source = Random(seed)
+    sums = [
+        Sum(tuple(Product((Name(a), Name(b))) for a, b in zip(row, "mnopqrsuvwxy", strict=True)))
+        for row in ("abcdefghijkl", "bcdefghijkla", "cdefghijklab")
+    ]
+    rows = {str(k): Product(tuple(source.sample(sums, 3))) for k in range(4)}
+    section = AccelerationsSection(accelerations=rows, verified="exact")
+    short = abbreviated(replace(HOOP, sections={"accelerations": section}), ())
+    assert len(short.where) == 3
+    for row in formulas(short.sections):
+        assert isinstance(row, Product)
+        assert [str(factor) for factor in row.factors] == [*short.where]
+    same_values(written_out(short).sections, rows)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize(
     "file", ["problems/chains/triple-pendulum.yaml", "problems/chains/slider-crank.yaml"]
