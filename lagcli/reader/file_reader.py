@@ -53,6 +53,7 @@ UNREADABLE = ZERO
 _NUMERIC = (VALUES, INITIAL)
 #: The words for it, and what they mean.
 YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
+_WORDS = frozenset({"none", "null", *YES_OR_NO})
 _FREQUENCIES = "write [sqrt(g/l)]"
 _RELATION = re.compile("[=<>≤≥]")
 _OF_RELATIONS = frozenset({"holds_while", "where", "always", "reaches"})
@@ -127,11 +128,7 @@ class FileReader:
         if isinstance(node, Mapping):
             yield from self._with_decimals(node)
         else:
-            is_word = isinstance(node, Scalar) and node.value.casefold() in {
-                "none",
-                "null",
-                *YES_OR_NO,
-            }
+            is_word = isinstance(node, Scalar) and node.value.casefold() in _WORDS
             if is_word and not what.startswith("the symmetry"):
                 hint = "leave out the key"
             if isinstance(node, Sequence) and (named := by_its_name(node)):
@@ -214,11 +211,7 @@ class FileReader:
                 return []
             listed = not hint or hint.startswith("write [")
             hint = f"write {as_list(node.value)}" if listed and node.value.strip() else hint
-        elif isinstance(node, Mapping) and hint in {
-            "",
-            "write [one, another]",
-            _FREQUENCIES,
-        }:
+        elif isinstance(node, Mapping) and hint in {"", "write [one, another]", _FREQUENCIES}:
             hint = f"write [{', '.join(source_of(value) for _, value in node.entries)}]"
         self.error(f"{what} must be a list, not {kind(node)}", node.span, hint)
         return []
@@ -291,13 +284,8 @@ class FileReader:
         split: dict[str, list[str]] = {}
         for key, value in entries:
             empty = isinstance(value, Scalar) and value.is_empty and key.in_flow
-            last = kept[-1][0].label if kept else ""
-            if (
-                empty
-                and key.label not in names
-                and last in LISTS
-                and isinstance(kept[-1][1], Scalar)
-            ):
+            last = kept[-1][0].label if kept and isinstance(kept[-1][1], Scalar) else ""
+            if empty and key.label not in names and last in LISTS:
                 split.setdefault(last, []).append(key.label)
             else:
                 kept.append((key, value))

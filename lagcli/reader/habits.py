@@ -47,8 +47,6 @@ _WITH_UNIT = re.compile(
     r"[-+]?[\d.]+(?:[eE][-+]?\d+|/\d+)?\s*(?:[,;]\s+)?"
     r"(?P<unit>(?:[kmcµu]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa)|rad|deg|rpm|min|h|mol)(?:[ \^*/].*)?)"
 )
-#: Words for a kind of number, before a name in other languages.
-_TYPES = frozenset("Real real float double int Integer parameter const var let symbol".split())
 _ANGLES = frozenset("theta phi psi alpha beta gamma varphi angle θ φ ϕ ψ α β γ".split())
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 RATES = frozenset("Derivative derivative D ddt dt Dt der deriv diff dot".split())
@@ -70,6 +68,12 @@ def habits() -> dict[str, Any]:
 def meanings(table: str) -> dict[str, str]:
     """What each word of a table means here."""
     return {word: meant for meant, words in habits()[table].items() for word in words}
+
+
+def advised(table: str, text: str) -> str:
+    """The advice in the first row of a table whose form a text has; nothing without one."""
+    rows = ((re.fullmatch(form, text, re.DOTALL), advice) for form, advice in habits()[table])
+    return next((found.expand(advice) for found, advice in rows if found), "")
 
 
 def instead(function: str) -> str:
@@ -142,19 +146,14 @@ def name_meant(name: str, *, one: bool = False) -> str:
     """
     if counted := names_among(name):
         return ", ".join(counted)
-    if made := re.fullmatch(r"(?:\w+\.)?[a-zA-Z]+\(\s*['\"](\w+)['\"].*\)(?:\(t\))?", name):
-        return made[1]
-    if declared := re.fullmatch(r"\s*(\w+)\s*=\s*[\w.]+\(.*", name):
-        return declared[1]
-    if given := re.fullmatch(r"\s*(\w+'*)\s*(?:=>|[=:：]|:=|[-=]>|→|⇒)\s*(\S+)\s*", name):
-        return f"{given[1]}: {given[2]}"
+    if said := advised("declared", name):
+        return said
     words = re.findall(r"[^\W\d]\w*", name)
     letters = [each for each in words if len(each.partition("_")[0]) == 1 and each != "a"]
     if len(words) > 2 and len(letters) == 1:  # m is the mass
         return str(letters[0])
-    typed = re.fullmatch(r"(?:[Pp]arameter\s+|const\s+|final\s+)?(?:\w+\s+)?(\w+)", name)
-    if typed and _TYPES & set(name.split()[:-1]):
-        return typed[1]
+    if typed := advised("typed", name):
+        return typed
     related = re.fullmatch(r"\s*(\w+)\s*(\W+?)\s*0\s*", name)
     if related and related[2] in SIGNS:
         return f"{related[1]}: {{assume: {SIGNS[related[2]]}}}"

@@ -16,7 +16,7 @@ from lagcli.problem_data import (
     Where,
 )
 from lagcli.reader.by_coordinate import by_name
-from lagcli.reader.habits import name_meant
+from lagcli.reader.habits import advised, name_meant
 from lagcli.reader.headings import state_without_headings
 from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end, source_of
 from lagcli.reader.names import derivative_order
@@ -93,17 +93,10 @@ def _state_name(
             hint = re.sub(r"(\w+)(?=:)", rf"\1{order}", entry)
         if re.search(r"[=→>]", key.label):
             hint = f"write {name_meant(key.label)}"
-        if "rest" in key.label:
-            hint = "leave it out: a velocity that is not given is 0"
         if letters.startswith("p_") and letters[2:] in coordinates:
             hint = f"a state has velocities, not momenta: give {letters[2:]}'"
-        elif letters.casefold() in {"e", "energy", "h", "l", "angular_momentum"}:
-            hint = f"a state has coordinates and velocities: give {coordinates[0]}'"
-        at = re.fullmatch(r"\w+'*\(\s*(?:t\s*=\s*)?([^()]+)\)", key.label)
-        if at and at[1].strip() not in {"0", "0.0", "t"}:
-            hint = "a state is that at t = 0: leave it out"
-        if letters == "t":
-            hint = "a motion begins at t = 0: leave it out"
+        said = advised("state", key.label).replace("VELOCITY", f"{coordinates[0]}'")
+        hint = said or hint
         file.error(f"'{key.label}' in initial is not a coordinate", key.span, hint)
         return None
     primes = sum(2 if prime == "″" else 1 for prime in key.label[len(letters) :])

@@ -11,6 +11,7 @@ from lagcli.reader.expressions import read_expression
 from lagcli.reader.habits import (
     KEYS,
     MAPS,
+    advised,
     habits,
     is_constant,
     key_meant,
@@ -191,19 +192,13 @@ def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
 
 
 def _advice_in_problem(word: str, value: str) -> str:
-    if word == "t":
-        return f"write simulation: {{until: {value}}}"
     start = re.fullmatch(r"(d|v)?_?(q|r|x|y|z|theta|phi)?(?:dot)?_?0", word)
     if start and (start[1] or start[2]):
         value = re.sub(r"([\d.]+)\s*°", r"\1*pi/180", value)
         rate = "'" if start[1] or "dot" in word else ""
         return f"write initial: {{{start[2] or 'x'}{rate}: {value}}}"
-    if along := re.fullmatch(r"[QF](?:_(?=\w)|(?=[xyz]$|\w\d$))(\w+)", word):
-        return f"write forces: {{{along[1]}: {value}}}"
-    if len(value.split()) > 1 and re.fullmatch(r"[\w\s,.;-]*", value):
-        return f"write description: {word}: …, with quotes around it"
-    if value == "t":
-        return "leave it out: t is the time"
+    if said := advised("entries", f"{word}: {value}"):
+        return said
     key = meanings("keys").get(word.replace("-", "_"), word)
     part = meanings("parts").get(key)
     if part == "expect" and value in _WISHES:
