@@ -119,6 +119,11 @@ class Reference:
         return total
 
     @property
+    def timed(self) -> bool:
+        """Whether the time occurs in L."""
+        return ("t", 0) in self.program.symbols([self.lagrangian])
+
+    @property
     def pushed(self) -> bool:
         """Whether more than L and the constraints acts."""
         given = self.problem

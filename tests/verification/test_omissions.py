@@ -84,3 +84,20 @@ symmetries: {{time: {{t: 1}}, shift: {{x: 1}}}}
         assert not refuted(problem, answers, name, answers.sections[name])
     without = replace(answers.sections["charges"], charges=answers.sections["charges"].charges[:1])
     assert refuted(problem, answers, "charges", without)
+
+
+@pytest.mark.parametrize("section", ["equilibria", "steady_motions"])
+def test_a_minimum_is_not_called_stable_to_first_order_only(section: str) -> None:
+    problem, answers = derived("steady/bead-on-rotating-hoop", [section])
+    whole = answers.sections[section]
+    listed = "equilibria" if section == "equilibria" else "motions"
+    places = getattr(whole, listed)
+    weaker = [
+        replace(each, verdict=replace(each.verdict, minimum=None, spectrum=each.verdict.minimum))
+        if each.verdict.minimum and each.verdict.stable is None
+        else each
+        for each in places
+    ]
+    assert weaker != list(places)
+    assert not refuted(problem, answers, section, whole)
+    assert refuted(problem, answers, section, replace(whole, **{listed: tuple(weaker)}))
