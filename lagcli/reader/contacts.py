@@ -43,28 +43,30 @@ def declared(
 
     The value is a map with the `known` attributes, or the first of them alone.
     """
-    inner = (
-        [v.value for _, v in value.entries if isinstance(v, Scalar)]
-        if isinstance(value, Mapping)
-        else []
+    parts = value.entries if isinstance(value, Mapping) else []
+    inner = [each.value for _, each in parts if isinstance(each, Scalar)]
+    formula = next(
+        (each for each in inner if re.search("^[^<>]*[-+*/^=][^<>]*$", each)), "left = right"
     )
-    written = (
-        each for each in inner if re.search("[-+*/^=]", each) and not re.search("[<>]", each)
-    )
-    formula = next(written, "left = right")
     equation = formula if "=" in formula else f"{formula} = 0"
     what, hint = "constraint", f"write {key.label}: {{equation: {equation}}}"
     if known == _ATTRIBUTES:
         what, hint = "contact", _HINT
     if name_mistake(f"a{key.label}") is not None or not key.label:  # lambda_<name> must be a name
         message = f"'{key.label}' is not a valid name for a {what}"
-        is_relation = re.search("[=<>≤≥]", key.label)
+        if re.search("[=<>≤≥]", key.label):
+            rule = f"write name: {key.label}"
+            if re.search("[<>≤≥]", key.label) and what == "constraint":
+                gap = re.sub("(?<=[<>])(?!=)", "=", key.label)
+                rule = f"a one-sided contact stands under contacts, as in floor: {gap}"
+            file.error(message, key.span, rule)
+            return None
         rule = "a name has letters, digits and underscores"
         if isinstance(value, Scalar) and re.search(r"[-+*/^]", key.label):
             rule = f"write name: {key.label} = {value.value}"
         elif better := name_meant(key.label, one=True):
             rule = f"write {better}"
-        file.error(message, key.span, f"write name: {key.label}" if is_relation else rule)
+        file.error(message, key.span, rule)
         return None
     multiplier, place = f"lambda_{key.label}", key.span
     attributes = {known[0]: value}

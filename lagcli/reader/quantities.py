@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING, TypedDict, cast, get_args
 from lagcli.expression import FUNCTIONS, Expression, Name, walk
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
-from lagcli.reader.habits import SIGNS, is_constant, meanings, names_among, unit_behind
+from lagcli.reader.habits import (
+    SIGNS,
+    is_constant,
+    meanings,
+    names_among,
+    number_and_unit,
+    unit_behind,
+)
 from lagcli.reader.headings import system_meant, without_headings
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.names import NO_VALUE
@@ -37,6 +44,11 @@ _COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
 _PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
 _RANGE = re.compile(r"\s*[\[(]?\s*(-?[\d.]*\d)\s*(?:\.\.+|…|to|bis|:|–)\s*-?[\d.:]+\s*[\])]?\s*")
 _WORDS = re.compile(r"[^\W\d_]{4,}(?: [^\W\d_]+)*")
+#: `m = 1 kg`, `k: 2`, `l 3`, several of them.
+_VALUES = re.compile(
+    r"(\w+)(?:\s*[=:]\s*|\s+(?=[\d.]))"
+    r"((?:[^\s,;()}]|\([^()]*\))+(?: [A-Za-z][\w/^]*(?=\s*(?:[,;]|$)))?)"
+)
 _ONE_NAME = re.compile(r"write (\w+)(?:, without .*)?")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 
@@ -282,9 +294,12 @@ def _with_unit(key: Scalar, value: DocumentNode | None) -> str:
 def _list_advice(text: str) -> str:
     """`[x, y]` for `x, y` and for `symbols("x y")`, and `m: 1` for `m = 1`."""
     text = re.sub(r"^(?:.*=)?\s*(?:\w+\.)?\w+\(\s*(['\"])(.*)\1.*\)\s*$", r"\2", text)
-    given = re.findall(r"(\w+)(?:\s*[=:]\s*|\s+(?=[\d.]))((?:[^\s,;()}]|\([^()]*\))+)", text)
-    if given:
-        listed = ", ".join(f"{name}: {value}" for name, value in given)
+    if given := _VALUES.findall(text):
+        parts = ((name, *number_and_unit(value)) for name, value in given)
+        listed = ", ".join(
+            f"{x}: {{value: {value}, unit: {unit}}}" if unit else f"{x}: {value}"
+            for x, value, unit in parts
+        )
         return f"write {{{listed}}}" if given[1:] else f"write {listed}"
     if text.strip().casefold() in {"none", "null", "no", "~"}:
         return "leave out the key, or write such as [x, y]"

@@ -141,7 +141,8 @@ def _with_value(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
     for each in diagnostics:
         meant = re.search(r"the key is (\w+)$", last.hint) if last is not None else None
         begins = rf"'?{meant[1]}'? (?:must be|is one)\b" if meant else ""
-        shape = re.match(begins, each.message) or each.hint.startswith("write ")
+        within = last is not None and each.span.line == last.span.line
+        shape = re.match(begins, each.message) or (within and each.hint.startswith("write "))
         if last is not None and meant and each.span == last.span:
             last = each  # which says what to do with it
             continue

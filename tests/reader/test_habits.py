@@ -623,6 +623,10 @@ HABITS = [
     (text(forces="{x: F(t)}"), "declare it: functions: {F: [t]}"),
     (text(T="\"m*x'^2/2", V='k*x^2/2"'), 'write "m*x\'^2/2"'),
     ("x, y = dynamicsymbols('x y')\nm = symbols('m')\n", "lagcli new NAME"),
+    (text(constraints="{x <= 1}"), "stands under contacts, as in floor: x <= 1"),
+    (text(multiplier="N"), "write constraints: {name: {equation: left = right, multiplier: …}}"),
+    (text(V="|x|*k"), "write V: abs(x)*k"),
+    (text(parameters="m = 1 kg, k = 2"), "write {m: {value: 1, unit: kg}, k: 2}"),
     (text(lagrangian="T - V"), "leave out L: it is T - V"),
     (
         "Koordinaten: [x]\nKonstanten: {m: 1}\nKinetische Energie: m*x'^2/2\n",
@@ -643,6 +647,12 @@ HABITS = [
 def test_a_habit_gets_one_mistake_with_the_hint_that_helps(written, hint):
     [only] = messages(written)
     assert hint in only
+
+
+def test_the_line_below_a_wrong_key_is_another_mistake():
+    key, rate = messages("coordinates: [x]\nparams: {m: 1}\nT: m*(dx/dt)**2/2\n")
+    assert key.endswith("the key is parameters")
+    assert rate.endswith("write m*x'^2/2")
 
 
 @pytest.mark.parametrize("written", ["k[0]*x", "k_{0}*x"])
