@@ -17,7 +17,7 @@ from lagcli.reader.habits import (
     unit_behind,
 )
 from lagcli.reader.headings import system_meant, without_headings
-from lagcli.reader.misshapen import source_of
+from lagcli.reader.misshapen import entries_of, source_of
 from lagcli.reader.names import NO_VALUE
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
 from lagcli.reader.scope import VALUES, Kind, name_mistake
@@ -203,12 +203,9 @@ def _declared(
         file.error(message, node.span, hint)
         file.scope.refused.append("")
         return
-    if (
-        isinstance(node, Mapping)
-        and node.entries
-        and all(k.label.isdigit() for k, _ in node.entries)
-    ):
-        listed = ", ".join(source_of(value) for _, value in node.entries)
+    numbered = node.entries if isinstance(node, Mapping) else []
+    if numbered and all(key.label.isdigit() for key, _ in numbered):
+        listed = ", ".join(source_of(value) for _, value in numbered)
         file.error(f"{section} have names, not numbers", node.span, f"write [{listed}]")
         file.scope.refused.append("")
         return
@@ -321,12 +318,10 @@ def _pairs(node: DocumentNode, section: str) -> str:
     if isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
         relation = r"(\w+)(?:\s*(?:[-=]>|:?=|:|→)\s*|\s+)([\d.]\S*)"
         given = [re.fullmatch(relation, key.label) for key, _ in node.entries]
-    elif isinstance(node, Mapping) and len(node.entries) > 1:
-        numbers = [
-            (k, v) for k, v in node.entries if isinstance(v, Scalar) and section == "coordinates"
-        ]
-        if len(numbers) == len(node.entries) and all(is_constant("x", v.value) for _, v in numbers):
-            return ", ".join(f"{key.label}: {value.value}" for key, value in numbers)
+    elif isinstance(node, Mapping) and len(node.entries) > 1 and section == "coordinates":
+        numbers = [v for _, v in node.entries if isinstance(v, Scalar)]
+        if len(numbers) == len(node.entries) and all(is_constant("x", v.value) for v in numbers):
+            return entries_of(node)
     elif isinstance(node, Sequence):
         source = [item.text.source.text[item.start : item.end] for item in node.items]
         source = [re.sub(r"^\[(\w+),\s*([^,\]]+)\]$", r"\1: \2", text) for text in source]

@@ -89,8 +89,7 @@ def _state_name(
         hint = hint or f"known are {', '.join(coordinates)} and velocities: {coordinates[0]}'"
         order = {"position": "", "angle": "", "velocity": "'", "speed": "'"}.get(key.label)
         if order is not None:
-            entry = by_name(value, file.scope)
-            hint = re.sub(r"(\w+)(?=:)", rf"\1{order}", entry)
+            hint = re.sub(r"(\w+)(?=:)", rf"\1{order}", by_name(value, file.scope))
         if re.search(r"[=→>]", key.label):
             hint = f"write {name_meant(key.label)}"
         if letters.startswith("p_") and letters[2:] in coordinates:
