@@ -28,6 +28,7 @@ from lagcli.expression import (
     children,
     operation_count,
     opposite,
+    sum_of,
     terms_of,
     walk,
 )
@@ -300,7 +301,7 @@ class GivenPotential:
         first = terms.index(still[0])
         before, after = terms[:first], [t for t in terms[first:] if t not in still]
         found = (*before, *own, *after)
-        return node if isinstance(found[0], Negative) else Sum(found)
+        return node if isinstance(found[0], Negative) else sum_of(found)
 
 
 def has_like_terms(node: Sum) -> bool:

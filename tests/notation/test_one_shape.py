@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import pytest
 
+from lagcli.expression import Sum, walk
 from lagcli.formatters import Options
-from lagcli.pipeline import render
+from lagcli.pipeline import derive, explain, render
 from lagcli.reader import read_problem
+from lagcli.rewriting import expressions_in
 from tests.solved import solve
 
 
@@ -344,3 +346,15 @@ def test_a_period_has_one_sign_of_a_difference():
     found = text("x", "m l g k", physics, "reduction").split("Oscillations about")[1]
     assert "1 − m g l a²/(16 (k − m g l))" in found
     assert "m g l − k" not in found
+
+
+@pytest.mark.parametrize("V", ["s", "-s", "2*s", "s^2", "k*s"])
+def test_a_potential_of_one_term_is_no_sum(V: str) -> None:
+    """Nor are the coordinate and other formulas that are this term."""
+    read = read_problem(
+        "p.yaml",
+        f"title: p\ncoordinates: {{s: {{assume: positive}}}}\nparameters: [k]\nT: s'^2/2\nV: {V}".encode(),
+    )
+    account = explain(derive(read.problem), ("equilibria", "reduction", "steady_motions"))
+    trees = [tree for step in account.steps for tree in expressions_in(step.blocks)]
+    assert not [n for t in trees for n in walk(t) if isinstance(n, Sum) and len(n.terms) < 2]
