@@ -238,7 +238,7 @@ class Manner:
                 if isinstance(inner, (Sum, Product)):
                     inner = self._as_before(inner)
                 self._keep_signs(inner)
-                return Call("sqrt", (inner,))
+                return self._without_squares(inner)
             case _:
                 return node
 
@@ -253,6 +253,21 @@ class Manner:
             base, odd = odd_base(factor)
             if base is not None and odd:
                 self._keep_sign(base)
+
+    def _without_squares(self, radicand: Expression) -> Expression:
+        """sqrt(a)/|p| for sqrt(a/p²) with a letter p that is not known to be positive."""
+        minus, *sides = parts_of(radicand)
+        outside: list[list[Expression]] = [[], []]
+        for factors, out in zip(sides, outside, strict=True):
+            for factor in list(factors):
+                base, exponent = whole_power(factor)
+                if isinstance(base, Name) and base.name not in self._positive and exponent == 2:
+                    factors.remove(factor)
+                    out.append(Call("abs", (base,)))
+        rest = quotient_of(*sides) if sides[0] else ONE
+        if minus or not any(outside) or rest == ONE:
+            return Call("sqrt", (radicand,))
+        return quotient_of([*outside[0], Call("sqrt", (rest,))], outside[1])
 
     def _with_one_fraction(self, node: Expression) -> Expression:
         """(k l − m g)/(m l) for (k − m g/l)/m, but for brackets of the file."""

@@ -75,6 +75,11 @@ def manner():
         ("sqrt((m*g + a)/m)/g", "sqrt((m*g + a)/m)/g"),
         ("sqrt((m*g + a)/m)/r'", "sqrt((m*g + a)/m)/r'"),
         ("sqrt(g*R/m)/r", "sqrt(g*R/m)/r"),
+        # the square of a letter of either sign stands before the root
+        ("sqrt(m*R/g^2)", "sqrt(m*R)/abs(g)"),
+        ("2*sqrt(R*phi^2/m)", "2*abs(phi)*sqrt(R/m)"),
+        ("sqrt((R - a)^3*a/phi^2)", "sqrt((R - a)^3*a)/abs(phi)"),
+        ("sqrt(phi^2)", "sqrt(phi^2)"),
         # no tangent comes from taking out the square of a cosine
         ("(r*tan(theta) + a)*cos(theta)^2", "(r*sin(theta) + a*cos(theta))*cos(theta)"),
         ("(r*tan(theta) + a)*cos(theta)^3", "(r*sin(theta) + a*cos(theta))*cos(theta)^2"),
