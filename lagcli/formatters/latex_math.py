@@ -362,7 +362,7 @@ def _between(box: Box, before: Expression, after: Expression, shown: Box) -> Tex
     if begins_with_number(after):
         return _breakable(r" \cdot ", BINARY, PRODUCT, r"\cdot ", BINARY)
     first = shown.pieces[0]
-    if is_bracket(before) and is_bracket(after):
+    if is_bracket(after) and (is_bracket(before) or isinstance(before, Quotient)):
         return _breakable(r" \, ", THIN_SPACE, BRACKETS, r"\cdot ", BINARY)
     neighbours = box.pieces[-1].text + first.text
     rooted = box.pieces[-1].text.startswith(r"\sqrt") and not first.text.startswith(r"\sqrt")

@@ -21,6 +21,8 @@ from lagcli.formatters.latex_environments import Environments
 from lagcli.formatters.latex_math import WIDEST, LatexPrinter
 from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.latex_text import latex_text
+from lagcli.formatters.latex_width import TEXT_WIDTH
+from lagcli.formatters.layout import break_lines
 from lagcli.formatters.options import LatexOptions, Options
 from lagcli.reader.expressions import parse_text
 from lagcli.statements.answers import Answers, LagrangianSection
@@ -309,3 +311,14 @@ def test_every_character_that_the_program_or_the_library_uses_has_a_notation():
 )
 def test_signs_and_letters_without_a_type(text, expected):
     assert latex_text(text) == expected
+
+
+def test_a_line_breaks_between_a_fraction_and_a_bracket_rather_than_inside_it():
+    """The rate of a momentum of the double pendulum."""
+    node = parse_text(
+        "((m1 + m2)*l1*p2 - m2*l2*p1*cos(x - y))*(l2*p1 - l1*p2*cos(x - y))*sin(x - y)"
+        "/(l1^2*l2^2*(m1 + m2*sin(x - y)^2)^2) - m2*g*l2*sin(y)"
+    )
+    lines = break_lines(LatexPrinter().show(node).pieces, TEXT_WIDTH, TEXT_WIDTH)
+    assert len(lines) > 1
+    assert all(line.text.count(r"\bigl") == line.text.count(r"\bigr") for line in lines)
