@@ -12,7 +12,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from lagcli.evaluation import finite_value, sign_at_random
 from lagcli.expression import (
     ONE,
     ZERO,
@@ -69,6 +68,7 @@ from lagcli.notation.ordering import (
     positive_first,
 )
 from lagcli.notation.reciprocals import GivenFractions
+from lagcli.notation.signs_of_sums import SumSigns
 from lagcli.problem_data import Problem
 from lagcli.rewriting import put_in, rebuilt
 
@@ -85,24 +85,13 @@ class Manner:
     """
 
     def __init__(self, problem: Problem) -> None:
-        self._signs: dict[Key, int] = {}  # of a sum: that of the file, 0 where it has both
         self._known: dict[tuple[Expression, bool], Expression] = {}
-        self._below: dict[Key, int] = {}  # of a denominator: its sign when it was first written
         self._squares: dict[Key, int] = {}  # of a squared bracket: its sign when first written
         self._within: dict[Key, int] = {}  # of a bracket in a denominator: the same
         self._above: dict[Key, int] = {}  # of a factor above that may stand either way: the same
         self._beside: dict[frozenset[tuple[Monomial, Fraction]], Expression] = {}  # roots
         quantities = (*problem.parameters, *problem.coordinates)
         self._positive = frozenset(q.name for q in quantities if q.assume == "positive")
-        self._given: set[Key] = set()  # all sums of the file
-        for node in given(problem):
-            for part in walk(node):
-                if isinstance(part, Sum):
-                    sign, key = signed_key(part)
-                    self._given.add(key)
-                    if _all_negative(part):
-                        continue
-                    self._signs[key] = sign if self._signs.get(key, sign) == sign else 0
         self._ordering = Ordering(order_of_names(problem))
         self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
         self._fractions = GivenFractions(given(problem), self._ordering)
@@ -110,25 +99,22 @@ class Manner:
         self._potential = GivenPotential(problem.potential, self._ordering)
         names = [q.name for q in problem.coordinates]
         self._momenta = NamedMomenta(names, self._positive, self._ordering)
+        self._signs = SumSigns(
+            given(problem), self._ordering, self._sums, self._momenta, self._positive
+        )
         self._brackets = Brackets(self._ordering, frozenset("p_" + name for name in names))
 
     def anew(self) -> None:
         """Begin another section, which is written as if it were the only one."""
-        for memory in (
-            self._known,
-            self._below,
-            self._within,
-            self._above,
-            self._squares,
-            self._beside,
-        ):
+        self._signs.anew()
+        for memory in (self._known, self._within, self._above, self._squares, self._beside):
             memory.clear()
 
     def expect(self, left: Expression, right: Expression) -> None:
         """Of a section with the condition a > b: a denominator has a − b."""
         difference = Sum((*_terms(left), *map(opposite, _terms(right))))
         if len(difference.terms) > 1:
-            self._keep_sign(difference)
+            self._signs.keep(difference)
 
     def __call__(self, node: Expression) -> Expression:
         """The formula as the file would write it; its value stays."""
@@ -160,7 +146,7 @@ class Manner:
         several = sum(odd_base(factor)[1] for factor in above) > 1
         for place, factor in enumerate(above if minus else ()):
             base, odd = odd_base(factor)
-            if base is None or not odd or self._wrong(base) is not None:
+            if base is None or not odd or self._signs.wrong(base) is not None:
                 continue
             if several and signed_key(base)[1] in self._above:
                 continue
@@ -173,7 +159,7 @@ class Manner:
     def vanishing(self, node: Expression) -> Expression:
         """What is 0 where the node is: x2 − x1 − l where the file has that, not x1 − x2 + l."""
         shown = self(node)
-        return negative_of(shown) if isinstance(shown, Sum) and self._wrong(shown) else shown
+        return negative_of(shown) if isinstance(shown, Sum) and self._signs.wrong(shown) else shown
 
     def _in_manner(self, node: Expression, *, inside: bool) -> Expression:
         """The same; `inside` a function or a root the sign of a denominator is left alone."""
@@ -210,7 +196,7 @@ class Manner:
                 return turned if function in EVEN else Negative(turned)
             case Negative(operand=Negative(operand=inner)):
                 return inner
-            case Negative(operand=Sum() as inner) if self._wrong(negative_of(inner)) is False:
+            case Negative(operand=Sum() as inner) if self._signs.wrong(negative_of(inner)) is False:
                 return negative_of(inner)
             case Negative(operand=Product() | Quotient() as inner):
                 return self._signed(node, inside=inside) if _sums(inner) else node
@@ -237,22 +223,10 @@ class Manner:
             case Call(function="sqrt", arguments=(inner,)):
                 if isinstance(inner, (Sum, Product)):
                     inner = self._as_before(inner)
-                self._keep_signs(inner)
+                self._signs.keep_odd(inner)
                 return self._without_squares(inner)
             case _:
                 return node
-
-    def _keep_sign(self, base: Sum) -> None:
-        sign, key = signed_key(base)
-        self._below.setdefault(key, sign)
-
-    def _keep_signs(self, radicand: Expression) -> None:
-        """Of sqrt((a − b)³ c): a denominator after it has a − b."""
-        _, above, below = parts_of(radicand)
-        for factor in (*above, *below):
-            base, odd = odd_base(factor)
-            if base is not None and odd:
-                self._keep_sign(base)
 
     def _without_squares(self, radicand: Expression) -> Expression:
         """sqrt(a)/|p| for sqrt(a/p²) with a letter p that is not known to be positive."""
@@ -273,7 +247,7 @@ class Manner:
         """(k l − m g)/(m l) for (k − m g/l)/m, but for brackets of the file."""
         node = self._brackets.joined(node)
         _, above, _ = parts_of(node)
-        if any(isinstance(f, Sum) and signed_key(f)[1] in self._signs for f in above):
+        if any(isinstance(f, Sum) and self._signs.is_settled(f) for f in above):
             return node
         found = self._brackets.merged(node)
         if found is None:
@@ -335,7 +309,7 @@ class Manner:
         """2 Ω y' and Ω² x of Ω (2 y' + Ω x), where the file does not have the bracket."""
         own = (f for f in parts_of(term)[1] if isinstance(f, Sum))
         still = (f for f in own if not all(is_letter(t) and has_rate(t) for t in f.terms))
-        if any(signed_key(f)[1] in self._signs for f in still):
+        if any(map(self._signs.is_settled, still)):
             return [term]
         return self._brackets.opened(term)
 
@@ -343,7 +317,7 @@ class Manner:
         minus, above, below = parts_of(term)
         for place, factor in enumerate(above):
             base, odd = odd_base(factor)
-            if base is None or not odd or self._wrong(base) is not None:
+            if base is None or not odd or self._signs.wrong(base) is not None:
                 continue
             sign, key = signed_key(base)
             if self._within.get(key, sign) != sign:
@@ -352,58 +326,6 @@ class Manner:
         whole = quotient_of(above, below)
         return Negative(whole) if minus else whole
 
-    def _wrong(self, node: Sum, *, below: bool = False) -> bool | None:
-        """Whether the other sign is the better one; None where neither is.
-
-        A denominator stands as it stood the last time: the rows of an answer have the same one.
-        """
-        sign, key = signed_key(node)
-        given = self._signs.get(key, 0) or (self._below.get(key, 0) if below else 0)
-        if given:
-            return given != sign
-        has_both = self._signs.get(key) == 0
-        if not has_both and (like := self._sums.multiple(node)) is not None:  # r − rs as 1 − rs/r
-            return like[0] < 0
-        if below and (found := sign_at_random(node, self._positive)):
-            return found < 0
-        if below and (constant := self._constant_term(node)) is not None:
-            return isinstance(constant, Negative)
-        if below and (positive := _determinant(node)) is not None:
-            return not positive
-        if below and (first := self._declared_first(node)) is not None:
-            return not first
-        number = next((t for t in node.terms if _is_number(t)), None)
-        if number is not None and (value := finite_value(node)) is not None:
-            return value < 0  # sqrt(33) - 1
-        if number is not None:
-            return isinstance(number, Negative)
-        if (momentum := self._momenta.turned(node)) is not None:
-            return momentum
-        return True if _all_negative(node) else None
-
-    def _constant_term(self, node: Sum) -> Expression | None:
-        """The a⁴ of a⁴ − (a² − b²) x²; None where others have no square of a coordinate."""
-        constants = [term for term in node.terms if self._ordering.is_parameter(term)]
-        others = [term for term in node.terms if term not in constants]
-        powers = ([*map(whole_power, parts_of(term)[1])] for term in others)
-        squared = (
-            any(self._ordering.is_coordinate(b) and e > 0 and e % 2 == 0 for b, e in each)
-            for each in powers
-        )
-        sign = sign_at_random(constants[0], self._positive) if len(constants) == 1 else 0
-        return constants[0] if sign and others and all(squared) else None
-
-    def _declared_first(self, node: Sum) -> bool | None:
-        """Whether it is 3 a² − 2 b² with a before b in the file; False of 2 b² − 3 a²."""
-        if len(node.terms) != 2:
-            return None
-        plus, minus = sorted(node.terms, key=lambda term: isinstance(term, Negative))
-        letters = [_squared_letter(each) for each in (plus, opposite(minus))]
-        if isinstance(plus, Negative) or not isinstance(minus, Negative) or None in letters:
-            return None
-        a, b = (self._ordering.factor(each) for each in letters if each is not None)
-        return a < b
-
     def _function(self, node: Call, inner: Sum) -> Expression:
         """sin(a − b) = −sin(b − a), cos(a − b) = cos(b − a); sin((a − b)/2) for sin(a/2 − b/2)."""
         ratio, shown = self._sums.like(inner) or (Fraction(1), inner)
@@ -411,7 +333,7 @@ class Manner:
             whole = product_of_powers(abs(ratio), {shown: 1}, self._ordering)
             turned = Call(node.function, (whole,), node.primes)
             return turned if node.function in EVEN or ratio > 0 else Negative(turned)
-        if not self._wrong(inner) or _constant(inner):
+        if not self._signs.wrong(inner) or _constant(inner):
             return node
         turned = Call(node.function, (negative_of(inner),), node.primes)
         return turned if node.function in EVEN else Negative(turned)
@@ -425,8 +347,8 @@ class Manner:
             like = self._sums.like(base)
             if like is not None and abs(like[0]) == 1:
                 return Power(like[1], node.exponent)
-            wrong = self._wrong(base)
-            turned = _begins_better(base) or self._late(base) or self._momenta.are_subtracted(base)
+            wrong = self._signs.wrong(base)
+            turned = self._signs.begins_worse(base) or self._momenta.are_subtracted(base)
             if wrong or (wrong is None and turned):
                 return Power(negative_of(base), node.exponent)
         return with_whole_powers(node)
@@ -452,7 +374,7 @@ class Manner:
         least = ((base, min(each.get(base, 0) for each in powers)) for base in letters)
         shared = dict[Expression, int]((base, e) for base, e in least if e > 0)
         fractions = any(below for _, _, below in terms)  # (g² cos θ − g/R) sin θ
-        if not shared or fractions or signed_key(node)[1] in self._given:
+        if not shared or fractions or self._signs.is_given(node):
             return None
         left = []
         for (minus, above, below), each in zip(terms, powers, strict=True):
@@ -463,14 +385,6 @@ class Manner:
             whole = quotient_of(kept or [ONE], below)
             left.append(Negative(whole) if minus else whole)
         return [*(power_of(b, e) for b, e in shared.items()), Sum(tuple(left))]
-
-    def _late(self, node: Sum) -> bool:
-        """Whether it is a difference of letters, the first of which comes second in the file."""
-        match node.terms:
-            case (Name() as one, Negative(operand=Name() as other)):
-                return not one.primes and self._ordering.factor(one) > self._ordering.factor(other)
-            case _:
-                return False
 
     def _signed(self, node: Expression, *, inside: bool) -> Expression:
         """A product or quotient with every sum in its right sign, the sign of all before it."""
@@ -487,7 +401,7 @@ class Manner:
                     base = Sum((*positive_first(base.terms),))
                     factors[place] = with_base(factor, base)
                     factor = factors[place]
-                wrong = self._wrong(base, below=factors is below and not inside)
+                wrong = self._signs.wrong(base, below=factors is below and not inside)
                 if wrong:
                     turned = self._in_manner(negative_of(base), inside=inside)
                     factors[place] = with_base(factor, turned)
@@ -514,7 +428,7 @@ class Manner:
         for factor in () if inside else below:
             base, _ = odd_base(factor)
             if base is not None:
-                self._keep_sign(base)
+                self._signs.keep(base)
                 self._within.update(
                     {k: s for s, k in map(signed_key, _brackets(base)) if k not in self._within}
                 )
@@ -543,27 +457,6 @@ def _terms(node: Expression) -> tuple[Expression, ...]:
     return tuple(term for term in terms if term != ZERO)
 
 
-def _all_negative(node: Sum) -> bool:
-    return all(isinstance(term, Negative) for term in node.terms)
-
-
-def _squared_letter(node: Expression) -> Expression | None:
-    """The letter of n a², with or without a number."""
-    match [f for f in factors_of(node) if not isinstance(f, Number)]:
-        case [Power(base=Name() as letter)]:
-            return letter
-        case _:
-            return None
-
-
-def _determinant(node: Sum) -> bool | None:
-    """Whether a two-term sum is a b − c², the determinant of T; False of c² − a b."""
-    factors = [[f for f in parts_of(t)[1] if not isinstance(f, Number)] for t in node.terms]
-    squares = [all(whole_power(f)[1] % 2 == 0 for f in each) for each in factors]
-    minus = [isinstance(term, Negative) for term in node.terms]
-    return minus == squares if len(squares) == 2 and squares[0] != squares[1] else None
-
-
 def _brackets(node: Sum) -> Iterator[Sum]:
     """The sums among the factors of the terms."""
     for term in node.terms:
@@ -573,23 +466,9 @@ def _brackets(node: Sum) -> Iterator[Sum]:
                 yield base
 
 
-def _begins_better(node: Sum) -> bool:
-    """Whether the square of −f(x) y + x is better written as that of x − f(x) y."""
-    match node.terms:
-        case (first, Negative(operand=Name())):
-            return not isinstance(first, (Name, Negative, Number))
-        case _:
-            return False
-
-
 def _sums(node: Expression) -> bool:
     _, above, below = parts_of(node)
     return any(odd_base(factor)[0] is not None for factor in (*above, *below))
-
-
-def _is_number(node: Expression) -> bool:
-    inner = node.operand if isinstance(node, Negative) else node
-    return isinstance(inner, Number)
 
 
 def _is_root(node: Expression) -> bool:

@@ -1,0 +1,172 @@
+"""Which way round a sum stands: R − a where the file has it, 1 − cos θ, a denominator as before."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from lagcli.evaluation import finite_value, sign_at_random
+from lagcli.expression import (
+    Expression,
+    Name,
+    Negative,
+    Number,
+    Power,
+    Sum,
+    factors_of,
+    opposite,
+    walk,
+)
+from lagcli.notation.brackets import NamedMomenta
+from lagcli.notation.factors import odd_base, parts_of, whole_power
+from lagcli.notation.given_sums import GivenSums
+from lagcli.notation.likeness import Key, signed_key
+from lagcli.notation.ordering import Ordering
+
+
+class SumSigns:
+    """The signs in which sums are written.
+
+    Parameters
+    ----------
+    formulas
+        Those of the file.
+    ordering, sums, momenta
+        Of the file.
+    positive
+        The names that are positive.
+    """
+
+    def __init__(
+        self,
+        formulas: Iterable[Expression],
+        ordering: Ordering,
+        sums: GivenSums,
+        momenta: NamedMomenta,
+        positive: frozenset[str],
+    ) -> None:
+        self._ordering, self._sums, self._momenta = ordering, sums, momenta
+        self._positive = positive
+        self._file: dict[Key, int] = {}  # of a sum: that of the file, 0 where it has both
+        self._below: dict[Key, int] = {}  # of a denominator: its sign when it was first written
+        self._given: set[Key] = set()  # all sums of the file
+        for node in formulas:
+            for part in walk(node):
+                if isinstance(part, Sum):
+                    sign, key = signed_key(part)
+                    self._given.add(key)
+                    if _all_negative(part):
+                        continue
+                    self._file[key] = sign if self._file.get(key, sign) == sign else 0
+
+    def anew(self) -> None:
+        """Begin another section."""
+        self._below.clear()
+
+    def is_given(self, node: Sum) -> bool:
+        """Whether the file has the sum or its negative."""
+        return signed_key(node)[1] in self._given
+
+    def is_settled(self, node: Sum) -> bool:
+        """Whether the file says which way round it stands, or has it both ways."""
+        return signed_key(node)[1] in self._file
+
+    def keep(self, base: Sum) -> None:
+        """A denominator after it stands as this sum does."""
+        sign, key = signed_key(base)
+        self._below.setdefault(key, sign)
+
+    def keep_odd(self, radicand: Expression) -> None:
+        """Of sqrt((a − b)³ c): a denominator after it has a − b."""
+        _, above, below = parts_of(radicand)
+        for factor in (*above, *below):
+            base, odd = odd_base(factor)
+            if base is not None and odd:
+                self.keep(base)
+
+    def wrong(self, node: Sum, *, below: bool = False) -> bool | None:
+        """Whether the other sign is the better one; None where neither is.
+
+        A denominator stands as it stood the last time: the rows of an answer have the same one.
+        """
+        sign, key = signed_key(node)
+        given = self._file.get(key, 0) or (self._below.get(key, 0) if below else 0)
+        if given:
+            return given != sign
+        has_both = self._file.get(key) == 0
+        if not has_both and (like := self._sums.multiple(node)) is not None:  # r − rs as 1 − rs/r
+            return like[0] < 0
+        if below and (found := sign_at_random(node, self._positive)):
+            return found < 0
+        if below and (constant := self._constant_term(node)) is not None:
+            return isinstance(constant, Negative)
+        if below and (positive := _determinant(node)) is not None:
+            return not positive
+        if below and (first := self._declared_first(node)) is not None:
+            return not first
+        number = next((t for t in node.terms if _is_number(t)), None)
+        if number is not None and (value := finite_value(node)) is not None:
+            return value < 0  # sqrt(33) - 1
+        if number is not None:
+            return isinstance(number, Negative)
+        if (momentum := self._momenta.turned(node)) is not None:
+            return momentum
+        return True if _all_negative(node) else None
+
+    def _constant_term(self, node: Sum) -> Expression | None:
+        """The a⁴ of a⁴ − (a² − b²) x²; None where others have no square of a coordinate."""
+        constants = [term for term in node.terms if self._ordering.is_parameter(term)]
+        others = [term for term in node.terms if term not in constants]
+        powers = ([*map(whole_power, parts_of(term)[1])] for term in others)
+        squared = (
+            any(self._ordering.is_coordinate(b) and e > 0 and e % 2 == 0 for b, e in each)
+            for each in powers
+        )
+        sign = sign_at_random(constants[0], self._positive) if len(constants) == 1 else 0
+        return constants[0] if sign and others and all(squared) else None
+
+    def _declared_first(self, node: Sum) -> bool | None:
+        """Whether it is 3 a² − 2 b² with a before b in the file; False of 2 b² − 3 a²."""
+        if len(node.terms) != 2:
+            return None
+        plus, minus = sorted(node.terms, key=lambda term: isinstance(term, Negative))
+        letters = [_squared_letter(each) for each in (plus, opposite(minus))]
+        if isinstance(plus, Negative) or not isinstance(minus, Negative) or None in letters:
+            return None
+        a, b = (self._ordering.factor(each) for each in letters if each is not None)
+        return a < b
+
+    def begins_worse(self, node: Sum) -> bool:
+        """Whether a square is better that of the negative: (a − b)² in order, (x − f(x) y)²."""
+        match node.terms:
+            case (Name() as one, Negative(operand=Name() as other)):
+                return not one.primes and self._ordering.factor(one) > self._ordering.factor(other)
+            case (first, Negative(operand=Name())):
+                return not isinstance(first, (Negative, Number))
+            case _:
+                return False
+
+
+def _all_negative(node: Sum) -> bool:
+    return all(isinstance(term, Negative) for term in node.terms)
+
+
+def _squared_letter(node: Expression) -> Expression | None:
+    """The letter of n a², with or without a number."""
+    match [f for f in factors_of(node) if not isinstance(f, Number)]:
+        case [Power(base=Name() as letter)]:
+            return letter
+        case _:
+            return None
+
+
+def _determinant(node: Sum) -> bool | None:
+    """Whether a two-term sum is a b − c², the determinant of T; False of c² − a b."""
+    factors = [[f for f in parts_of(t)[1] if not isinstance(f, Number)] for t in node.terms]
+    squares = [all(whole_power(f)[1] % 2 == 0 for f in each) for each in factors]
+    minus = [isinstance(term, Negative) for term in node.terms]
+    return minus == squares if len(squares) == 2 and squares[0] != squares[1] else None
+
+
+def _is_number(node: Expression) -> bool:
+    inner = node.operand if isinstance(node, Negative) else node
+    return isinstance(inner, Number)
