@@ -144,8 +144,9 @@ V: -m2*g*(l - r)*cos(theta)""",
         ),
         {
             "momenta.phi": "m*l^2*(3*theta'*cos(theta - phi) + 2*phi')/6",
-            "canonical_equations.phi": "18*(3*p_theta*cos(theta - phi) - 8*p_phi)"
-            "*(3*p_phi*cos(theta - phi) - 2*p_theta)*sin(theta - phi)"
+            # the brackets of theta' and phi', as the books have these
+            "canonical_equations.phi": "18*(2*p_theta - 3*p_phi*cos(theta - phi))"
+            "*(8*p_phi - 3*p_theta*cos(theta - phi))*sin(theta - phi)"
             "/(m*l^2*(7 + 9*sin(theta - phi)^2)^2) - m*g*l*sin(phi)/2",
         },
     ),
