@@ -295,8 +295,10 @@ def _missing_primes(
         start, end = text.offsets(each.span)
         whole, count = name.subn(lambda m: m[0] + "'" * (not m[1]), written[start:end])
         places += [(start, end, whole)] if count > 1 else []
-    found = list(islice(filter(fits, places[:_TRIALS]), 2))
-    return found[0] if len(found) == 1 and not places[_TRIALS:] else None
+    if places[_TRIALS:]:
+        return None
+    found = list(islice(filter(fits, places), 2))
+    return found[0] if len(found) == 1 else None
 
 
 def _stem(name: str) -> str:

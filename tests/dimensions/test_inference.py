@@ -189,7 +189,7 @@ def test_nothing_is_loaded_without_units_and_no_algebra_with_them():
 
 @pytest.mark.long
 def test_many_wrong_terms_are_answered_quickly_and_not_all():
-    terms = " + ".join(f"m*g*x^{2 + i % 5}" for i in range(1000))
+    terms = " + ".join(f"m*g*x^{2 + i % 5}" for i in range(5000))
     text = (
         "coordinates: {x: {unit: m}}\nparameters: {m: {unit: kg}, g: {unit: m/s^2}}\n"
         f"T: m*x'^2/2\nV: {terms}\n"
