@@ -258,7 +258,8 @@ def test_a_charge_is_real_exactly_where_it_is_said_to_be(text, n):
         where = real_where(charge, d.system)
         build = d.system.build
         for _ in range(30):
-            values = {s: sympy.Float(draw.uniform(0.2, 3)) for s in charge.charge.free_symbols}
+            letters = sorted(charge.charge.free_symbols, key=str)
+            values = {s: sympy.Float(10 ** draw.uniform(-1, 0.5)) for s in letters}
             values |= {
                 s: -x for s, x in values.items() if not s.is_positive and draw.random() < 0.5
             }
