@@ -18,7 +18,6 @@ from lagcli.reader.headings import SECTIONS
 from lagcli.reader.limits import EXPANDED_SIZE, YAML_LEVELS
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.text import Mistake, SourceText
-from lagcli.reader.yaml_errors import explain
 
 #: An entry of a map in braces that YAML reads as a key: `t; 1`, `mass= m`, `t :1`, `x 1`, `y x`.
 _WITHOUT_COLON = re.compile(
@@ -51,6 +50,8 @@ def compose(text: SourceText) -> tuple[DocumentNode, list[Diagnostic]]:
         for event in yaml.parse(text.source.text, Loader=_LOADER):
             composer.take(event)
     except yaml.YAMLError as error:
+        from lagcli.reader.yaml_errors import explain
+
         raise Mistake(explain(error, text)) from None
     if composer.root is None:
         where = text.span(0, 0)

@@ -6,22 +6,20 @@ import re
 
 _SIDE = r"[^<>=≤≥?,:]+?"
 _RELATION = rf"(?P<left>{_SIDE})\s*(?P<sign>[<>≤≥])=?\s*(?P<right>{_SIDE})"
-_FORMS = tuple(
-    re.compile(form)
-    for form in (
-        rf"(?P<then>.+?)\s+(?:if|when)\s+{_RELATION}\s+else\s+(?P<other>.+)",
-        rf"\(?{_RELATION}\)?\s*\?\s*(?P<then>[^?]+?)\s*:\s*(?P<other>[^?]+)",
-        rf"if\s+{_RELATION}\s+then\s+(?P<then>.+?)\s+else\s+(?P<other>.+?)",
-        rf"(?:np\.where|where|if_else|ifelse|If|IF)[\[(]{_RELATION},(?P<then>[^,]+),(?P<other>[^,]+)[\])]",
-        rf"(?:\w+\.)?Piecewise\(\((?P<then>[^,]+),{_RELATION}\),\s*\((?P<other>[^,]+),[^,]+\)\)",
-        rf"(?P<then>.+?)\s*,?\s+(?:for|if|when)\s+{_RELATION}(?:[,;]\s*(?:else\s+)?(?P<other>0).*)?",
-    )
+_FORMS = (
+    rf"(?P<then>.+?)\s+(?:if|when)\s+{_RELATION}\s+else\s+(?P<other>.+)",
+    rf"\(?{_RELATION}\)?\s*\?\s*(?P<then>[^?]+?)\s*:\s*(?P<other>[^?]+)",
+    rf"if\s+{_RELATION}\s+then\s+(?P<then>.+?)\s+else\s+(?P<other>.+?)",
+    rf"(?:np\.where|where|if_else|ifelse|If|IF)[\[(]{_RELATION},(?P<then>[^,]+),(?P<other>[^,]+)[\])]",
+    rf"(?:\w+\.)?Piecewise\(\((?P<then>[^,]+),{_RELATION}\),\s*\((?P<other>[^,]+),[^,]+\)\)",
+    rf"(?P<then>.+?)\s*,?\s+(?:for|if|when)\s+{_RELATION}(?:[,;]\s*(?:else\s+)?(?P<other>0).*)?",
 )
 
 
 def without_cases(text: str) -> str:
     """`(a)*(1 + sign(x))/2 + (b)*(1 - sign(x))/2` for `a if x > 0 else b`; others as they are."""
-    found = next((each for form in _FORMS if (each := form.fullmatch(text.strip()))), None)
+    matches = (re.fullmatch(form, text.strip()) for form in _FORMS)
+    found = next(filter(None, matches), None)
     if found is None:
         return text
     left, right = found["left"].strip(), found["right"].strip()
