@@ -57,7 +57,7 @@ from lagcli.notation.factors import (
 from lagcli.notation.fractions import Brackets
 from lagcli.notation.given_formulas import given, order_of_names
 from lagcli.notation.given_sums import GivenPotential, GivenSums, arranged
-from lagcli.notation.likeness import EVEN, ODD, Key, Monomial, multiplied_out, parity, signed_key
+from lagcli.notation.likeness import EVEN, ODD, Monomial, multiplied_out, parity, signed_key
 from lagcli.notation.logarithms import ratios_in, with_ratios
 from lagcli.notation.ordering import (
     Ordering,
@@ -68,7 +68,7 @@ from lagcli.notation.ordering import (
     positive_first,
 )
 from lagcli.notation.reciprocals import GivenFractions
-from lagcli.notation.signs_of_sums import SumSigns
+from lagcli.notation.signs_of_sums import FirstSigns, SumSigns
 from lagcli.problem_data import Problem
 from lagcli.rewriting import put_in, rebuilt
 
@@ -86,9 +86,9 @@ class Manner:
 
     def __init__(self, problem: Problem) -> None:
         self._known: dict[tuple[Expression, bool], Expression] = {}
-        self._squares: dict[Key, int] = {}  # of a squared bracket: its sign when first written
-        self._within: dict[Key, int] = {}  # of a bracket in a denominator: the same
-        self._above: dict[Key, int] = {}  # of a factor above that may stand either way: the same
+        self._squares = FirstSigns()  # of squared brackets
+        self._within = FirstSigns()  # of brackets in a denominator
+        self._above = FirstSigns()  # of factors above that may stand either way
         self._beside: dict[frozenset[tuple[Monomial, Fraction]], Expression] = {}  # roots
         quantities = (*problem.parameters, *problem.coordinates)
         self._positive = frozenset(q.name for q in quantities if q.assume == "positive")
@@ -131,11 +131,7 @@ class Manner:
     def _keep_brackets(self, node: Expression) -> None:
         """Of c (a − b)/d: a product of brackets after it has a − b."""
         for term in terms_of(node):
-            for factor in parts_of(term)[1]:
-                base, odd = odd_base(factor)
-                if base is not None and odd:
-                    sign, key = signed_key(base)
-                    self._above.setdefault(key, sign)
+            self._above.keep_odd(parts_of(term)[1])
 
     def _without_minus(self, node: Expression) -> Expression:
         """(b − a − c)/d for −(a − b + c)/d; of a whole answer also b − a for −(a − b)."""
@@ -148,7 +144,7 @@ class Manner:
             base, odd = odd_base(factor)
             if base is None or not odd or self._signs.wrong(base) is not None:
                 continue
-            if several and signed_key(base)[1] in self._above:
+            if several and self._above.has(base):
                 continue
             minuses = sum(isinstance(term, Negative) for term in base.terms)
             if 2 * minuses + 1 >= len(base.terms):  # no more minus signs than before
@@ -319,8 +315,7 @@ class Manner:
             base, odd = odd_base(factor)
             if base is None or not odd or self._signs.wrong(base) is not None:
                 continue
-            sign, key = signed_key(base)
-            if self._within.get(key, sign) != sign:
+            if self._within.turns(base):
                 above[place] = with_base(factor, negative_of(base))
                 minus = not minus
         whole = quotient_of(above, below)
@@ -412,14 +407,13 @@ class Manner:
         for factors, place in free if several else ():
             base, _ = odd_base(factors[place])
             assert base is not None
-            sign, key = signed_key(base)
-            if self._above.get(key, sign) != sign:
+            if self._above.turns(base):
                 factors[place] = with_base(factors[place], negative_of(base))
                 minus = not minus
         for factors, place in free if minus else ():
             base, _ = odd_base(factors[place])
             assert base is not None
-            if several and signed_key(base)[1] in self._above:
+            if several and self._above.has(base):
                 continue
             if 2 * sum(isinstance(t, Negative) for t in base.terms) >= len(base.terms):
                 factors[place] = with_base(factors[place], negative_of(base))

@@ -23,6 +23,31 @@ from lagcli.notation.likeness import Key, signed_key
 from lagcli.notation.ordering import Ordering
 
 
+class FirstSigns(dict[Key, int]):
+    """The sign with which each sum was first written, by its key."""
+
+    def keep(self, node: Sum) -> None:
+        """The sum stands as here from now on, unless it was written before."""
+        sign, key = signed_key(node)
+        self.setdefault(key, sign)
+
+    def keep_odd(self, factors: Iterable[Expression]) -> None:
+        """The same of every sum to an odd power."""
+        for factor in factors:
+            base, odd = odd_base(factor)
+            if base is not None and odd:
+                self.keep(base)
+
+    def has(self, node: Sum) -> bool:
+        """Whether the sum or its negative was written before."""
+        return signed_key(node)[1] in self
+
+    def turns(self, node: Sum) -> bool:
+        """Whether it was written the other way round."""
+        sign, key = signed_key(node)
+        return self.get(key, sign) != sign
+
+
 class SumSigns:
     """The signs in which sums are written.
 
@@ -47,7 +72,7 @@ class SumSigns:
         self._ordering, self._sums, self._momenta = ordering, sums, momenta
         self._positive = positive
         self._file: dict[Key, int] = {}  # of a sum: that of the file, 0 where it has both
-        self._below: dict[Key, int] = {}  # of a denominator: its sign when it was first written
+        self._below = FirstSigns()  # of denominators
         self._given: set[Key] = set()  # all sums of the file
         for node in formulas:
             for part in walk(node):
@@ -72,16 +97,12 @@ class SumSigns:
 
     def keep(self, base: Sum) -> None:
         """A denominator after it stands as this sum does."""
-        sign, key = signed_key(base)
-        self._below.setdefault(key, sign)
+        self._below.keep(base)
 
     def keep_odd(self, radicand: Expression) -> None:
         """Of sqrt((a − b)³ c): a denominator after it has a − b."""
         _, above, below = parts_of(radicand)
-        for factor in (*above, *below):
-            base, odd = odd_base(factor)
-            if base is not None and odd:
-                self.keep(base)
+        self._below.keep_odd((*above, *below))
 
     def wrong(self, node: Sum, *, below: bool = False) -> bool | None:
         """Whether the other sign is the better one; None where neither is.
