@@ -27,7 +27,7 @@ _AT_REST = re.compile(
 
 def _pairs(given: list[tuple[str, str]], *, braces: bool = True) -> str:
     """`write {x: 1, x': 0}`."""
-    inner = ", ".join(map("{0[0]}: {0[1]}".format, given))
+    inner = ", ".join(f"{name}: {value}" for name, value in given)
     return f"write {{{inner}}}" if braces else f"write {inner}"
 
 

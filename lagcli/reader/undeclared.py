@@ -28,7 +28,7 @@ _SHOWN = 3
 #: A longer list of parameters is not repeated.
 _LONGEST = 80
 _SHAPE = re.compile(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
-#: Other words for keys, and constants outside of `parameters`; what is said of all of them.
+#: Other words for keys, and constants outside of `parameters`; the hint for all of them.
 _TOGETHER = (
     (re.compile(r"unknown key ('.*') in the problem: the key is (\w+)"), "the keys are {}"),
     (

@@ -27,7 +27,7 @@ from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import AlgebraSection, Answers, SpecialValue
 from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.motions import Above
-from lagcli.statements.wording import PRESCRIBED, conditions, rows_by_name, values_of, where_real
+from lagcli.statements.wording import conditions, rows_by_name, values_of, where_real
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
@@ -95,7 +95,7 @@ def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
         None: "Whether the motion is integrable is undecided.",
     }
     yield Paragraph((f"Searched: {section.ansatz}.",))
-    if section.ansatz.endswith(PRESCRIBED):
+    if section.is_prescribed:
         return
     number = section.independent
     charges = f"{number} independent conserved quantit{'y' if number == 1 else 'ies'}"

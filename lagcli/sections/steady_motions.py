@@ -36,6 +36,7 @@ from lagcli.statements.plus_minus import single, steady_in_pairs, unlike
 from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     conditions,
+    constraints_give,
     in_moving_frames,
     in_polar_coordinates,
     linear_equations,
@@ -66,10 +67,9 @@ def blocks(section: SteadySection, answers: Answers) -> Iterator[Block]:
         yield from found
         return
     if section.eliminated:
-        lead = "The constraints give " if len(section.eliminated) > 1 else "The constraint gives "
         yield Paragraph(
             (
-                lead,
+                constraints_give(section.eliminated),
                 *listed(section.eliminated, 1),
                 " in terms of the other velocities.",
             )

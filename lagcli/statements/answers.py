@@ -213,7 +213,8 @@ class AlgebraSection:
     `independent` is None where no state was found, or not in the work allowed.
     `closed`: every bracket is a combination of all of them and of constants.  `integrable` is
     True or None; `separates` where the Hamilton-Jacobi equation shows it, not the charges.
-    `named_where`: the name is another one where the charges are not real.
+    `named_where`: the name is another one where the charges are not real.  Where the motion
+    `is_prescribed`, no symmetry was sought.
     """
 
     ansatz: str
@@ -227,6 +228,7 @@ class AlgebraSection:
     separates: bool = False
     special: tuple[SpecialValue, ...] = ()
     named_where: tuple[Above, ...] = ()
+    is_prescribed: bool = False
 
     @property
     def dimension_counts(self) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import groupby
 
@@ -372,6 +372,11 @@ def where_real(where: Sequence[Above], *, several: bool = False) -> Iterator[Par
         subject, their = ("All of them are", "their") if several else ("It is", "its")
         rest = f"; otherwise {their} real and {their} imaginary part{'s' * several} are conserved."
         yield Paragraph((f"{subject} real for ", *conditions(others), rest))
+
+
+def constraints_give(names: Collection[str]) -> str:
+    """The beginning of a sentence on the rates that constraints give, one each."""
+    return f"The constraint{'s give' if len(names) > 1 else ' gives'} "
 
 
 def there_may_be_others(section: SteadySection) -> Paragraph:

@@ -35,7 +35,7 @@ PLANE = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("name", mostly_long(PLANE, "Holt", "Fokas and Lagerstrom, turned"))
+@pytest.mark.parametrize("name", PLANE)
 def test_an_integral_of_third_degree_makes_it_integrable(name):
     text = problem(PLANE[name], parameters="m k a d")
     derivation = derive(text)

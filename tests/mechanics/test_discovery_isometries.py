@@ -10,7 +10,6 @@ import pytest
 
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.pipeline import explain
-from tests.marks import mostly_long
 from tests.oracle.constancy import digits_of
 
 from .derived import derive
@@ -33,7 +32,7 @@ PLANES = {
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", mostly_long(PLANES, "parabolic", "logarithmic"))
+@pytest.mark.parametrize("name", PLANES)
 def test_a_flat_plane_has_the_eight_of_a_free_particle(name):
     coordinates, rates, _ = PLANES[name]
     found = summary(derive(problem(f"m*({rates})/2", coordinates, "m a")).discovery)
@@ -42,7 +41,7 @@ def test_a_flat_plane_has_the_eight_of_a_free_particle(name):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("name", mostly_long(PLANES, "parabolic", "logarithmic"))
+@pytest.mark.parametrize("name", PLANES)
 def test_kepler_keeps_its_runge_lenz_vector(name):
     coordinates, rates, inverse = PLANES[name]
     text = problem(f"m*({rates})/2 + k*{inverse}", coordinates, "m a k")

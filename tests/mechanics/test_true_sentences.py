@@ -22,7 +22,6 @@ from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.pipeline import explain
 from lagcli.reader import parse_text
 from lagcli.statements.wording import enumerated
-from tests.marks import mostly_long
 
 from .derived import derive
 from .test_explanation import words
@@ -644,7 +643,7 @@ def test_special_values_are_said_with_what_the_same_search_finds(factor):
     assert told.count("symmetries, of which these are no linear combinations") == len(numbers)
 
 
-@pytest.mark.parametrize("offset", mostly_long(["l", "2*l"], "l"))
+@pytest.mark.parametrize("offset", ["l", "2*l"])
 def test_the_name_of_an_algebra_has_the_condition_under_which_its_charges_are_real(offset):
     """Of r'' = (w² − k/m) r + …: the other sign has the hyperbolic oscillator algebra.
 

@@ -61,18 +61,13 @@ def digits_of(derivation: Derivation) -> dict[str, float]:
     return digits_kept(derivation.system.problem, found.get("discovered") or [])
 
 
-def discovered(problem: Problem) -> tuple[list[dict[str, Any]], float]:
-    """The charges that `--show discovered` prints, and the seconds."""
-    begun = time.process_time()
-    answers = solve(problem, ["discovered"])
-    seconds = time.process_time() - begun
-    return json.loads(json.dumps(to_object(answers))).get("discovered") or [], seconds
+def searched(problem: Problem, *sections: str) -> tuple[list[dict[str, Any]], list[dict[str, Any]]]:
+    """The charges that `--show discovered` prints, and the special values of `--show algebra`.
 
-
-def special_values(problem: Problem) -> list[dict[str, Any]]:
-    """Those of the parameters that `--show algebra` prints, with the charges they add."""
-    found = json.loads(json.dumps(to_object(solve(problem, ["algebra"]))))
-    return (found.get("algebra") or {}).get("special", [])
+    Empty are those of a section that is not asked for.
+    """
+    found = json.loads(json.dumps(to_object(solve(problem, sections))))
+    return found.get("discovered") or [], (found.get("algebra") or {}).get("special", [])
 
 
 def kept_at(problem: Problem, special: Mapping[str, Any]) -> dict[str, float]:
@@ -99,7 +94,9 @@ def main(arguments: Sequence[str]) -> None:
     number, untested, least, longest = 0, 0, mp.inf, 0.0
     for path in files:
         problem = load(path)
-        (charges, seconds), special = discovered(problem), special_values(problem)
+        begun = time.process_time()
+        charges, special = searched(problem, "discovered", "algebra")
+        seconds = time.process_time() - begun
         kept = digits_kept(problem, charges)
         for case in special:
             kept |= kept_at(problem, case)

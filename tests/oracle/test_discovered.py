@@ -16,7 +16,7 @@ from lagcli import load
 from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
 
-from .constancy import digits_kept, discovered, kept_at, special_values
+from .constancy import digits_kept, kept_at, searched
 from .examine import DIGITS, examine
 from .jets import OutsideDomain
 from .reference import Reference
@@ -28,7 +28,7 @@ PROBLEMS = sorted(LIBRARY.rglob("*.yaml"))
 
 def stays(path: Path) -> None:
     problem = load(path)
-    charges, _ = discovered(problem)
+    charges, _ = searched(problem, "discovered")
     kept = digits_kept(problem, charges)
     assert {name: digits for name, digits in kept.items() if digits < 20} == {}
     for conditions in {tuple(c.get("where", ())) for c in charges}:
@@ -77,8 +77,9 @@ def test_no_library_problem_gets_a_false_charge(path: Path) -> None:
 def test_special_values_get_no_false_charge(path: Path) -> None:
     """A search at each value: those of the folder on discovery, and `-m hours` the others."""
     problem = load(path)
+    _, special = searched(problem, "algebra")
     kept = {}
-    for case in special_values(problem):
+    for case in special:
         kept |= kept_at(problem, case)
     assert {name: digits for name, digits in kept.items() if digits < 20} == {}
 
@@ -93,6 +94,6 @@ def test_a_special_charge_that_changes_elsewhere_is_noticed() -> None:
 
 def test_a_charge_that_changes_is_noticed() -> None:
     problem = load(LIBRARY / "central/kepler.yaml")
-    [energy, *_], _ = discovered(problem)
+    [energy, *_], _ = searched(problem, "discovered")
     wrong = {**energy, "charge": energy["charge"] + " + x*x'/10^12"}
     assert 10 < digits_kept(problem, [wrong])["energy"] < 14

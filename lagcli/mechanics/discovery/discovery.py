@@ -84,7 +84,7 @@ class Discovery(Setting):
         if self.unsearched:
             self.words.append("nothing")
             self.stopped.append(self.unusable)
-        elif self._prescribed:
+        elif self.is_prescribed:
             self.words.append(f"nothing, as {PRESCRIBED}")
         else:
             self._run()
@@ -95,10 +95,11 @@ class Discovery(Setting):
         return "; ".join(dict.fromkeys((*self.words, *self.stopped)))
 
     @property
-    def _prescribed(self) -> bool:
+    def is_prescribed(self) -> bool:
         """Whether positions are prescribed, so that every function of the state is known."""
         equations = self.dynamics.constraints.equations
-        return self.dynamics.degrees_of_freedom == 0 and all(e.holonomic for e in equations)
+        bound = self.dynamics.degrees_of_freedom == 0 and all(e.holonomic for e in equations)
+        return bound and not self.unsearched
 
     # -- the two searches -------------------------------------------------------------------
 

@@ -62,6 +62,7 @@ def algebra_section(
         separates=separable,
         number=len(discovery.charges),
         closed=found.closed,
+        is_prescribed=discovery.is_prescribed,
     )
 
 

@@ -22,6 +22,7 @@ from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     POTENTIALS,
     conditions,
+    constraints_give,
     in_moving_frames,
     in_polar_coordinates,
     linear_equations,
@@ -95,9 +96,8 @@ def _with_constant_velocities(found: SteadySection) -> list[Part]:
     ]
     if not found.eliminated:
         return ["In a steady motion the velocities are constant.", *rest]
-    lead = "The constraints give " if len(found.eliminated) > 1 else "The constraint gives "
     given = [*names(found.eliminated, 1), " in terms of the other velocities, which are constant"]
-    return [lead, *given, " in a steady motion.", *rest]
+    return [constraints_give(found.eliminated), *given, " in a steady motion.", *rest]
 
 
 def _that_rest(found: SteadySection) -> list[Part]:

@@ -32,7 +32,7 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
     found = cast(ChargesSection, section).charges
     discovery = explainer.derivation.discovery
     letters = explainer.letters
-    if discovery.ansatz.endswith(PRESCRIBED):
+    if discovery.is_prescribed:
         yield says(f"None is sought: {PRESCRIBED}.")
         return
     constrained = bool(explainer.dynamics.constraints.equations)
@@ -129,7 +129,7 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
     """Brackets of the conserved quantities, their algebra, and Liouville's count."""
     found = cast(AlgebraSection, section)
     charges = explainer.derivation.discovery.charges
-    if not charges and found.ansatz.endswith(PRESCRIBED):
+    if found.is_prescribed:
         yield says(f"No symmetry was sought: {PRESCRIBED}.")
         return
     if not charges:

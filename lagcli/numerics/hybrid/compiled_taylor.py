@@ -40,7 +40,7 @@ _LIMIT = 1_000_000_000
 _ORDER, _LOWEST = 0.7, 8
 #: Constraints are held to _HELD roundings, and one that the others imply to _IMPLIED.
 _HELD, _IMPLIED = 3.6, 1e-12
-#: A row from a tuple of all its fields; `Mark` itself takes a sixth of the time of a short run.
+#: A row from a tuple of all its fields: with a call of Python for each a sweep takes 3 % longer.
 _mark: Callable[[tuple[Any, ...]], Mark] = partial(tuple.__new__, Mark)
 
 
