@@ -298,6 +298,29 @@ def test_a_relativistic_period_is_the_integral():
     assert 50 < errors[0] / errors[1] < 80  # a^6
 
 
+@pytest.mark.parametrize(
+    ("rest", "expected"),
+    [
+        # T = 2 pi k/(1 - E²)^(3/2) from the action (Born, *The Mechanics of the Atom*,
+        # section 33), with a² (1 - E²)² = k² E² - (1 - E²) (p² - k²)
+        ("k/r", "2*pi*abs(p_phi)^3/k^2*(1 + 3*k^2*a^2/(2*p_phi^4))"),
+        # a circle of radius a about a point that is not the origin, T = 2 pi E/k
+        ("k*r^2*phi'/2", "2*pi/k*(1 + k^2*a^2/2 - k^4*a^4/8)"),
+    ],
+)
+def test_the_period_of_a_relativistic_orbit(rest, expected):
+    """m = c = 1: (dr/dt)² is a quotient in which E - U_eff is a factor behind a root."""
+    section, missing = reduced(f"""
+coordinates: {{r: POSITIVE, phi: {{}}}}
+parameters: {{k: POSITIVE}}
+L: -sqrt(1 - r'^2 - r^2*phi'^2) + {rest}
+""")
+    assert not missing
+    assert section.one_freedom is not None
+    assert section.one_freedom.periods
+    assert all(same(found.period, expected) for found in section.one_freedom.periods)
+
+
 def test_the_kinetic_energy_is_one_fraction():
     """Two masses tied over a movable wedge: what the momentum of the wedge leaves of T."""
     section, _ = reduced("""

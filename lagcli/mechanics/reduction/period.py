@@ -97,7 +97,11 @@ class Periods:
         motion = self.motion
         if motion.pace is None:
             return motion.mass
-        return simplify(2 * motion.pace * (motion.E - motion.potential))
+        # with E = U + d: the factor d of (dq/dt)² cancels, also where U has a root
+        d = sympy.Dummy()
+        rise = motion.E - motion.potential
+        mass = simplify(2 * at(motion.pace, {motion.E: motion.potential + d}) * d)
+        return at(mass, {d: rise})
 
     @cached_property
     def _rest(self) -> RestPoints:
