@@ -113,7 +113,7 @@ class Isometries:
     def what_they_are(self) -> str:
         """The X_a of a flat space as what stands before them in a sentence."""
         if len(self.functions) == 1:
-            return "In proportion to the arc length is "
+            return "The arc length is proportional to "
         if not self._gram.is_diagonal():
             return "Cartesian coordinates are linear combinations of "
         if len({*self._gram.diagonal()}) > 1:
