@@ -215,6 +215,47 @@ def test_a_force_along_a_well_is_balanced_for_special_values_only(seed):
     assert set(sympy.solve(sympy.sympify(to_grammar(condition).replace("^", "**")), F)) == {k, -k}
 
 
+@pytest.mark.parametrize(
+    ("parameters", "V", "product"),
+    [
+        ("w: ", "g*cos(x) + 2*a*sin(x - w*t)", "w"),
+        ("w: {assume: positive}", "g*cos(x) + 2*a*sin(x - w*t)", ""),
+        ("A: , w: ", "g*cos(x) + A*x*cos(w*t)", "A*w"),
+        ("A: , w: ", "A*sin(w*t - x) - g*cos(x)", "A*w"),
+    ],
+)
+def test_without_its_drive_a_system_can_be_at_rest(parameters, V, product):
+    """A rate or an amplitude that may be 0 leaves the equilibria of the system that is not driven.
+
+    The conditions themselves need not have it as a factor, their rates of change have.
+    """
+    text = (
+        f"{{coordinates: [x], parameters: {{g: {{assume: positive}}, a: {{assume: positive}}, "
+        f"{parameters}}}, T: x'^2/2, V: '{V}'}}"
+    )
+    section = equilibria(derive(text).dynamics)
+    assert section.equilibria == ()
+    assert [to_grammar(each) for each in section.unless or ()] == [product] * bool(product)
+
+
+def test_two_open_coefficients_that_must_both_vanish_are_not_denied():
+    """k/(x + y)² and c/(x - y)² exclude each other, but for k = c = 0 the system rests anywhere."""
+    text = (
+        "{coordinates: {x: {assume: positive}, y: {}}, parameters: {k: , c: }, "
+        "T: x'^2/2 + y'^2/2, V: k/(x + y) + c/(x - y)}"
+    )
+    assert equilibria(derive(text).dynamics).unless is None
+
+
+def test_what_is_assumed_not_to_vanish_is_no_exception():
+    """A force A t with A assumed nonzero: "unless A = 0" is void."""
+    text = "{coordinates: [x], parameters: {A: {assume: nonzero}}, T: x'^2/2, V: -A*t*x}"
+    section = equilibria(derive(text).dynamics)
+    assert section.equilibria == ()
+    assert section.unless == ()
+    assert "unless" not in said(text, "Equilibria", "equilibria")
+
+
 # -- forces on points that are guided -------------------------------------------------------------
 
 

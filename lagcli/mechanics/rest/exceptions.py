@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import sympy
-from sympy import Expr, Symbol
+from sympy import Expr, S, Symbol
 from sympy.core.function import AppliedUndef
 
 from lagcli.algebra import simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.decimals import written
 from lagcli.algebra.factors import factors_of
+from lagcli.algebra.place import NO_VALUE
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, solve_system
 from lagcli.expression import Expression
@@ -30,9 +31,10 @@ def without_unknowns(
     if any(e.atoms(AppliedUndef) for e in conditions):
         return None
     found = _factors_without(conditions, unknowns)
-    if found or any(sign(e) in (1, -1) for e in conditions):
+    if found or not all(map(_can_vanish, conditions)):
         return found
-    return _decided_by_parameters(conditions, unknowns)
+    decided = _decided_by_parameters(conditions, unknowns)
+    return _at_zero(conditions, unknowns) if decided == () else decided
 
 
 def _decided_by_parameters(
@@ -58,6 +60,47 @@ def _decided_by_parameters(
     return None if may_hold else ()
 
 
+def _at_zero(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Expr, ...] | None:
+    """The product of the parameters without each of which the conditions can hold.
+
+    That of a rate w, where they hold at all times: g sin(q) = a w² cos(q - w t).  None where all
+    must vanish together, or where it is not known that there is no other exception.
+    """
+    known = {p for e in conditions for p in e.free_symbols} - {*unknowns}
+    open_ = sorted(filter(_can_vanish, known), key=str)
+    alone = [p for p in open_ if _holds_without(conditions, [p], unknowns)]
+    if not alone:
+        together = len(open_) > 1 and _holds_without(conditions, open_, unknowns)
+        return None if together else ()
+    with_all = []
+    for e in conditions:
+        factors = [f for f, k in factors_of(simplify(e)) if k > 0 and _can_vanish(f)]
+        if {*alone} <= {*factors}:
+            with_all.append(sympy.Mul(*(f for f in factors if f not in alone)))
+    return (sympy.Mul(*alone),) if _exclude_each_other(with_all) else None
+
+
+def _holds_without(
+    conditions: Sequence[Expr], parameters: Sequence[Symbol], unknowns: Sequence[Symbol]
+) -> bool:
+    """Whether a solution is known where these parameters are 0."""
+    left = [simplify(e.xreplace(dict.fromkeys(parameters, S.Zero))) for e in conditions]
+    left = [e for e in left if e != 0]
+    if any(e.has(*NO_VALUE) or free_of(e, unknowns) for e in left):
+        return False
+    return not left or bool(solve_system(left, unknowns).solutions)
+
+
+def _exclude_each_other(expressions: Sequence[Expr]) -> bool:
+    """Whether they vanish together nowhere, as sin(a) and cos(a)."""
+    squares = simplify(sympy.Add(*(e**2 for e in expressions)))
+    return bool(squares.is_number and squares != 0)
+
+
+def _can_vanish(e: Expr) -> bool:
+    return sign(e) not in (1, -1) and sign(e**2) != 1
+
+
 def unless_written(
     vanishing: Sequence[Expr] | None, order: Sequence[str]
 ) -> tuple[Expression, ...] | None:
@@ -71,9 +114,7 @@ def _factors_without(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
     if open_:
         deciding = [_perhaps_zero(e, unknowns) for e in open_]
         found = tuple({sympy.Mul(*each): None for each in deciding}) if all(deciding) else ()
-        # sin(a) and cos(a) do not vanish together
-        squares = simplify(sympy.Add(*(e**2 for e in found)))
-        return () if squares.is_number and squares != 0 else found
+        return () if _exclude_each_other(found) else found
     factors = [_perhaps_zero(e, unknowns) for e in conditions]
     common = [f for f in factors[0] if all(f in other for other in factors)] if factors else []
     return (sympy.Mul(*common),) if common else ()
@@ -82,7 +123,5 @@ def _factors_without(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
 def _perhaps_zero(condition: Expr, unknowns: Sequence[Symbol]) -> list[Expr]:
     """The factors without unknowns that can vanish."""
     return [
-        f
-        for f, k in factors_of(condition)
-        if k > 0 and free_of(f, unknowns) and sign(f) not in (1, -1)
+        f for f, k in factors_of(condition) if k > 0 and free_of(f, unknowns) and _can_vanish(f)
     ]
