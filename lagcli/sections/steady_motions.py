@@ -35,6 +35,7 @@ from lagcli.statements.motions import SteadyMotion, SteadySection
 from lagcli.statements.plus_minus import single, steady_in_pairs, unlike
 from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
+    capitalized,
     conditions,
     constraints_give,
     in_moving_frames,
@@ -83,6 +84,9 @@ def blocks(section: SteadySection, answers: Answers) -> Iterator[Block]:
         if wanted:
             yield vanishing(wanted)
     yield from in_polar_coordinates(section)
+    if section.everywhere:
+        yield Paragraph((f"{capitalized(section.reason)}.",))
+        return
     if section.motions is None:
         yield Paragraph((f"Not found: {section.reason}.",))
         return

@@ -155,6 +155,7 @@ class SteadySection:
     `where` restricts what was sought, in words; of what is `resting` the conditions are of rest.
     All hold in each of the `frames`, too: velocities that are common to all in terms of one.
     Nothing changes when the two coordinates of a `plane` turn about the origin.
+    They are not listed where they are `everywhere`.
 
     Under velocity constraints, and where a force acts along what L does not contain, the
     conditions are what is left of the equations of motion (`acting`: "inertia"), along the
@@ -174,6 +175,7 @@ class SteadySection:
     resting: bool = False
     frames: tuple[Mapping[str, Expression], ...] = ()
     plane: tuple[str, ...] = ()
+    everywhere: bool = False
 
     @property
     def sought(self) -> str:

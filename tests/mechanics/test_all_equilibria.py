@@ -17,6 +17,7 @@ from lagcli.algebra.systems import solve_system
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.mechanics.rest.equilibria import RestPoints
+from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.statements.answers import EquilibriaSection
 
 from .derived import derive
@@ -467,6 +468,24 @@ def test_without_a_force_every_position_is_an_equilibrium(constraints, force, ev
     assert section.everywhere is everywhere
     assert section.reason.startswith("no force acts at rest") is everywhere
     assert modes(dynamics).reason.startswith("no force acts at rest") is everywhere
+
+
+@pytest.mark.parametrize(
+    ("cyclic", "moving", "reason"),
+    [("", "", "no force acts at rest"), (", u", " + u'^2", "no force acts then")],
+)
+def test_where_every_position_is_an_equilibrium_every_one_is_steady(cyclic, moving, reason):
+    """The steady motions do not say that none was found where all are."""
+    section, missing = steady_motions(
+        derive(
+            f"coordinates: [x, y, z{cyclic}]\nparameters: {{k: {{assume: positive}}}}\n"
+            f"L: (x'^2 + y'^2 + z'^2{moving})/2\n"
+            "constraints: {a: (x - y)^2 + z^2 = 1, b: x*y*z + z^3 = k}\n"
+        )
+    )
+    assert section.everywhere
+    assert section.reason.startswith(reason)
+    assert not missing
 
 
 def test_where_contacts_are_open_or_closed_every_position_is_one_without_a_force():

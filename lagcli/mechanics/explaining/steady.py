@@ -134,7 +134,9 @@ def _wanted(found: SteadySection) -> list[Expression]:
 def _steady_states(explainer: Explainer, found: SteadySection) -> Iterator[Block]:
     if wanted := _wanted(found):
         yield vanishing(wanted)
-    if found.motions is None:
+    if found.everywhere:
+        yield says(f"Here {found.reason}.")
+    elif found.motions is None:
         yield says(f"No steady motion was found: {found.reason}.")
     elif not found.motions:
         yield says(_none(found))

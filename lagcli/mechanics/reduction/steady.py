@@ -24,13 +24,20 @@ from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_contacts import SteadyContacts
 from lagcli.mechanics.reduction.steady_families import SteadyFamilies
 from lagcli.mechanics.reduction.steady_motion import Steady
-from lagcli.mechanics.rest.equilibria import NO_VALUE_AT_REST, REACHED, TIMED, RestPoints
+from lagcli.mechanics.rest.equilibria import (
+    EVERYWHERE,
+    NO_VALUE_AT_REST,
+    REACHED,
+    TIMED,
+    RestPoints,
+)
 from lagcli.mechanics.rest.exceptions import without_unknowns
 from lagcli.mechanics.rest.held import held
 from lagcli.mechanics.rest.rest_conditions import RestPoint
 from lagcli.mechanics.rest.singular import singular
 
 _UNSOLVED = "no closed solution of the conditions of a steady motion was found"
+_STEADY_EVERYWHERE = "no force acts then, so every position that the constraints allow is steady"
 _ONLY_AT_REST = "under velocity constraints only states of rest were sought, and there is none"
 
 
@@ -78,6 +85,9 @@ class SteadyMotions:
         if any(self.point(each).depends_on_time(self.system.t) for each in found):
             self.reason = REACHED
             return None
+        if not found and self.everywhere:
+            self.reason = _STEADY_EVERYWHERE if self.routh.cyclic else EVERYWHERE
+            return None
         if not found and (self._singular or not self.complete):
             unsolved = _ONLY_AT_REST if self._solved and self.only_rest_is_sought else _UNSOLVED
             where = f"the conditions hold only where {singular(self.dynamics)} singular"
@@ -85,6 +95,11 @@ class SteadyMotions:
             return None
         self.reason = ""
         return tuple(found)
+
+    @property
+    def everywhere(self) -> bool:
+        """Whether every position that the constraints allow is one of a steady motion."""
+        return self.rest.points is None and self.rest.reason == EVERYWHERE
 
     @property
     def _solved(self) -> bool:

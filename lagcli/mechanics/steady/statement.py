@@ -107,8 +107,9 @@ class _SteadyStatement:
                     momenta=cyclic,
                     resting=resting,
                     plane=plane,
+                    everywhere=steady.everywhere,
                 ),
-                [("the steady motions", steady.reason)],
+                [] if steady.everywhere else [("the steady motions", steady.reason)],
             )
         return (
             SteadySection(
