@@ -114,7 +114,8 @@ def with_sines(expression: Expr) -> list[tuple[Expr, int]]:
         if isinstance(factor - 1, sympy.cos) and powers.get(less) == powers[factor]:
             power = powers.pop(less)
             del powers[factor]
-            powers[sympy.sin((factor - 1).args[0])] = 2 * power
+            sine = sympy.sin((factor - 1).args[0])
+            powers[sine] = powers.get(sine, 0) + 2 * power
             powers[S.NegativeOne] = powers.get(S.NegativeOne, 0) + power
     return list(powers.items())
 

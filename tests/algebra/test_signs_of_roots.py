@@ -9,7 +9,7 @@ import sympy
 
 from lagcli.algebra import simplify
 from lagcli.algebra.decimals import written
-from lagcli.algebra.positivity import sign_of, weak_sign
+from lagcli.algebra.positivity import deciding, sign_of, weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.expression import Call, walk
 from lagcli.formatters.grammar import to_grammar
@@ -191,3 +191,16 @@ def test_an_arc_whose_cosine_is_given_is_never_negative(inside):
     assert weak_sign(sympy.acos(inside)) == weak_sign(p * sympy.acos(inside) ** 3) == 1
     assert weak_sign(sympy.asin(inside)) is None
     assert sign(sympy.acos(inside)) is None  # it is 0 where the cosine is 1
+
+
+@pytest.mark.parametrize("power", [1, 2, 3])
+def test_a_sine_keeps_its_odd_power_beside_its_square(power):
+    """1 - cos² is sin²: with a factor sin beside it, the sign is that of sin."""
+    a, b = sympy.symbols("a b", real=True)
+    sin, cos = sympy.sin, sympy.cos
+    square = (1 - cos(a)) * (1 + cos(a))
+    for expression in (sin(a) ** power * square * b, sin(a) ** (power + 2) * b):
+        kept = sin(a) if power % 2 else sin(a) ** 2
+        assert deciding(expression) == kept * b
+        rest = deciding(expression, [sin(a) ** 2])
+        assert rest == (sin(a) * b if power % 2 else b)
