@@ -22,6 +22,26 @@ def names_of(text):
     return {c.name: c for c in derive(text).discovery.charges}
 
 
+@pytest.mark.parametrize(
+    ("masses", "name"), [(("m", "M"), "angular_momentum_x_y"), (("m", "m"), "L_z")]
+)
+def test_what_mixes_unlike_masses_is_no_angular_momentum_about_an_axis(masses, name):
+    """m M (x y' - y x') of two oscillators of one frequency has another unit than L_z."""
+    one, other = masses
+    found = names_of(
+        f"{{coordinates: [x, y], parameters: {{m: {POS}, M: {POS}, w: {POS}}}, "
+        f"T: \"({one}*x'^2 + {other}*y'^2)/2\", V: w^2*({one}*x^2 + {other}*y^2)/2}}"
+    )
+    rotations = {n for n in found if n.startswith(("L_", "angular"))}
+    assert rotations == {name}
+
+
+def test_what_keeps_a_hyperbola_is_no_rotation():
+    """T = (x'² - y'²)/2 - (x² - y²)²: dx = y and dy = x is a boost of the plane of signature 0."""
+    found = names_of("{coordinates: [x, y], L: (x'^2 - y'^2)/2 - (x^2 - y^2)^2}")
+    assert set(found) == {"energy", "charge_1"}
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(3))
 def test_two_bodies_in_any_letters_have_total_and_relative_angular_momentum(seed):

@@ -12,8 +12,10 @@ from lagcli.formatters import explaining
 from lagcli.formatters.display_width import display_width
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.options import Options
+from lagcli.pipeline import explain
 from lagcli.statements.registry import explained_in_order
 
+from .derived import derive
 from .formulas import formula, normal
 from .test_explanation import also, rows, slope, value, words
 
@@ -129,3 +131,15 @@ def test_a_hoop_that_rolls_straight_on_has_the_frequency_that_its_stability_is_r
     assert "8*psi'^2/3 - 2*g/(3*R)" in shown
     assert "The constraints give x' and y' in terms of the other velocities" in words(told, title)
     assert "cyclic" not in words(told, title)
+
+
+@pytest.mark.parametrize("motion", [" + v*t", ""])
+def test_the_momenta_of_the_hamilton_jacobi_equation_are_of_what_the_constraint_leaves(motion):
+    """p_x of T = m (x'² + y'²)/2 on y = x + v t is not m x', also where H depends on the time."""
+    text = (
+        "{coordinates: [x, y], parameters: {m: {assume: positive}, g: {assume: positive}, "
+        "v: {assume: positive}}, T: m*(x'^2 + y'^2)/2, V: m*g*y, "
+        f"constraints: {{table: y = x{motion}}}}}"
+    )
+    told = words(explain(derive(text), ("hamilton_jacobi",)), "The Hamilton-Jacobi equation")
+    assert "The constraint is used to eliminate y, and the momenta are those of the" in told

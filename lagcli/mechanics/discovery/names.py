@@ -138,14 +138,16 @@ class Naming:
             [y] = partners
             if y not in moved or moved[y].free_symbols & set(self.q) != {x} or x == y:
                 return ""
+            if sympy.sign(e.diff(y)) == sympy.sign(moved[y].diff(x)):
+                return ""  # hyperbolic: x' = y and y' = x keep x² - y²
             planes.add("".join(sorted((_bare(x.name), _bare(y.name)))))
-        whole = len(moved) == 2 or _equal({x: abs(e.diff(*(e.free_symbols & set(self.q))))
-                                           for x, e in moved.items()})  # fmt: skip
+        slopes = {x: e.diff(*(e.free_symbols & set(self.q))) for x, e in moved.items()}
+        whole = _equal({x: abs(slope) for x, slope in slopes.items()})
         if len(planes) == 1 and whole:
             [plane] = planes
             if plane in AXES and (len(moved) == 2) == (len(self.q) <= 3):
                 return f"L_{AXES[plane]}"
-        if len(moved) == 2:
+        if len(moved) == 2:  # of two masses: m_1 m_2 (x y' - y x')
             one, other = moved
             return f"angular_momentum_{one.name}_{other.name}"
         return "angular_momentum" if whole and len(moved) == len(self.q) else ""

@@ -119,11 +119,9 @@ def hamilton_jacobi(explainer: Explainer, section: Section) -> Iterator[Block]:
     if found.hamiltonian is None:
         yield says(f"The equation was not set up: {found.reason}.")
         return
-    S, E = Label("S"), Name(found.energy)
-    if found.time_rate is not None:
-        yield from _by_forces_of_time(found, found.time_rate)
+    if found.time_rate is not None and not found.constants:
+        yield says("The constraints leave no coordinate, so there is nothing to separate.")
         return
-    H, W = Label("H"), Label("W")
     left = {node.name for node in walk(found.hamiltonian) if isinstance(node, Name)}
     gone = [
         n for n in explainer.system.names if explainer.dynamics.constraints and f"p_{n}" not in left
@@ -131,6 +129,10 @@ def hamilton_jacobi(explainer: Explainer, section: Section) -> Iterator[Block]:
     if gone:
         momenta = ", and the momenta are those of the Lagrangian that is left."
         yield says(*used_to_eliminate(gone), momenta)
+    if found.time_rate is not None:
+        yield from _by_forces_of_time(found, found.time_rate)
+        return
+    S, E, H, W = Label("S"), Name(found.energy), Label("H"), Label("W")
     yield says(
         *(
             "Each momentum in the Hamiltonian is the derivative of ",
@@ -196,9 +198,6 @@ def _has_root(hamiltonian: Expression) -> bool:
 def _by_forces_of_time(found: HamiltonJacobiSection, rate: Expression) -> Iterator[Block]:
     assert found.hamiltonian is not None
     assert found.derivatives is not None
-    if not found.constants:
-        yield says("The constraints leave no coordinate, so there is nothing to separate.")
-        return
     S, f, H = Label("S"), Label("f"), Label("H")
     yield says(
         *(
