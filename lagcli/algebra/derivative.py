@@ -17,7 +17,7 @@ def derivative(f: Expr, x: Symbol) -> Expr:
     """df/dx."""
     if f == x:
         return sympy.S.One
-    if x not in f.free_symbols:
+    if x not in _symbols(f):
         return sympy.S.Zero
     if f.is_Add:
         return sympy.Add(*(derivative(a, x) for a in f.args))
@@ -29,3 +29,11 @@ def derivative(f: Expr, x: Symbol) -> Expr:
     if f.is_Pow and f.exp.is_Number:
         return f.exp * f.base ** (f.exp - 1) * derivative(f.base, x)
     return f.diff(x)
+
+
+@lru_cache(maxsize=20_000)
+def _symbols(f: Expr) -> frozenset[Expr]:
+    """The free symbols, known of each part once."""
+    if f.is_Add or f.is_Mul or f.is_Pow:
+        return frozenset().union(*map(_symbols, f.args))
+    return frozenset(f.free_symbols)

@@ -18,7 +18,7 @@ from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo
 from lagcli.mechanics.discovery.slots import Condition, Slot, SlotEquations
-from lagcli.mechanics.discovery.tree import Memo, Tree
+from lagcli.mechanics.discovery.tree import Tree
 from lagcli.platform.effort import EFFORT
 
 _BAD_POINTS = 50  # points modulo p without a root: half of them for each square root
@@ -99,11 +99,7 @@ class Search:
 
     def rows(self, point: Sequence[int]) -> list[list[int]]:
         """One row for each condition at a point; columns are the unknowns."""
-        memo: Memo = {}
-
-        def at(expression: Expr) -> int:
-            return self.tree.value(expression, point, memo)
-
+        at = self.tree.at(point)
         tables = [
             [[(jet, at(e)) for jet, e in condition if e != 0] for condition in conditions]
             for conditions in self.conditions

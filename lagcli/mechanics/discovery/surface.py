@@ -28,7 +28,7 @@ from lagcli.mechanics.discovery.modular import (
     square_root,
 )
 from lagcli.mechanics.discovery.modular_roots import joint_root
-from lagcli.mechanics.discovery.tree import Memo, Tree
+from lagcli.mechanics.discovery.tree import Tree
 from lagcli.mechanics.dynamics import Dynamics
 
 _TRIES = 60  # a quadratic has a root modulo p for half of them
@@ -189,8 +189,7 @@ class FormulaSurface:
         raise NoPoint
 
     def _on_component(self, point: list[int]) -> bool:
-        memo: Memo = {}
-        values = [self.tree.value(e, point, memo) for e in self._same]
+        values = list(map(self.tree.at(point), self._same))
         if self._values is None:
             self._values = values
         return values == self._values
@@ -234,8 +233,7 @@ class FormulaSurface:
         if self._squared == self._positions:
             return True
         point = [values.get(g, 0) for g in range(len(self.points.field.generators))]
-        memo: Memo = {}
-        return not any(self.tree.value(f, point, memo) for f in self._positions)
+        return not any(map(self.tree.at(point), self._positions))
 
     def _has_velocity(self, g: int) -> bool:
         symbols = self.points.field.generators[g].expression.free_symbols
@@ -251,9 +249,9 @@ class FormulaSurface:
         if not self._rows:
             return
         point = [values.get(g, 0) for g in range(len(self.points.field.generators))]
-        memo: Memo = {}
+        at = self.tree.at(point)
         table = [
-            [self.tree.value(e, point, memo) for e in (*row, drift)]
+            [at(e) for e in (*row, drift)]
             for row, drift in zip(self._rows, self._drifts, strict=True)
         ]
         reduced, rank = nmod_mat(table, PRIME).rref()

@@ -36,7 +36,6 @@ from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo, pivot_columns
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.surface import FormulaSurface
-from lagcli.mechanics.discovery.tree import Memo
 from lagcli.mechanics.noether import Noether
 
 _BAD_POINTS = 60  # as of the search: half of them for each square root
@@ -158,11 +157,7 @@ class SurfaceIntegrals:
     def _sample(self) -> tuple[list[int], list[int], list[int]]:
         """Values of the terms, their rates, and values of the known integrals."""
         point = self.surface.point()
-        memo: Memo = {}
-
-        def at(expression: Expr) -> int:
-            return self.surface.tree.value(expression, point, memo)
-
+        at = self.surface.tree.at(point)
         accelerations, work = self._motion(at)
         moving = list(zip(map(at, self._velocities), accelerations, strict=False))
         values, rates = [], []
