@@ -5,6 +5,7 @@ Numbers from the literature: on the surface the rolling disk is free in its two 
 has the momenta of the Galilei group and its spin (Goldstein, section 4.1).
 """
 
+import random
 from pathlib import Path
 
 import pytest
@@ -303,3 +304,47 @@ def test_a_constraint_that_is_given_twice_takes_no_symmetry_away(
         for more in ("", f", c2: {again}")
     )
     assert {"energy", "L_z"} <= once == twice
+
+
+BALL = """
+coordinates: {{x: {{}}, y: {{}}, phi: {{}}, theta: {{}}, psi: {{}}}}
+definitions:
+  w_x: theta'*cos(phi) + psi'*sin(phi)*sin(theta)
+  w_y: theta'*sin(phi) - psi'*sin(theta)*cos(phi)
+  w_z: phi' + psi'*cos(theta)
+T: (x'^2 + y'^2)/2 + {k}*(w_x^2 + w_y^2 + w_z^2)/2
+V: -{g}*x
+constraints: {{roll_x: x' - w_y + {W}*y = 0, roll_y: y' + w_x - {W}*x = 0}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_of_a_rolling_ball_all_five_constants_are_found(seed):
+    """x'' = g/(1 + k) on an incline; circles at the rate k W/(1 + k) on a table that turns.
+
+    Gersten, Soodak, Tiersten, Am. J. Phys. 60 (1992) 43.  The five are functions of x, y, x', y' and the spin
+    w_z: along the known motion they are constant whatever the angles are.
+    """
+    random.seed(seed)
+    k = sympy.Rational(random.randint(1, 9), 10)
+    W, g = [(0, random.randint(1, 9)), (random.randint(1, 5), 0)][seed % 2]
+    derivation = derive(BALL.format(k=k, g=g, W=W))
+    found = summary(derivation.discovery)
+    assert found.independent == 5
+    system = derivation.system
+    a, rate = g / (1 + k), k * W / (1 + k)
+    values = []
+    for t in (sympy.Rational(1, 3), sympy.Rational(7, 5)):
+        x, y = 1 + 2 * t + a * t**2 / 2, 3 - t
+        dx, dy = 2 + a * t, sympy.Integer(-1)
+        if W:
+            x, y = 1 + 2 * sympy.cos(rate * t), 3 + 2 * sympy.sin(rate * t)
+            dx, dy = -2 * rate * sympy.sin(rate * t), 2 * rate * sympy.cos(rate * t)
+        w_x, w_y, w_z = W * x - dy, dx + W * y, sympy.Rational(4, 3)
+        phi, theta, psi = (sympy.Rational(random.randint(1, 9), 7) for _ in range(3))
+        dpsi = (w_x * sympy.sin(phi) - w_y * sympy.cos(phi)) / sympy.sin(theta)
+        dtheta = w_x * sympy.cos(phi) + w_y * sympy.sin(phi)
+        state = (x, y, phi, theta, psi, dx, dy, w_z - dpsi * sympy.cos(theta), dtheta, dpsi)
+        point = {system.t: t, **dict(zip((*system.q, *system.qdot), state, strict=True))}
+        values.append([c.charge.subs(point).evalf(30) for c in derivation.discovery.charges])
+    assert all(abs(u - v) < 1e-20 for u, v in zip(*values, strict=True))

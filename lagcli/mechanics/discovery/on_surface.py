@@ -37,10 +37,14 @@ def search_on_surface(
     integrated = search.integrated()
     listing.keep_only(search.new([], listing.points))
     listing.add(integrated)
-    listing.add(search.linear(_values(setting)))
+    listing.add(search.linear(setting.point_charges))
     momenta = search.momenta(of_lagrangian, listing.points)
     listing.add(search.new(_values(setting), momenta.conserved))
     setting.words.append(_sentence(times))
+    if search.timed:
+        setting.words.append(
+            "along the displacements of constant momenta with functions of t as coefficients"
+        )
     known = all_are_known(setting)
     if known:
         setting.words.append(ALL_ARE_KNOWN)

@@ -33,6 +33,8 @@ class UnderConstraints:
     ----------
     unsolved : int
         Integrals that are there, whose coefficients were not found.
+    timed : bool
+        Whether displacements of constant momenta were given functions of the time as factors.
     """
 
     def __init__(
@@ -47,6 +49,7 @@ class UnderConstraints:
         self.times = times
         self.allowed = allowed
         self.unsolved = 0
+        self.timed = False
         self._same: list[Expr] = []
         self.fields = admissible_fields(self.dynamics, allowed)
 
@@ -103,10 +106,49 @@ class UnderConstraints:
 
     # -- first degree -----------------------------------------------------------------------
 
-    def linear(self, known: Sequence[Expr]) -> list[NoetherCharge]:
+    def linear(self, known: Sequence[NoetherCharge]) -> list[NoetherCharge]:
         """Integrals of first degree in the velocities, with the energy as it stands."""
-        terms = self._linear_terms()
-        return self._charges(self._integrals(terms, known))
+        values = [c.charge for c in known]
+        found = self._charges(self._integrals(self._linear_terms(), values))
+        along = self._displacements([*known, *found])
+        self.timed = bool(along)
+        if along:
+            values += [c.charge for c in found]
+            found += self._charges(self._integrals(self._timed_terms(len(along)), values, along))
+        return found
+
+    def _displacements(self, known: Sequence[NoetherCharge]) -> list[Vector]:
+        """Admissible ones with angles along which a momentum is constant.
+
+        A ball that rolls straight on has x - x' t, whose displacement is that of its momentum
+        with the factor t: of the fields themselves it is a combination with angles and the time.
+        """
+        relations = self.dynamics.constraints.relations
+        assert relations is not None
+        equations = self.dynamics.constraints.equations
+        rows = [equations[k].row for k in self.dynamics.independent_constraints]
+        moving = {self.system.t, *self.system.qdot}
+        found = []
+        for charge in known:
+            transformation = charge.transformation
+            field = tuple(transformation.changes)
+            names = sympy.Tuple(*field).free_symbols
+            if transformation.time != 0 or names & moving or not names & set(self.kinds.angles):
+                continue
+            if field not in self.fields and all(
+                is_zero(relations.substitute(dot(row, field))) is True for row in rows
+            ):
+                found.append(field)
+        return found
+
+    def _timed_terms(self, number: int) -> list[IntegralTerm]:
+        """Those of the first degree along so many displacements, with functions of the time."""
+        one = sympy.S.One
+        plain = [one, *self.kinds.lengths]
+        times = [T for T in self.times.translations if T != 1]
+        terms = [IntegralTerm((a,), T, one) for a in range(number) for T in times]
+        terms += [IntegralTerm((), T, g) for T in (one, *times) for g in self._still(plain)]
+        return _ordered([x for x in terms if x.fields or x.function != 1])
 
     def _linear_terms(self) -> list[IntegralTerm]:
         """All times with 1 and the lengths; the angles, and their products, without time."""
@@ -210,10 +252,16 @@ class UnderConstraints:
 
     # -- common -----------------------------------------------------------------------------
 
-    def _integrals(self, terms: Sequence[IntegralTerm], known: Sequence[Expr]) -> list[Integral]:
-        search = SurfaceIntegrals(self.noether, self.fields, terms, known, self.allowed, self._same)
+    def _integrals(
+        self,
+        terms: Sequence[IntegralTerm],
+        known: Sequence[Expr],
+        fields: Sequence[Vector] | None = None,
+    ) -> list[Integral]:
+        self._along = self.fields if fields is None else fields
+        search = SurfaceIntegrals(self.noether, self._along, terms, known, self.allowed, self._same)
         found = search.found()
-        self._J = [dot(e, self.dynamics.lagrange.momenta) for e in self.fields]
+        self._J = [dot(e, self.dynamics.lagrange.momenta) for e in self._along]
         self.unsolved += search.unsolved
         return found
 
@@ -243,11 +291,11 @@ class UnderConstraints:
             elif term.fields == _ENERGY:
                 time -= c
             elif len(term.fields) == 1:
-                changes = self._moved(changes, c, self.fields[term.fields[0]])
+                changes = self._moved(changes, c, self._along[term.fields[0]])
             else:
                 a, b = term.fields
-                changes = self._moved(changes, c * self._J[a], self.fields[b])
-                changes = self._moved(changes, c * self._J[b], self.fields[a])
+                changes = self._moved(changes, c * self._J[a], self._along[b])
+                changes = self._moved(changes, c * self._J[b], self._along[a])
                 gauge += c * self._J[a] * self._J[b]
         if form != 0:
             form, gauge = scaled((form, gauge), set(self.system.parameters))
