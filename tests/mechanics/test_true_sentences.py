@@ -461,7 +461,7 @@ def test_what_vanishes_with_a_parameter_in_every_condition_is_not_denied(seed):
     k = sympy.Symbol("k", positive=True)
     first, second = (sympy.exp(x) * source.randint(1, 5), (1 + y**2) * k)
     assert without_unknowns([a * first, -a * b * second], [x, y]) == (a,)
-    assert without_unknowns([a * first, b * second], [x, y]) == ()
+    assert without_unknowns([a * first, b * second], [x, y]) == (a, b)
     assert without_unknowns([k * first, k * second], [x, y]) == ()
     assert without_unknowns([a * first, b], [x, y]) == (b,)
     assert without_unknowns([], [x, y]) == ()
@@ -641,6 +641,18 @@ def test_special_values_are_said_with_what_the_same_search_finds(factor):
     numbers = [part.split()[0] for part in told.split("the same search finds ")[1:]]
     assert sorted(set(numbers)) == ["3", "5"]
     assert told.count("symmetries, of which these are no linear combinations") == len(numbers)
+
+
+@pytest.mark.parametrize("drive", ["sin(x - w*t)", "x*cos(w*t)"])
+def test_special_values_are_said_where_there_is_no_symmetry_for_others(drive):
+    """At w = 0 nothing depends on the time: the energy is conserved."""
+    text = (
+        "coordinates: {x: {}}\nparameters: {a: {assume: positive}, w: {}}\n"
+        f"L: x'^2/2 + cos(x) + a*{drive}\n"
+    )
+    told = said(text, "The algebra of the symmetries", "algebra")
+    assert "No symmetry was found" in told
+    assert "For w = … the same search finds 1 symmetry:" in told
 
 
 @pytest.mark.parametrize("offset", ["l", "2*l"])

@@ -134,6 +134,7 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
         return
     if not charges:
         yield says(f"No symmetry was found and proved. Searched: {found.ansatz}.")
+        yield from _at_special_values(explainer, found)
         return
     if found.in_involution is None:
         yield says(*_no_brackets(explainer))
@@ -147,16 +148,22 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
         )
     if found.in_involution is not None:
         yield says(*_integrability(found, n))
+    yield from _at_special_values(explainer, found)
+
+
+def _at_special_values(explainer: Explainer, found: AlgebraSection) -> Iterator[Block]:
+    """What there is beside the symmetries for all values, for some of the parameters."""
     if any("special values" in note for note in explainer.derivation.discovery.words):
         yield says("Not all special values of the parameters were tried.")
     if found.special:
-        yield Heading("More symmetries for special values of the parameters", 2)
+        lead = "More symmetries" if found.number else "Symmetries"
+        yield Heading(f"{lead} for special values of the parameters", 2)
     for case in found.special:
         one = len(case.charges) == 1
         many = f"{case.number} {'symmetry' if case.number == 1 else 'symmetries'}"
         new = "this is no linear combination" if one else "these are no linear combinations"
-        lead: list[Part] = ["For ", *values_of(case)]
-        yield says(lead, f" the same search finds {many}, of which {new} of those above:")
+        beside = f", of which {new} of those above" if found.number else ""
+        yield says("For ", *values_of(case), f" the same search finds {many}{beside}:")
         yield equations_of((Name(name), value) for name, value in case.charges.items())
         yield from where_real(case.where, several=not one)
 

@@ -63,21 +63,34 @@ def _decided_by_parameters(
 def _at_zero(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Expr, ...] | None:
     """The product of the parameters without each of which the conditions can hold.
 
-    That of a rate w, where they hold at all times: g sin(q) = a w² cos(q - w t).  None where all
-    must vanish together, or where it is not known that there is no other exception.
+    That of a rate w, where they hold at all times: g sin(q) = a w² cos(q - w t).  Those that must
+    vanish together; None where it is not known that there is no other exception.
     """
     known = {p for e in conditions for p in e.free_symbols} - {*unknowns}
     open_ = sorted(filter(_can_vanish, known), key=str)
     alone = [p for p in open_ if _holds_without(conditions, [p], unknowns)]
     if not alone:
         together = len(open_) > 1 and _holds_without(conditions, open_, unknowns)
-        return None if together else ()
+        return _each_for_itself(conditions, unknowns) if together else ()
     with_all = []
     for e in conditions:
         factors = [f for f, k in factors_of(simplify(e)) if k > 0 and _can_vanish(f)]
         if {*alone} <= {*factors}:
             with_all.append(sympy.Mul(*(f for f in factors if f not in alone)))
     return (sympy.Mul(*alone),) if _exclude_each_other(with_all) else None
+
+
+def _each_for_itself(
+    conditions: Sequence[Expr], unknowns: Sequence[Symbol]
+) -> tuple[Expr, ...] | None:
+    """What must vanish for each condition, where that does not depend on the unknowns."""
+    found = []
+    for e in conditions:
+        factor = sympy.Mul(*_perhaps_zero(e, unknowns))
+        if _can_vanish(simplify(e / factor)):
+            return None
+        found.append(factor)
+    return tuple(dict.fromkeys(found))
 
 
 def _holds_without(
