@@ -471,6 +471,12 @@ def test_what_grows_at_every_spin_is_unstable(potential):
         ("V: -k/sqrt(x^2 + y^2) + k*z^2", ("x", "y")),
         ("V: k*(y^2 + z^2)", ("y", "z")),
         ("V: k*(y^2 + z^2)\nforces: {x: k}", ()),
+        ("V: k*(y^2 + z^2)\nforces: {x: -k*x}", ("y", "z")),
+        ("V: k*(y^2 + z^2)\nforces: {x: -k*x*y}", ()),
+        ("V: k*(y^2 + z^2)\nforces: {y: -k*y', z: -k*z'}", ()),
+        ("V: k*(y^2 + z^2)\nforces: {y: -k*y^3, z: -k*z^3}", ()),
+        ("V: k*x^2\nforces: {y: -k*y, z: -k*z}", ("y", "z")),
+        ("forces: {z: -k}\nconstraints: {bowl: z = x^2 + y^2}", ("x", "y")),
         ("V: k*z", ()),
     ],
 )

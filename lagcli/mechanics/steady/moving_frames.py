@@ -8,8 +8,8 @@ so that with q(t) also q(t) + u c t is a motion: two masses that a spring joins,
 Each constraint f(q, q') = 0 must keep its values in the same way: then so do its gradient a, with
 a . c = 0, and its multiplier.
 
-Where L and all constraints keep their values when one pair (x, y) of coordinates turns about its
-origin, steady rotations have x and y that are not constant: polar coordinates are needed.
+Where L, all constraints and the forces keep their values when one pair (x, y) of coordinates turns
+about its origin, steady rotations have x and y that are not constant: polar coordinates are needed.
 
 References
 ----------
@@ -48,14 +48,24 @@ def moving_frames(rest: RestConditions) -> dict[Symbol, list[Expr]]:
 def plane_of_rotation(rest: RestConditions) -> tuple[str, ...]:
     """The names of x and y, where nothing changes as (x, y) turns about the origin; else ()."""
     system, equations = rest.system, rest.dynamics.constraints.equations
-    if any(is_zero(f) is not True for f in system.applied_forces) or rest.depends_on_time:
+    if rest.depends_on_time or not all(e.holonomic for e in equations):
         return ()
-    if not all(e.holonomic for e in equations):
-        return ()
+    forces = system.applied_forces
     kept = [system.L, *(e.f for e in equations)]
+    acting = [q for q, f in zip(system.q, forces, strict=True) if is_zero(f) is not True]
+    if any(all(free_of(f, [q]) for f in (*kept, *forces)) for q in acting):  # what nothing holds
+        return ()
     for pair in combinations(range(len(system.q)), 2):
         (x, y), (u, v) = ([s[j] for j in pair] for s in (system.q, system.qdot))
-        turned = (x * f.diff(y) - y * f.diff(x) + u * f.diff(v) - v * f.diff(u) for f in kept)
-        if all(is_zero(change) is True for change in turned):
-            return () if all(free_of(f, (x, y)) for f in kept) else (x.name, y.name)
+        others = [f for j, f in enumerate(forces) if j not in pair]
+        along_x, along_y = (forces[j] for j in pair)
+
+        def turned(f: Expr, x: Symbol = x, y: Symbol = y, u: Symbol = u, v: Symbol = v) -> Expr:
+            return x * f.diff(y) - y * f.diff(x) + u * f.diff(v) - v * f.diff(u)
+
+        changes = [*map(turned, (*kept, *others))]
+        changes += [turned(along_x) + along_y, turned(along_y) - along_x]
+        changes += [x * along_y - y * along_x]  # a torque
+        if all(is_zero(change) is True for change in changes):
+            return () if all(free_of(f, (x, y)) for f in (*kept, *forces)) else (x.name, y.name)
     return ()

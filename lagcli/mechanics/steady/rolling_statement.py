@@ -17,6 +17,7 @@ from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.rest.exceptions import unless_written
 from lagcli.mechanics.rest.held import held
 from lagcli.mechanics.stability.statement import stated
+from lagcli.mechanics.steady.moving_frames import plane_of_rotation
 from lagcli.mechanics.steady.rolling import RollingMotion, RollingMotions
 from lagcli.statements.motions import SteadyMotion, SteadySection
 
@@ -54,6 +55,7 @@ def rolling_section(found: RollingMotions) -> SteadySection:
         complete=found.complete,
         unless=() if found.motions else unless_written(found.unless, order),
         acting=("inertia",),
+        plane=plane_of_rotation(RestPoints(found.dynamics)),
         eliminated=tuple(n for j, n in enumerate(names) if j not in found.velocities),
     )
 
