@@ -34,6 +34,8 @@ def stability(
     names = {part for value in (at or {}).values() for part in walk(value)}
     tied = on is not None or any(Name(name) in names for name in free)
     along = _up_to(free, tied=tied) if free or on is not None else _along(verdict)
+    if verdict.released:
+        along = [" up to displacements to the equilibria near it"]
     reason = _with_potential(verdict.reason, verdict.potential)
     if verdict.stable is not None:
         words: list[Part] = [stable if verdict.stable else "Unstable"]

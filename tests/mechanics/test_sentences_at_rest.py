@@ -952,3 +952,27 @@ def test_linear_equations_with_closed_contacts_keep_them_closed(seed, floors):
     closed = "the contact 'floor'" if floors == 1 else "the contacts 'floor' and 'wall'"
     assert f"restricted to the displacements that keep {closed} closed" in told
     assert f"come only from {closed}, while closed" in said(text, "Forces", "forces")
+
+
+@pytest.mark.parametrize("gap", ["y >= 0", "y >= x^2", "y >= x"])
+@pytest.mark.parametrize(
+    ("rest", "beside"),
+    [
+        ("T: 3*(x'^2 + y'^2)/2", True),
+        ("L: (x'^2 + y'^2)/2 + x*y' - y*x'", True),  # a magnetic field does no work
+        ("T: x'^2 + y'^2, V: x^2 + y^2", False),  # nothing rests near it
+        ("T: x'^2 + y'^2, V: -y^3", False),
+        ("T: x'^2 + y'^2, forces: {x: x'}", False),  # the kinetic energy grows
+    ],
+)
+def test_without_a_force_what_touches_a_wall_rests_beside_it_too(rest, beside, gap):
+    """A wall gives back a part of the speed across it, or all of it, and no more."""
+    e = random.Random(gap).choice(["0", "1/2", "1", "e"])
+    told = said(
+        f"{{coordinates: [x, y], parameters: {{e: {{}}}}, {rest}, "
+        f"contacts: {{wall: {{gap: '{gap}', restitution: {e}}}}}}}",
+        "Equilibria",
+        "equilibria",
+    )
+    _, closed, *_ = told.split("In contact: wall. ")
+    assert closed.startswith("Stable up to displacements to the equilibria near it") is beside

@@ -82,6 +82,9 @@ _ABOVE = 1.25
 _STICKS = "static friction holds it with force to spare"
 _KINK = f"{{V}} has a strict minimum there ({LAGRANGE_DIRICHLET.name})"
 _PRESSED = "it is pressed against what it touches"
+_RELEASED = (
+    "every position there that the contacts allow is one, and the kinetic energy does not grow"
+)
 _HELD = "contacts, static friction or kinks of the potential hold what is at rest"
 _LIMIT = "a force is at its limit there"
 _NO_LINEAR_PART = "a force has a kink or a jump at the equilibrium, and no linear part"
@@ -201,7 +204,7 @@ class Place:
         if self.point.depends_on_time(self.linear.system.t):
             return undecided(REACHED)
         if self.held.grazes(self.point):
-            found = self._without_contacts or self._along_contacts
+            found = self._without_contacts or self._without_forces or self._along_contacts
             return found or undecided(_LIMIT if self.held.kinked else GRAZES)
         if (held := self.held).firmly and not self.linear.M:
             reason = _STICKS if held.sticking else _KINK if held.kinked else _PRESSED
@@ -219,6 +222,17 @@ class Place:
         found = Place(self._apart, self.point, self._apart).verdict
         minimum = found.stable and found.by in (LAGRANGE_DIRICHLET, KELVIN_TAIT_CHETAEV)
         return replace(found, asymptotic=False) if minimum else None
+
+    @property
+    def _without_forces(self) -> Stability | None:
+        """Where nothing pulls anywhere, what strikes a wall moves on, no faster than before."""
+        if self.held.sticking or self.held.kinked or self._apart.demands:
+            return None
+        for point in self._apart.points() or ():
+            found = Place(self._apart, point, self._apart).verdict
+            if not point.values and found.stable:
+                return Stability(stable=True, reason=_RELEASED, released=True)
+        return None
 
     @property
     def _along_contacts(self) -> Stability | None:

@@ -50,6 +50,7 @@ def stated(
         potential=potential,
         asymptotic=found.asymptotic,
         across=found.across,
+        released=found.released,
         minimum=where(found.minimum),
         hurwitz=where(found.hurwitz),
         spectrum=where(found.spectrum),

@@ -28,6 +28,8 @@ class Stability:
         The equations of motion are linear: the spectrum decides beyond first order.
     across
         Stable up to displacements along a family of equilibria.
+    released
+        Stable up to displacements to equilibria at which a contact that is closed is open.
     growing
         It is unstable where this is positive, and it is nowhere negative.
     opposed
@@ -50,6 +52,7 @@ class Stability:
     reverses: bool = False
     exact: bool = False
     across: bool = False
+    released: bool = False
     growing: Expr | None = None
     opposed: tuple[Expr, ...] = ()
     rapid: Expr | None = None
