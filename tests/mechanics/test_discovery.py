@@ -10,6 +10,7 @@ Every charge on a trajectory: tests/oracle/test_discovered.py.
 """
 
 import time
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 
@@ -21,8 +22,10 @@ from lagcli.algebra import is_zero
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.discovery import limits
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.reality import real_where
 from lagcli.mechanics.discovery.scaling import scaled
+from lagcli.mechanics.discovery.special_search import _beyond_products
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.reader import parse_text, read_problem
 from tests.solved import solve
@@ -109,6 +112,17 @@ def test_special_parameters_are_told_with_the_charges_they_add(name):
     for key, (number, names) in SPECIAL[name].items():
         assert cases[key].number == number
         assert set(names.split()) <= {c.name for c in cases[key].charges}
+
+
+@pytest.mark.parametrize("offset", [0, 3])
+def test_at_a_special_value_a_product_of_known_charges_is_not_new(offset):
+    """P² + 2 E + c has nothing in it that P and E have not; a mode of y has."""
+    free = derive("{coordinates: [x, y], L: (x'^2 + y'^2)/2 - y^2}").discovery
+    by_name = {c.name: c for c in free.charges}
+    P, E, other = by_name["p_x"], by_name["energy"], by_name["translation_y_cos"]
+    square = replace(other, name="charge_1", charge=P.charge**2 + 2 * E.charge + offset)
+    left = _beyond_products([P.charge, E.charge], [square, other], free, Allowance(10**7))
+    assert left == (other,)
 
 
 @pytest.mark.long

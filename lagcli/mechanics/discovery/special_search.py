@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
+from itertools import combinations_with_replacement
 
 import sympy
 from sympy import Expr, Symbol
@@ -89,7 +90,9 @@ def special_cases(
                 for part in _real_parts(_at_values(c.charge, choice, variables), c.charge)
                 if not part.has(*NO_VALUE)  # divided by what is 0 there
             ]  # fmt: skip
-            charges = new_charges(known, there.charges, there.dynamics, allowed)
+            charges = _beyond_products(
+                known, new_charges(known, there.charges, there.dynamics, allowed), there, allowed
+            )
             charges = _named_apart(charges, [c.name for c in discovery.charges])
             if charges:
                 number, given = len(there.charges), tuple(choice[1:])
@@ -97,6 +100,21 @@ def special_cases(
     except TooMuchWork:
         discovery.words.append(_NOT_TRIED)
     return tuple(found)
+
+
+def _beyond_products(
+    known: Sequence[Expr], new: Sequence[NoetherCharge], there: Discovery, allowed: Allowance
+) -> tuple[NoetherCharge, ...]:
+    """Without those that follow from the others and products of two known ones; P² is not new.
+
+    Products of what depends on the time stay: the integrals of commensurate modes are such.
+    """
+    if all(c in there.point_charges for c in new) or there.dynamics.constraints.equations:
+        return tuple(new)
+    lasting = [sympy.S.One, *(c for c in known if there.system.t not in c.free_symbols)]
+    products = [a * b for a, b in combinations_with_replacement(lasting, 2)]
+    beyond = new_charges([*known, *products], new, there.dynamics, allowed)
+    return tuple(c for c in new if c in there.point_charges or c in beyond)
 
 
 def _named_apart(
