@@ -22,6 +22,7 @@ from lagcli.reader.misshapen import (
     ALREADY_FOUND,
     FOUND,
     WITHOUT_HYPHENS,
+    as_items,
     as_list,
     as_map,
     as_text,
@@ -187,13 +188,19 @@ class FileReader:
             return
         own = [key for key, _ in entries if key.label not in attributes]
         inner = [(attributes[0] if key in own else key.label, value) for key, value in entries]
-        given = ", ".join(f"{key}: {source_of(value)}" for key, value in inner)
+        given = ", ".join(
+            f"{key}: {as_items(value) if key in LISTS else source_of(value)}"
+            for key, value in inner
+        )
         if {key.label for key, _ in entries} == {"where"}:
             given += f", for: {next(iter(self.scope.of_kind('coordinate')), 'x')}"
         message = f"'{beside[0].label}' stands inside the braces of one entry of {what}"
         whole = f"write {own[0].label if own else 'name'}: {{{given}}}"
         several = len(own) > 1 or any(isinstance(value, Mapping) for _, value in entries)
         self.error(message, beside[0].span, "" if several else whole)
+        if attributes[0] in LISTS:  # no text can be an entry
+            self.scope.refused.append(what)
+            return
         yield from ((k, v) for k, v in entries if k in own and isinstance(v, Scalar))
 
     def items(self, node: DocumentNode, what: str, hint: str = "") -> list[DocumentNode]:

@@ -56,6 +56,11 @@ def as_list(written: str) -> str:
     return f"[{within[1] if within and is_tuple else written.strip()}]"
 
 
+def as_items(node: DocumentNode) -> str:
+    """What the file has there, with brackets."""
+    return source_of(node) if isinstance(node, Sequence) else as_list(source_of(node))
+
+
 def one_sum(node: DocumentNode, what: str) -> str:
     """`write a + b` for the list `[a, b]` and the map `{spring: a, weight: b}`."""
     terms = node.items if isinstance(node, Sequence) else []

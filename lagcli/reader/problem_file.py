@@ -114,17 +114,35 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
 
     With `alone` the one cause of several terms that do not fit is reported, where there is one.
     """
-    root, diagnostics = compose(SourceText.of(source))
-    file = FileReader(diagnostics=diagnostics)
-    problem = _read(file, source, root)
-    if problem is not None and not file.diagnostics:
-        file.diagnostics += _dimension_mistakes(problem, alone=alone) or slips(problem)
-    by_place = one_for_alike(sorted(file.diagnostics, key=lambda each: each.span))
+    root, problem, mistakes = _composed(source, alone=alone)
+    if alone and any(each.is_error for each in mistakes):
+        from lagcli.reader.followed import followed
+
+        mistakes = followed(source, mistakes, _document)
+    by_place = one_for_alike(sorted(mistakes, key=lambda each: each.span))
     declared = one_for_undeclared(by_place, _parameters(root))
     starts = [key.span.line for key, _ in root.entries] if isinstance(root, Mapping) else []
     found = one_for_habit(declared, starts)
     has_errors = any(diagnostic.is_error for diagnostic in found)
     return ProblemReading(source, None if has_errors else problem, found)
+
+
+def _composed(
+    source: Source, *, alone: bool
+) -> tuple[DocumentNode, Problem | None, list[Diagnostic]]:
+    """The document of a text, the problem that it writes, and all of its mistakes."""
+    root, diagnostics = compose(SourceText.of(source))
+    file = FileReader(diagnostics=diagnostics)
+    problem = _read(file, source, root)
+    if problem is not None and not file.diagnostics:
+        file.diagnostics += _dimension_mistakes(problem, alone=alone) or slips(problem)
+    return root, problem, file.diagnostics
+
+
+def _document(source: Source) -> tuple[DocumentNode, list[Diagnostic]]:
+    """The document of a text, and its mistakes by their place."""
+    root, _, mistakes = _composed(source, alone=False)
+    return root, sorted(mistakes, key=lambda each: each.span)
 
 
 def _parameters(root: DocumentNode) -> str:

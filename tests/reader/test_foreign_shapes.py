@@ -632,3 +632,23 @@ def test_a_unit_in_brackets_before_its_number(number, unit, brackets):
 def test_the_last_of_other_places(written, hint):
     [only] = messages(written)
     assert hint in only
+
+
+@pytest.mark.parametrize(
+    ("changed", "hint"),
+    [({"forces": "k*cos(gt) - k*θdot"}, "write {theta: k*cos(g*t) - k*theta'}"),
+     ({"constraints": "theta == 1"}, "write {name: theta = 1}"),
+     ({"initial": "theta = 30°"}, "write {theta: 30*pi/180}"),
+     ({"points": "\n  bob: (l*sinθ, -l*cosθ)"}, "write {position: [l*sin(theta), -l*cos(theta)]}"),
+     ({"points": "\n  bob: (l*sin(theta), -l)\n  mass: m"},
+      "write bob: {position: [l*sin(theta), -l], mass: m}")],
+)  # fmt: skip
+def test_a_hint_has_no_mistake_of_its_own(changed, hint):
+    written = text(**(PENDULUM | {"T": "m*l^2*theta'^2/2", "parameters": "{m: 1, l: 2, g: 9, k: 1}"}
+                      | changed))  # fmt: skip
+    assert only_mistake(written).hint == hint
+
+
+def test_what_a_hint_says_of_a_name_that_is_declared_nowhere_is_kept():
+    written = text(**PENDULUM | {"T": "m*l^2*theta'^2/2", "forces": "F*cos(theta)"})
+    assert messages(written)[0].endswith("write {theta: F*cos(theta)}")

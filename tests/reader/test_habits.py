@@ -502,7 +502,7 @@ HABITS = [
     (text(simulation="{until: 3 T}"), "write the number that 3 T is"),
     (text(simulation="{until: 3, accuracy: 8 digits}"), "write 1e-8"),
     (text(simulation="{until: 3, accuracy: 8}"), "write 1e-8"),
-    (text(points="[bob: [x, 0]]"), "write {bob: [x, 0]}"),
+    (text(points="[bob: [x, 0]]"), "write {bob: {position: [x, 0]}}"),
     ("coordinates: [x_1..x_3]\nT: x_1'^2 + x_2'^2 + x_3'^2\n", "write x_1, x_2, x_3"),
     (text(expect="x = cos(t)"), "write {trajectory: {x: cos(t)}}"),
     (text(V="k*(x-a)^2/2"), "declare it: parameters: {m: 1, k: 2, g: 9.81, "),
