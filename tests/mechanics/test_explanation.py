@@ -14,11 +14,11 @@ import sympy
 
 from lagcli import load
 from lagcli.algebra.build import Builder
-from lagcli.document import Equations, Heading, Items, Label, Paragraph
+from lagcli.document import Bracket, Equations, Heading, Items, Label, Paragraph
 from lagcli.expression import Diff, Expression, Name, Number, Power, Rate, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.pipeline import derive, explain
-from lagcli.rewriting import rebuilt
+from lagcli.rewriting import parts_in, rebuilt
 from lagcli.statements.registry import explained_in_order
 
 from .derived import derive as derive_text
@@ -250,6 +250,27 @@ def test_letters_of_the_file_are_left_to_it():
     shown = {row.left: row.right for row in rows(explanation)}
     assert Name("L_sys") in shown
     assert Name("L") not in shown
+
+
+@pytest.mark.parametrize(("friction", "told"), [("", False), ("dissipation: c*q'^2/2\n", True)])
+def test_no_word_is_lost_on_a_letter_that_does_not_occur(friction, told):
+    """D is the depth of a well; that a dissipation function would be D_sys matters with one."""
+    explanation = told_text(
+        "title: Well\ncoordinates: [q]\nparameters: [D, c, m]\nT: m*q'^2/2\nV: D*q^4\n" + friction
+    )
+    assert ("means something else" in words(explanation)) is told
+
+
+@pytest.mark.parametrize(
+    ("letters", "pair"), [("[k, m]", "AB"), ("[A, m]", "fg"), ("[B, m]", "fg"), ("[A, f]", "uv")]
+)
+def test_any_two_functions_have_letters_that_the_file_leaves_free(letters, pair):
+    constant = letters[1]
+    text = f"coordinates: [q]\nparameters: {letters}\nT: q'^2/2\nV: {constant}*q^2\n"
+    explanation = explain(derive_text(text), ("brackets",))
+    step = next(each for each in explanation.steps if each.title == "Poisson brackets")
+    bracket = next(part for part in parts_in(step, Bracket))
+    assert (bracket.left, bracket.right) == (Name(pair[0]), Name(pair[1]))
 
 
 def test_the_energy_calls_the_lagrangian_by_its_letter():

@@ -14,7 +14,10 @@ from lagcli.mechanics.explaining.lagrangian import lagrangian
 from lagcli.mechanics.explaining.large import UNSOLVED
 from lagcli.mechanics.explaining.scene import scene
 from lagcli.mechanics.explaining.words import explained
+from lagcli.record import replace
 from lagcli.statements.explanation import Explanation, ExplanationStep
+
+_LAGRANGIAN = 1  # the step in which the letters are introduced
 
 
 def explanation(derivation: Derivation, also: Sequence[str] = ()) -> Explanation:
@@ -62,6 +65,8 @@ def explanation(derivation: Derivation, also: Sequence[str] = ()) -> Explanation
         more, unfound = further(explainer, also)
         steps += more
         missing = (*missing, *unfound)
+    told = (*explainer.letters.moved(steps), *steps[_LAGRANGIAN].blocks)
+    steps[_LAGRANGIAN] = replace(steps[_LAGRANGIAN], blocks=told)
     return explained(explainer.problem, dynamics.degrees_of_freedom, steps, missing)
 
 

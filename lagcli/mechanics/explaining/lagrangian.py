@@ -13,7 +13,7 @@ from lagcli.algebra.build import free_of
 from lagcli.document import Block, Equations, Label, Row, equations_of
 from lagcli.expression import Diff, Name, Negative, Number, Power
 from lagcli.mechanics.explaining.explainer import Explainer
-from lagcli.mechanics.explaining.words import difference, names, says, shows
+from lagcli.mechanics.explaining.words import difference, says, shows
 
 _SQUARE = Number(Fraction(2))
 
@@ -22,12 +22,6 @@ def lagrangian(explainer: Explainer) -> Iterator[Block]:
     """How L comes about."""
     problem, system = explainer.problem, explainer.system
     letters, by_terms = explainer.letters, explainer.readable.by_terms
-    if letters.moved:
-        yield says(
-            names(letters.moved),
-            " means" if len(letters.moved) == 1 else " mean",
-            " something else in this file, so the usual quantity has the index 'sys' here.",
-        )
     if definitions := {**problem.named, **problem.definitions}:
         yield says("The definitions of the file are")
         yield equations_of((Name(n), formula) for n, formula in definitions.items())

@@ -68,7 +68,8 @@ def _momentum_rates(explainer: Explainer) -> list[Part]:
 def brackets(explainer: Explainer, section: Section) -> Iterator[Block]:
     """{A, B} = sum of dA/dq dB/dp - dA/dp dB/dq."""
     found = cast(BracketsSection, section)
-    A, B, q, p = own("A"), own("B"), own("q_j"), own("p_j")
+    A, B = map(own, explainer.letters.pair)
+    q, p = own("q_j"), own("p_j")
     first, second = Product((Diff(A, q), Diff(B, p))), Product((Diff(A, p), Diff(B, q)))
     yield says(
         "The Poisson bracket ", Bracket(A, B), " is the sum of ", difference(first, second),

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from lagcli.document import Equations, Formula, Label, Paragraph, Row
 from lagcli.expression import Expression, Name, Negative, Sum
 from lagcli.notation.given_formulas import names_of, symbols_of
+from lagcli.notation.letters import names_in
 from lagcli.notation.naming import free
 from lagcli.problem_data import Problem
 from lagcli.statements.explanation import Explanation, ExplanationStep
@@ -105,11 +106,15 @@ def matrix_law(*, constrained: bool) -> tuple[str | Label, ...]:
     )  # fmt: skip
 
 
+_PAIRS = ("AB", "fg", "uv", "XY", "FG")
+
+
 class Letters:
     """The letters of mechanics, with `_sys` added where the file means something else by them."""
 
     def __init__(self, problem: Problem) -> None:
         self._taken = names_of(problem)
+        self._observables = tuple(problem.observables)
         self.L, self.T, self.V, self.D, self.h, self.Q, self.G = map(self.free, "LTVDhQG")
         #: any one of the coordinates, where there are several
         self.several = len(problem.coordinates) > 1
@@ -117,10 +122,23 @@ class Letters:
         self.velocity = Name(self.q.name, 1)
         self.force = self.free(f"Q_{'j' if self.several else self.q.name}")
 
+    def moved(self, steps: Sequence[ExplanationStep]) -> Iterator[Paragraph]:
+        """That another letter stands for what has one of these, where the steps have it."""
+        used = names_in(steps)
+        moved = [x for x in "LTVDhQG" if x in self._taken and self.free(x).name in used]
+        if moved:
+            one = len(moved) == 1
+            yield says(
+                *names(moved),
+                f" {'means' if one else 'mean'} something else in this file, so the usual "
+                f"{'quantity has' if one else 'quantities have'} the index 'sys' here.",
+            )
+
     @property
-    def moved(self) -> list[str]:
-        """The letters for which another one stands."""
-        return [letter for letter in "LTVDhQG" if letter in self._taken]
+    def pair(self) -> str:
+        """Letters of any two functions: A and B, or others where the file has one of these."""
+        taken = {*self._taken, *self._observables}
+        return next((p for p in _PAIRS if taken.isdisjoint(p)), _PAIRS[0])
 
     def free(self, letter: str) -> Name:
         """The letter, or another one where the file has it."""
