@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from fractions import Fraction
-from typing import TypeVar
+from operator import attrgetter
+from typing import Any, TypeVar
 
 from lagcli.diagnostics import NOWHERE, Span
 from lagcli.record import field, record
@@ -157,21 +158,22 @@ ZERO = Number(Fraction(0))
 ONE = Number(Fraction(1))
 
 
+#: How the direct parts of a node are had: of names and numbers there are none.
+_PARTS: dict[type[Expression], Callable[[Any], tuple[Expression, ...]]] = {
+    **dict.fromkeys((Negative, PlusMinus, Rate), lambda node: (node.operand,)),
+    Sum: attrgetter("terms"),
+    Product: attrgetter("factors"),
+    Quotient: attrgetter("numerator", "denominator"),
+    Power: attrgetter("base", "exponent"),
+    **dict.fromkeys((Call, PartialCall), attrgetter("arguments")),
+    Diff: attrgetter("operand", "variable"),
+}
+
+
 def children(node: Expression) -> tuple[Expression, ...]:
     """The direct parts of a node."""
-    match node:
-        case Negative(operand=operand) | PlusMinus(operand=operand) | Rate(operand=operand):
-            return (operand,)
-        case Sum(terms=parts) | Product(factors=parts):
-            return parts
-        case Quotient(numerator=a, denominator=b) | Power(base=a, exponent=b):
-            return (a, b)
-        case Call(arguments=parts) | PartialCall(arguments=parts):
-            return parts
-        case Diff(operand=operand, variable=variable):
-            return (operand, variable)
-        case _:
-            return ()
+    parts = _PARTS.get(type(node))
+    return parts(node) if parts else ()
 
 
 def walk(node: Expression) -> Iterator[Expression]:

@@ -64,7 +64,8 @@ def _made(cls: type, kw_only: bool, order: bool) -> type:
     namespace.pop("__weakref__", None)
     # By name only comes last, whatever the order in which the fields stand.
     ordered = tuple(sorted(parts.values(), key=lambda part: part.kw_only))
-    namespace["__slots__"] = tuple(n for n in own if not hasattr(cls.__base__, n))
+    slots = (*own, "_hashed")
+    namespace["__slots__"] = tuple(n for n in slots if not hasattr(cls.__base__, n))
     namespace["__match_args__"] = tuple(part.name for part in ordered if not part.kw_only)
     namespace["_parts"] = ordered
     namespace["_compared"] = _getter([part.name for part in ordered if part.compare])
@@ -154,7 +155,12 @@ def _eq(self: Any, other: Any) -> Any:
 
 
 def _hash(self: Any) -> int:
-    return hash(self._compared(self))
+    try:
+        known: int = self._hashed
+    except AttributeError:
+        known = hash(self._compared(self))
+        object.__setattr__(self, "_hashed", known)
+    return known
 
 
 def _setattr(self: Any, name: str, value: object) -> None:  # noqa: ARG001

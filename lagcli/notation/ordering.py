@@ -30,6 +30,7 @@ _CIRCULAR = frozenset(("sin", "cos", "tan", "cot"))
 Key: TypeAlias = tuple[object, ...]
 Factor: TypeAlias = tuple[Expression, Fraction]  # base and exponent
 Flat: TypeAlias = tuple[tuple[int, int | Fraction, str], ...]  # a key whose entries compare
+TermKey: TypeAlias = tuple[int, int, int, int, tuple[int, ...], int, Flat]
 
 
 class Ordering:
@@ -48,6 +49,8 @@ class Ordering:
         self._first_fast = next(fast, len(self._index))
         self._first_variable = self._index.get("t", len(self._index))
         self._memo: dict[Expression, Key] = {}
+        self._terms: dict[Expression, TermKey] = {}
+        self._powers: dict[Factor, Flat] = {}
 
     def factor(self, node: Expression) -> Key:
         """Numbers, parameters, t, coordinates, velocities, accelerations, sums, functions."""
@@ -140,7 +143,12 @@ class Ordering:
 
     def _rank_of_power(self, factor: Factor) -> Flat:
         """A root behind all parameters: m1 m2 sqrt(m1 m2), alpha sqrt(D/m), but sqrt(k/m) x."""
-        base, exponent = factor
+        rank = self._powers.get(factor)
+        if rank is None:
+            rank = self._powers[factor] = self._key_of_power(*factor)
+        return rank
+
+    def _key_of_power(self, base: Expression, exponent: Fraction) -> Flat:
         letters = [part for part in walk(base) if isinstance(part, Name)]
         if exponent.denominator == 1 or isinstance(base, (Name, Sum)) or not letters:
             return self.rank(base)
@@ -167,13 +175,19 @@ class Ordering:
             node.primes > 0 or self._first_fast <= self._index.get(node.name, -1)
         )
 
-    def term(self, node: Expression) -> tuple[int, int, int, int, tuple[int, ...], int, Flat]:
+    def term(self, node: Expression) -> TermKey:
         """Accelerations, a number, falling degree in the velocities, then by coordinate.
 
         So 1 + x², and x² + R² θ² + l²: coordinates in the order of the file, parameters alone
         at the end, single letters first, fractions and functions last: I + m a², l + m g/k,
         M + m cos θ; x'' before x' (y' x'' − x' y'').
         """
+        key = self._terms.get(node)
+        if key is None:
+            key = self._terms[node] = self._key_of_term(node)
+        return key
+
+    def _key_of_term(self, node: Expression) -> TermKey:
         accelerations, rates, momenta = _degrees(node)
         velocities = rates + momenta
         roots = [p for p in walk(node) if isinstance(p, Call) and p.function == "sqrt"]

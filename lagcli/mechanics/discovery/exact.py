@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from itertools import combinations, product
+from math import gcd
 
 import sympy
 from flint import nmod_mat
@@ -88,10 +90,11 @@ class ExactSolver:
         return self._multiple_of(self._constant_monomials(), value) or self._two_monomials(value)
 
     def _multiple_of(self, monomials: Sequence[_ConstantMonomial], value: int) -> Expr | None:
+        fractions = _smallest_fractions()
         for monomial in monomials:
-            fraction = small_fraction(value * monomial.inverse % PRIME, 128)
+            fraction = fractions.get(value * monomial.inverse % PRIME)
             if fraction is not None:
-                return Rational(fraction.numerator, fraction.denominator) * monomial.expression
+                return Rational(*fraction) * monomial.expression
         return None
 
     def _two_monomials(self, value: int) -> Expr | None:
@@ -189,6 +192,19 @@ class ExactSolver:
                 groups.setdefault(moving, {}).setdefault(index, []).append((fixed, coefficient))
         rows = [{k: ring.build(terms) for k, terms in row.items()} for row in groups.values()]
         return [{k: x for k, x in row.items() if x != 0} for row in rows]
+
+
+@cache
+def _smallest_fractions() -> dict[int, tuple[int, int]]:
+    """Numerator and denominator up to 128, by the value modulo the prime."""
+    inverses = {q: pow(q, -1, PRIME) for q in range(1, 129)}
+    return {
+        sign * p * inverse % PRIME: (sign * p, q)
+        for q, inverse in inverses.items()
+        for p in range(1, 129)
+        if gcd(p, q) == 1
+        for sign in (1, -1)
+    }
 
 
 def _with_inverse_roots(value: Expr) -> Expr:
