@@ -263,9 +263,9 @@ class Discovery(Setting):
             )
             if timed.functions:
                 self._degree = 2
-                functions = "with the same functions of time as coefficients"
+                functions = "with the same functions of time in the coefficients"
                 still = self.system.t not in self.equations_symbols
-                self.words.append(f"and {functions}" if still else f"{_SECOND} {functions}")
+                self.words.append(f"and such {functions}" if still else f"{_SECOND} {functions}")
                 self._keep(timed.found(self.charges))
 
     def _of_higher_degree(self) -> None:
@@ -377,4 +377,4 @@ def _timed(times: TimeFunctions) -> str:
         timed += " and with the exponents of the linear part"
     if times.changing:
         timed += " and with the solutions of the linear equation"
-    return timed + (" and the functions of time of the driving" if times.forced else "")
+    return timed + (" and with the functions of time of the driving" if times.forced else "")
