@@ -74,7 +74,7 @@ def _has_lines(section: object) -> bool:
 
 
 def in_steps(explanation: Explanation, taken: Collection[str]) -> Explanation:
-    """The explanation with such names in its results, listed where the first of them occurs.
+    """The explanation with such names in its results, each listed in the step where it first occurs.
 
     The system, L and the equations of motion are derived from each other as they are written.
     """
@@ -82,13 +82,15 @@ def in_steps(explanation: Explanation, taken: Collection[str]) -> Explanation:
     names = _found(derived, taken)
     if names is None:
         return explanation
-    steps = [*explanation.steps[:_DERIVATION], *rewritten(derived, names)]
-    first = next(
-        place for place, step in enumerate(steps) if names_in(step.blocks) & names.where.keys()
-    )
-    rows = tuple(Row(Name(name), node) for name, node in names.where.items())
-    listed = (Paragraph(("With the abbreviations",)), Equations(rows))
-    steps[first] = replace(steps[first], blocks=(*listed, *steps[first].blocks))
+    steps, left = [*explanation.steps[:_DERIVATION]], dict(names.where)
+    for step in rewritten(derived, names):
+        used = names_in(step.blocks)
+        for name, node in reversed(names.where.items()):  # each after those that it uses
+            used |= names_in(node) if name in used else set()
+        rows = tuple(Row(Name(name), left.pop(name)) for name in [*left] if name in used)
+        word = "abbreviations" if len(rows) > 1 else "abbreviation"
+        listed = (Paragraph((f"With the {word}",)), Equations(rows)) if rows else ()
+        steps.append(replace(step, blocks=(*listed, *step.blocks)))
     return replace(explanation, steps=tuple(steps))
 
 
@@ -200,17 +202,19 @@ class _Abbreviations:
         return wanted
 
     def _ordered(self) -> Iterator[tuple[str, Expression]]:
-        """The names, each after those that it uses."""
+        """The names as they occur in the formulas, each after those that it uses."""
         done: set[str] = set()
-        left = {n: node for n, node in sorted(self._chosen.items()) if _circular_name(node)}
-        left |= dict(reversed(self._chosen.items()))
-        while left:
-            for name, node in list(left.items()):
-                used = {p.name for p in walk(node) if isinstance(p, Name) and not p.primes}
-                if not used & (left.keys() - done):
-                    yield name, node
+
+        def listed(node: Expression) -> Iterator[tuple[str, Expression]]:
+            for part in walk(node):
+                name = part.name if isinstance(part, Name) else ""
+                if name in self._chosen and name not in done:
                     done.add(name)
-                    del left[name]
+                    yield from listed(self._chosen[name])
+                    yield name, self._chosen[name]
+
+        for tree in self._trees:
+            yield from listed(tree)
 
 
 def _is_worth(part: Expression, count: int, below: bool) -> bool:

@@ -9,7 +9,7 @@ import pytest
 
 from lagcli import load
 from lagcli.abbreviations import abbreviated, written_out
-from lagcli.document import Equations
+from lagcli.document import Equations, Paragraph
 from lagcli.evaluation import FUNCTIONS, evaluated
 from lagcli.expression import (
     Call,
@@ -27,7 +27,7 @@ from lagcli.expression import (
 from lagcli.formatters import Options
 from lagcli.formatters.page import to_document
 from lagcli.notation.letters import names_in
-from lagcli.pipeline import Request, derive, read, render, state
+from lagcli.pipeline import Request, derive, explain, read, render, state
 from lagcli.reader import read_problem
 from lagcli.record import replace
 from lagcli.rewriting import rewritten
@@ -194,3 +194,33 @@ L: m*(x'^2 + y'^2)/2 + q*B*(x*y' - y*x')/2 - m*{stiffness}*(x^2 + y^2)/2
     told = render([state(derive(problem), request)], "text", Options())
     assert "k₂ t/(2 m)" in told
     assert "t k" not in told.replace("that k", "")
+
+
+@pytest.mark.first_quick
+@pytest.mark.parametrize(
+    ("file", "also"),
+    [
+        ("particles/relativistic-coulomb", ("canonical_equations", "hamilton_jacobi")),
+        ("particles/charge-and-magnetic-monopole", ("hamilton_jacobi", "discovered")),
+        ("chains/slider-crank", ("canonical_equations",)),
+    ],
+)
+def test_an_explanation_lists_each_name_where_it_first_occurs(file, also):
+    lists, bodies = [], []
+    for step in explain(derive(load(f"problems/{file}.yaml")), also).steps:
+        head = step.blocks[0] if step.blocks else None
+        given = isinstance(head, Paragraph) and str(head.parts[0]).startswith("With the abbrev")
+        rows = step.blocks[1].rows if given else ()
+        lists.append({row.left.name: names_in(row.right) for row in rows})
+        bodies.append(names_in(step.blocks[2 if given else 0 :]))
+    names = [name for listed in lists for name in listed]
+    assert len(names) == len({*names}) > 0
+    known: set[str] = set()
+    for listed, body in zip(lists, bodies, strict=True):
+        read = body.union(*listed.values())
+        assert {*listed} <= read
+        assert read & {*names} <= known | {*listed}
+        known |= {*listed}
+    for stem in {name.rstrip("0123456789") for name in names}:
+        numbers = [int(n[len(stem) :] or 1) for n in names if n.rstrip("0123456789") == stem]
+        assert numbers == sorted(numbers)

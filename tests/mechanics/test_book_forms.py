@@ -272,7 +272,7 @@ def test_abbreviations_reach_an_explanation_and_the_reduction():
     answers = state(derivation, Request(sections=("reduction",), abbreviate=True))
     assert answers.where
     told = repr(explain(derivation, ("reduction",)).steps)
-    assert told.count("With the abbreviations") == 1
+    assert told.count("With the abbreviation") == 2  # in the accelerations and the reduction
 
 
 @pytest.mark.parametrize(
