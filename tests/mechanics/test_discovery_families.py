@@ -190,6 +190,27 @@ def test_special_values_are_those_of_the_family(parameters, coordinates, L, valu
     assert set(values.split()) <= {f"{c.parameter}={c.value}" for c in cases}
 
 
+@pytest.mark.parametrize(
+    ("term", "free"),
+    [
+        ("a*(x^2*y + 2*y^3)", "x y"),  # Henon and Heiles' oscillators apart
+        ("a/x^2 + 3/y^2", "x"),
+        ("a/x^2 + 2*y/5", "x"),
+        ("a*(x^2 + y^2)^2", "x y"),
+        ("a*exp(-x)", "x"),
+    ],
+)
+def test_without_a_term_what_is_linear_has_the_phases_of_an_oscillator(term, free):
+    """The time is in the new charges as the linear part has it: powers of t do not show them."""
+    V = f"w^2*(x^2 + 3*y^2)/2 + {term}"
+    head = f"parameters: {{w: {POS}, a: {{}}}}\ncoordinates: [x, y]\nT: (x'^2 + y'^2)/2\n"
+    [case] = [c for c in derive(f"{head}V: {V}\n").special_cases if c.value == 0]
+    new = {charge.name for charge in case.charges}
+    wanted = {f"translation_{x}_{part}" for x in free.split() for part in ("cos", "sin")}
+    assert wanted <= new
+    assert wanted & {c.name for c in derive(f"{head}V: {V}\n").discovery.charges} == set()
+
+
 @pytest.mark.parametrize(("field", "E"), [("B", "E"), ("2*B", "E/3"), ("B^2", "E")])
 def test_a_value_by_which_charges_are_divided_is_special_too(field, E):
     """The drift E/B has no value without a field: falling then, with the projectile's charges."""

@@ -70,7 +70,8 @@ def special_cases(
             factors += linear_powers(searched.equations)
             linear = searched.accelerations or (), searched.time_functions.exponents, system.q
             factors += damped_powers(*linear)
-            factors += system.parameters if len(system.q) == 1 else ()  # a term less, and linear
+            if len(system.q) == 1 or searched.time_functions.exponents:
+                factors += system.parameters  # a term less: linear, with functions of time
             values = candidates(system, factors, _exponents(searched))
             together = both_vanish(pairs, factors, system.parameters)
         choices: list[tuple[Value, ...]] = [(value,) for value in values[:_MOST_VALUES]]
