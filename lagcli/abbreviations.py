@@ -74,7 +74,7 @@ def _has_lines(section: object) -> bool:
 
 
 def in_steps(explanation: Explanation, taken: Collection[str]) -> Explanation:
-    """The explanation with such names in its results, each listed in the step where it first occurs.
+    """The explanation with such names in its results, each listed where it first occurs.
 
     The system, L and the equations of motion are derived from each other as they are written.
     """
