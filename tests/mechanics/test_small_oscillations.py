@@ -365,6 +365,8 @@ def test_it_is_told_why_there_are_none():
     assert absent.reason.endswith("do not exist for the values of the file")
     falling = modes(dynamics("coordinates: [x]\nT: x'^2/2\nV: x\n"))
     assert (falling.modes, falling.reason) == ((), "there is no equilibrium to expand about")
+    radial = modes(dynamics("coordinates: {r: POSITIVE}\nT: r'^2/2\nV: r^2\n"))
+    assert radial.reason == "there is no equilibrium in these coordinates to expand about"  # r = 0
     masses = "parameters: {a: {assume: positive}, b: {assume: positive}}\n"
     balanced = modes(dynamics(f"coordinates: [x]\n{masses}T: (a + b)*x'^2/2\nV: (a - b)*x\n"))
     assert balanced.reason == "in general there is no equilibrium to expand about"  # but for a = b

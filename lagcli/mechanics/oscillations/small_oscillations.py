@@ -88,6 +88,7 @@ _RELEASED = (
 _HELD = "contacts, static friction or kinks of the potential hold what is at rest"
 _LIMIT = "a force is at its limit there"
 _NO_LINEAR_PART = "a force has a kink or a jump at the equilibrium, and no linear part"
+_NOT_KNOWN = "no equilibrium is known to expand about"
 _NO_MODES = "the equilibria do not exist for the values of the file"
 _NO_OSCILLATION = "no root ω² of the characteristic polynomial is real and positive"
 
@@ -130,8 +131,13 @@ def modes(dynamics: Dynamics) -> ModesSection:
             modes=None, reason=f"no equilibrium is known ({oscillations.rest.reason})"
         )
     if not places:
+        if not oscillations.complete:
+            return ModesSection(modes=None, reason=_NOT_KNOWN)
         general = "in general " * any(each.rest.unless != () for each in oscillations.held)
-        return ModesSection(modes=(), reason=f"{general}there is no equilibrium to expand about")
+        rest = oscillations.rest
+        here = " in these coordinates" * bool(rest.edge or rest.restricted_to)
+        none = f"{general}there is no equilibrium{here} to expand about"
+        return ModesSection(modes=(), reason=none)
     chosen = [p for p in places if p.verdict.stable is not False] or places
     found = [mode for place in chosen for mode in oscillations.modes(place)]
     if not found and all(not place.linear.M and not place.held.firmly for place in places):
