@@ -160,3 +160,29 @@ constraints: {{suslov: psi' + phi'*cos(theta) = 0}}
     assert section.motions
     angles = [value(m.at["theta"]) for m in section.motions if "theta" in m.at]
     assert all(abs(sin(angle)) > 0.1 for angle in angles)
+
+
+@pytest.mark.parametrize("slope", ["y", "sin(y)", "1/(2 + y^2)", "y*exp(y)"])
+@pytest.mark.parametrize(
+    ("across", "drifts"),
+    [
+        ("5*y'^2/2", True),  # y'' = 0: Rosenberg's particle
+        ("5*y'^2/2 + 3*x'^2*cosh(y)", False),  # y'' is x'^2 times a function of y
+        ("5*y'^2/2 - y^2", False),  # steady where y = 0 only
+    ],
+)
+def test_what_drifts_uniformly_from_one_steady_motion_to_another_is_stable_among_them(
+    slope, across, drifts
+):
+    """z' = f(y) x': a motion with a small y' = const is always as near to one with y' = 0."""
+    section, missing = steady_motions(
+        derive(f"""
+coordinates: [x, y, z]
+L: (x'^2 + z'^2)/2 + {across}
+constraints: {{plane: z' = ({slope})*x'}}
+""")
+    )
+    assert not missing
+    found = [m.verdict for m in section.motions or ()]
+    assert any("0 in all of it" in each.reason for each in found) is drifts
+    assert all(each.stable and each.across for each in found) or not drifts

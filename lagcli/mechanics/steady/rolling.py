@@ -45,6 +45,7 @@ from lagcli.mechanics.stability.verdict import Stability, undecided
 from lagcli.record import record
 
 _UNIFORM = "these velocities are constant in every motion"
+_DRIFTING = "the velocities that are 0 in all of it are constant in every motion"
 _MOST_CHOICES = 40  # three of six coordinates have 20, of seven 35
 _MOST_DEPTH = 6  # measured: at most 2 conditions one after the other
 
@@ -315,6 +316,8 @@ class RollingMotions:
         """
         if not any(self._equations or ()):
             return Stability(stable=True, reason=_UNIFORM), ()
+        if self._drifts_uniformly:
+            return Stability(stable=True, reason=_DRIFTING, across=True), ()
         jacobian = self._jacobian(motion.values)
         powers = None if jacobian is None else _characteristic(jacobian)
         if powers is None:
@@ -326,6 +329,17 @@ class RollingMotions:
         if found.is_open and (leaving := by_uniform_acceleration(self.dynamics)):
             return leaving, squares
         return self._by_energy(motion) or self._at_rest(motion, found) or found, squares
+
+    @property
+    def _drifts_uniformly(self) -> bool:
+        """Whether F(r, u) is 0 where r' = 0, and r'' is 0 everywhere.
+
+        Then the distance |r'| of a motion to the steady ones is constant.
+        """
+        rates = zip(self.velocities, self._equations or (), strict=True)
+        return not any(self.conditions.values()) and not any(
+            f != 0 for j, f in rates if j in self.coordinates
+        )
 
     def _at_rest(self, motion: RollingMotion, found: Stability) -> Stability | None:
         """The verdict on the equilibrium that it is, unless the roots alone decide."""
