@@ -31,7 +31,7 @@ _LIMIT = "to first order it is at the limit of stability"
 NEUTRAL = "neutral to first order in some direction"
 _NO_CRITERION = "the roots have no simple criterion"
 _MAY_FEED = "beyond first order a force that is not linear, or has no potential, may feed energy"
-_RESONANT = "two frequencies agree, and the motion with them grows in proportion to t"
+_RESONANT = "two frequencies coincide, and the amplitude at that frequency grows in proportion to t"
 _MOST_ROLLING = 4  # measured: at most 1
 
 
