@@ -443,6 +443,23 @@ def test_the_morse_potential():
     assert series((sympy.exp(-x) - 1) ** 2 / 2, S.One) == [0, Rational(1, 2), 0, Rational(1, 24)]
 
 
+@pytest.mark.parametrize(("k", "strength"), [("k", 0.7), ("k^2", 0.49), ("2*k", 1.4)])
+def test_a_minimum_for_either_sign_of_a_momentum_is_one(k, strength):
+    """r² = |p|/√(m k) of the plane oscillator, not √p for p > 0 and √(-p) for p < 0."""
+    motion = reduced(
+        "{coordinates: {r: POSITIVE, u: {}}, parameters: {m: POSITIVE, k: POSITIVE}, "
+        f"T: m*(r'^2 + r^2*u'^2)/2, V: '{k}*r^2/2'}}"
+    )[0].one_freedom
+    assert motion is not None
+    [period] = motion.periods
+    values = {"m": 1.3, "k": 0.7, "p_u": -0.9}
+    names = {name: sympy.Float(value) for name, value in values.items()}
+    place = Builder(names, {}, lambda _: S.Zero)(period.at["r"])
+    assert float(place) ** 4 == pytest.approx(0.81 / (1.3 * strength))
+    [condition] = period.where
+    assert {part.name for part in walk(condition.left) if isinstance(part, Name)} == {"p_u"}
+
+
 def test_a_period_has_one_number():
     """A cycloid: 4 pi sqrt(a/g), and not 2 pi times 2."""
     section, _ = reduced("""

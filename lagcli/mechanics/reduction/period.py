@@ -38,7 +38,7 @@ from lagcli.algebra.entry import Field
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.polynomial_roots import coefficients
-from lagcli.algebra.positivity import weak_sign
+from lagcli.algebra.positivity import deciding, weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.inequalities import never_together
 from lagcli.mechanics.parameter_values import admissible_values
@@ -73,6 +73,37 @@ class AmplitudeSeries:
     coefficients: tuple[Expr, ...]
     where: tuple[Expr, ...]
     isochronous: bool = False
+
+
+def _of_either_sign(found: Sequence[AmplitudeSeries]) -> list[AmplitudeSeries]:
+    """sqrt(|p|) for sqrt(p) where p > 0 and sqrt(-p) where p < 0, of one period."""
+    merged: list[AmplitudeSeries] = []
+    for each in found:
+        for k, other in enumerate(merged):
+            if (both := _merged(other, each)) is not None:
+                merged[k] = both
+                break
+        else:
+            merged.append(each)
+    return merged
+
+
+def _merged(one: AmplitudeSeries, other: AmplitudeSeries) -> AmplitudeSeries | None:
+    if one.point is None or other.point is None or one.coefficients != other.coefficients:
+        return None
+    [(q, place)], [there] = one.point.values.items(), other.point.values.values()
+    conditions, opposites = ({deciding(x) for x in each.where} for each in (one, other))
+    if len(conditions) != 1 or len(opposites) != 1:
+        return None
+    [condition], [opposite] = conditions, opposites
+    same = [place**2 + there**2, condition + opposite, one.root - other.root]
+    if place == there or not all(is_zero(simplify(each)) is True for each in same):
+        return None
+    either = simplify(condition**2)
+    values = {q: sympy.sqrt(Abs(simplify(place**2)))}
+    return replace(
+        one, point=replace(one.point, values=values, positive=(either,)), where=(either,)
+    )
 
 
 class Periods:
@@ -157,7 +188,7 @@ class Periods:
         elif not found and not self.reason:
             turn = "within one turn " if rest.is_of_one_turn else ""
             self.reason = f"U_eff has no minimum {turn}at which its second derivative is positive"
-        return tuple(found)
+        return tuple(_of_either_sign(found))
 
     def _anywhere(self) -> tuple[AmplitudeSeries, ...]:
         """2 pi sqrt(M/U'') at a place that is given by U' = 0 only."""
