@@ -6,9 +6,10 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import groupby
 
 from lagcli.document import Bracket, Equations, Formula, Integral, Label, Matrix, Row
+from lagcli.expression import Expression
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_text import latex_text
-from lagcli.formatters.latex_width import QUAD, RELATION, TEXT_WIDTH, text_width
+from lagcli.formatters.latex_width import BINARY, QUAD, RELATION, TEXT_WIDTH, text_width
 from lagcli.formatters.layout import COMMA, Layout, TextPiece, break_lines, joined, width_of
 from lagcli.formatters.layout import RELATION as RELATION_RANK
 from lagcli.formatters.precedence import Level
@@ -107,7 +108,9 @@ class LatexDisplay:
 
     def equations(self, block: Equations) -> Iterator[Display]:
         """Set the displays of a block: rows share one with narrow left sides, or of one line."""
-        shown = [self._shown(row) for row in block.rows]
+        lefts = [width_of(self.formula(row.left)) for row in block.rows]
+        column = max((width for width in lefts if width <= _NARROW), default=0.0)
+        shown = [self._shown(row, _room(column)) for row in block.rows]
         for narrow, rows in groupby(shown, key=lambda each: each.narrow):
             if narrow:
                 yield self._aligned(list(rows))
@@ -135,14 +138,19 @@ class LatexDisplay:
         listed = matrix.listed(lambda entry: self.printer.show(entry).text == "0")
         yield from self.equations(Equations(listed))
 
-    def _shown(self, row: Row) -> _Shown:
-        return _Shown(row.left, self.formula(row.left), self.formula(row.right), row.note)
+    def _shown(self, row: Row, room: float) -> _Shown:
+        right = row.right
+        if isinstance(right, Expression):
+            shown = self.printer.line(right, room - QUAD - BINARY).pieces
+        else:
+            shown = self.formula(right)
+        return _Shown(row.left, self.formula(row.left), shown, row.note)
 
     def _aligned(self, rows: Sequence[_Shown]) -> Display:
         column = max(width_of(row.left) for row in rows)
         display = []
         for row in rows:
-            room = TEXT_WIDTH - _MARGIN - column - RELATION
+            room = _room(column)
             broken = self._broken(row.right, row.note, room, room - QUAD)
             first, *others = broken
             lines = [f"{joined(row.left)} &= {first}", *(f"&{line}" for line in others)]
@@ -169,3 +177,8 @@ class LatexDisplay:
             else:
                 texts.append(remark)
         return texts
+
+
+def _room(column: float) -> float:
+    """What is left of a line behind a left side and the relation."""
+    return TEXT_WIDTH - _MARGIN - column - RELATION

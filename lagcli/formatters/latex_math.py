@@ -8,6 +8,7 @@ that can be broken: \frac{3 r}{D} ( ... ), ( ... )^{1/2}.
 
 from __future__ import annotations
 
+from copy import copy
 from itertools import accumulate
 
 from lagcli.expression import (
@@ -24,6 +25,7 @@ from lagcli.expression import (
     Quotient,
     Rate,
     Sum,
+    terms_of,
 )
 from lagcli.formatters.functions import FIXED, ON_PAPER, POWERED
 from lagcli.formatters.latex_names import LatexNames
@@ -113,6 +115,16 @@ class LatexPrinter(FractionPrinter[Box]):
     def __init__(self, names: LatexNames | None = None) -> None:
         super().__init__()
         self.names = names or LatexNames()
+        self.outermost: frozenset[Expression] = frozenset()
+        self.room = WIDEST
+
+    def line(self, node: Expression, room: float) -> Box:
+        """The formula on lines of that width, which its outermost fractions may fill."""
+        terms = (t.operand if isinstance(t, Negative) else t for t in terms_of(node))
+        outer = copy(self)
+        outer.ready, outer.room = {}, room
+        outer.outermost = frozenset(t for t in terms if isinstance(t, Quotient))
+        return outer.show(node) if outer.outermost and room > WIDEST else self.show(node)
 
     def at(self, node: Expression, lowest: Level) -> Box:
         box = self.placed(node, lowest)
@@ -186,6 +198,9 @@ class LatexPrinter(FractionPrinter[Box]):
                 inverse = self.bracketed(content, after="^{-1/2}")
                 return self._over(self.show(node.numerator), inverse)
         above, under = self.within.show(node.numerator), self.within.show(below)
+        widest = max(above.width, under.width)
+        if node in self.outermost and not self.small and WIDEST < widest <= self.room:
+            return Box((_frac(above.text, under.text, widest),), Level.POWER, _TALL)
         if above.width > WIDEST >= under.width and isinstance(node.numerator, Product):
             parted = self._parted(node.numerator.factors, below)
             if parted is not None:

@@ -322,3 +322,17 @@ def test_a_line_breaks_between_a_fraction_and_a_bracket_rather_than_inside_it():
     lines = break_lines(LatexPrinter().show(node).pieces, TEXT_WIDTH, TEXT_WIDTH)
     assert len(lines) > 1
     assert all(line.text.count(r"\bigl") == line.text.count(r"\bigr") for line in lines)
+
+
+@pytest.mark.parametrize("terms", [1, 2, 3])
+def test_a_fraction_that_a_line_can_hold_is_one(terms: int) -> None:
+    """Also where it is wider than a fraction within a bracket may be; beside other terms too."""
+    fraction = "g*(a*sin(u) - b*sin(w))/((M + a + b)*(M + b) - (M*cos(u) + M*cos(w))^2)"
+    node = parse_text(" - ".join([fraction, *("x", "y")[: terms - 1]]))
+    (display,) = LatexDisplay(LatexPrinter()).equations(Equations((Row(x, node),)))
+    whole = "".join(lines_of(display))
+    assert LatexPrinter().show(node).text.count("^{-1}") == 1
+    assert "^{-1}" not in whole
+    assert r"\frac{g \, (a \sin u - b \sin w)}" in whole
+    within = LatexPrinter().line(parse_text(f"k*(x + {fraction})^2"), TEXT_WIDTH)
+    assert "^{-1}" in within.text
