@@ -33,6 +33,7 @@ from lagcli.statements.wording import (
     capitalized,
     conditions,
     irreducible,
+    naming_potential,
     none_cyclic,
     state_blocks,
     turning_contacts,
@@ -132,7 +133,7 @@ def _one_freedom(motion: OneFreedom, potential: Formula) -> Iterator[Block]:
     for period in once(motion.periods):
         yield from _period(period, motion.coordinate, potential)
     if motion.reason:
-        yield Paragraph((f"{capitalized(motion.reason)}.",))
+        yield Paragraph(naming_potential(f"{capitalized(motion.reason)}."))
 
 
 def _period(period: PeriodSeries, coordinate: str, potential: Formula) -> Iterator[Block]:

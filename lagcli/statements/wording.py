@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import groupby
@@ -152,6 +153,12 @@ def only_along_its_path(point: str, fixed: Sequence[str]) -> Iterator[Paragraph]
 def capitalized(words: str) -> str:
     """The words with a capital letter first; the others stay."""
     return words[:1].upper() + words[1:]
+
+
+def naming_potential(words: str) -> tuple[Part, ...]:
+    """The words with U_eff, V_eff and V as formulas."""
+    parts = re.split(rf"\b({'|'.join(POTENTIALS)})\b", words)
+    return tuple(POTENTIALS.get(part, part) for part in parts if part)
 
 
 def with_capital(parts: Sequence[Part]) -> list[Part]:
