@@ -73,7 +73,7 @@ KNOWN = {
     "particles/free-particle-in-rotating-frame": (8, "energy L_z conformal", "sch(2)", True),
     "particles/charge-and-magnetic-monopole": (6, "L_x L_y dilation", "so(3) + sl(2,R)", True),
     "classics/swinging-atwood-machine-integrable": (1, "energy charge_1", "R^2", True),
-    "rigid/free-asymmetric-top": (4, "energy p_phi", "so(3)", True),
+    "rigid/free-asymmetric-top": (4, "energy p_phi L_x L_y", "so(3)", True),
     "particles/henon-heiles": (1, "energy", "R", None),
     "oscillations/damped-oscillator": (5, "translation_x_cos", None, None),
 }

@@ -213,3 +213,60 @@ def test_charges_at_a_special_value_have_names_of_their_own():
     [case] = (each for each in derivation.special_cases if each.parameter.name == "C")
     assert case.charges
     assert not {c.name for c in case.charges} & {*names}
+
+
+def components(A, B, C):
+    """L on the axes of space and on those of the body, from R = Rz(phi) Rx(theta) Rz(psi)."""
+    phi, theta, psi = angles = sympy.symbols("phi theta psi", real=True)
+    rates = sympy.symbols("phi' theta' psi'", real=True)
+
+    def turn(angle):
+        c, s = sympy.cos(angle), sympy.sin(angle)
+        return sympy.Matrix([[c, -s, 0], [s, c, 0], [0, 0, 1]])
+
+    c, s = sympy.cos(theta), sympy.sin(theta)
+    R = turn(phi) * sympy.Matrix([[1, 0, 0], [0, c, -s], [0, s, c]]) * turn(psi)
+    rate = sympy.zeros(3, 3)
+    for angle, speed in zip(angles, rates, strict=True):
+        rate += R.diff(angle) * speed
+    W = R.T * rate  # omega x on the axes of the body
+    body = sympy.Matrix([A * W[2, 1], B * W[0, 2], C * W[1, 0]])
+    return dict(zip("x y z 1 2 3".split(), [*(R * body), *body], strict=True)), [*angles, *rates]
+
+
+@pytest.mark.parametrize(
+    ("moments", "named"),
+    [
+        ("A B C", "x y"),
+        ("A A C", "x y"),
+        ("A A A", "x y 1 2"),
+        ("A B A", "x y 2"),
+        ("A C C", "x y 1"),
+    ],
+)
+@pytest.mark.parametrize("order", ["phi, theta, psi", "psi, theta, phi"])
+def test_the_angular_momentum_of_a_top_on_axes_of_space_and_of_the_body(moments, named, order):
+    A, B, C = moments.split()
+    if len({A, B, C}) == 1 and order.startswith("psi"):
+        pytest.skip("the angles of a sphere change places")
+    parameters = ", ".join(f"{p}: {{assume: positive}}" for p in sorted({A, B, C}))
+    T = (
+        f"({A}*(phi'*sin(theta)*sin(psi) + theta'*cos(psi))^2"
+        f" + {B}*(phi'*sin(theta)*cos(psi) - theta'*sin(psi))^2 + {C}*(psi' + phi'*cos(theta))^2)/2"
+    )
+    if A == B:
+        T = f"({A}*(theta'^2 + phi'^2*sin(theta)^2) + {C}*(psi' + phi'*cos(theta))^2)/2"
+    text = f"parameters: {{{parameters}}}\ncoordinates: [{order}]\nV: 0\nT: {T}\n"
+    found = {c.name: c.charge for c in derive(text).discovery.charges if c.name.startswith("L_")}
+    assert set(found) == {f"L_{axis}" for axis in named.split()}
+    values = {p: sympy.Symbol(p, real=True, positive=True) for p in (A, B, C)}
+    known, symbols = components(*(values[p] for p in (A, B, C)))
+    at = dict(zip([s.name for s in symbols], (0.3, 1.1, -0.7, 0.9, -1.3, 0.4), strict=True))
+    at |= {"A": 1.5, "B": 2.25, "C": 3.5}
+    for name, charge in found.items():
+        wanted = known[name[2:]]
+        one, other = (
+            e.xreplace({s: sympy.Float(at[s.name]) for s in e.free_symbols})
+            for e in (charge, wanted)
+        )
+        assert abs(one - other) < 1e-12

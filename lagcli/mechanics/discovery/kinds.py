@@ -37,6 +37,7 @@ class Kinds:
     angles: list[Symbol] = field(default_factory=list)
     radii: list[Symbol] = field(default_factory=list)
     cyclic: list[Symbol] = field(default_factory=list)  # among the angles
+    tilted: list[Symbol] = field(default_factory=list)  # of the cyclic, with an inertia that varies
     latitudes: Mapping[Symbol, Expr] = field(default_factory=dict)  # with what is 0 at the poles
     alone: list[Symbol] = field(default_factory=list)  # cyclic, in no inertia with a latitude
     curved: bool = False
@@ -92,6 +93,8 @@ def kinds(
         (found.angles if angle else found.lengths).append(x)
         if angle and cyclic:
             found.cyclic.append(x)
+            if not free_of(inertia[x][equations.q.index(x)], equations.q):
+                found.tilted.append(x)
         elif cyclic and x in turning:
             found.angles.append(x)
         elif angle and x in travelling:

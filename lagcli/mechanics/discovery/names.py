@@ -5,12 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import chain, count
+from itertools import chain, count, permutations
 
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import simplify
+from lagcli.algebra import is_zero, simplify
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.noether import NoetherCharge
 
@@ -192,7 +192,16 @@ class Naming:
         return f"energy_{moved[0]}" if len(moved) == 1 else "energy_mode"
 
     def _rotation_of_sphere(self, moved: Mapping[Symbol, Expr]) -> str:
-        """L_x: dtheta = -sin phi; L_y: dtheta = cos phi, for latitude and longitude."""
+        """L_x: dtheta = -sin phi; L_y: dtheta = cos phi, for latitude and longitude.
+
+        For Euler's angles phi counts to the line of nodes: dtheta = cos phi and sin phi.
+        About the body's own axes it is cos psi and -sin psi: L_1, L_2.
+        """
+        if tilt := self._tilt(moved):
+            about_x = tilt.has(sympy.cos)
+            if self._is_of_body(tilt, moved):
+                return "L_1" if about_x else "L_2"
+            return "L_x" if about_x else "L_y"
         if not (sphere := self._sphere(moved)):
             return ""
         theta, phi = sphere
@@ -208,6 +217,36 @@ class Naming:
         alone = angles[0] in self.kinds.latitudes and angles[1] not in self.kinds.latitudes
         return tuple(angles) if alone else ()
 
+    def _tilt(self, moved: Mapping[Symbol, Expr]) -> Expr | None:
+        """dtheta of a rotation of a body about a horizontal axis through its fixed point.
+
+        dphi = dtheta,phi cot theta and dpsi = -dtheta,phi/sin theta: Goldstein, Poole, Safko,
+        3rd ed., chapter 4, derivation 15, solved for the rates where omega is e_x or e_y.
+        """
+        if len(moved) != 3 or not set(moved) <= set(self.kinds.angles):
+            return None
+        for theta, phi, psi in permutations(moved):
+            tilt = moved[theta]
+            if abs(tilt) in (abs(sympy.sin(phi)), abs(sympy.cos(phi))):
+                slope = tilt.diff(phi)
+                rest = moved[phi] - slope * sympy.cot(theta), moved[psi] + slope / sympy.sin(theta)
+                if all(is_zero(e) is True for e in rest):
+                    return tilt
+        return None
+
+    def _is_of_body(self, tilt: Expr, moved: Mapping[Symbol, Expr]) -> bool:
+        """Whether its angle is that of the rotation about the body's own axis.
+
+        That one occurs in T, or its inertia is constant; of a sphere, whose T has both angles
+        alike, it is the later one.
+        """
+        [angle] = tilt.free_symbols
+        if angle not in self.kinds.cyclic:
+            return True
+        alike = [x for x in self.q if x in self.kinds.cyclic and x in moved]
+        precessing = next((x for x in alike if x in self.kinds.tilted), alike[0])
+        return bool(precessing != angle)
+
     def orientation(self, name: str, charge: NoetherCharge) -> Expr:
         """The sign that turns a charge into the textbook's: L_y = z p_x - x p_z."""
         changes = zip(self.q, charge.transformation.changes, strict=True)
@@ -220,9 +259,11 @@ class Naming:
         if name in ("moving_energy", "damped_energy", "energy_exp") and moved:
             return sympy.S.NegativeOne  # p.xi - h tau: the textbook's is h
         name = name.removesuffix(MOVING)
-        if name not in ("L_x", "L_y", "L_z"):
+        if name not in ("L_x", "L_y", "L_z", "L_1", "L_2"):
             return sympy.S.One
-        if sphere := self._sphere(moved):
+        if tilt := self._tilt(moved):
+            right = bool(tilt.could_extract_minus_sign()) == (name == "L_2")
+        elif sphere := self._sphere(moved):
             at = dict.fromkeys(sphere, sympy.pi / 4)  # -cot(theta), or -tan of a latitude
             right = bool(moved[sphere[1]].xreplace(at).is_negative)
         else:
