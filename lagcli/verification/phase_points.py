@@ -18,6 +18,9 @@ from lagcli.verification.sweeps import StepValues, column
 #: Numbers of names, each with its primes.
 Environment = dict[tuple[str, int], arb]
 
+#: The derivatives of a function with respect to q and to p.
+Slopes = tuple[list[arb], list[arb]]
+
 _HAMILTONIAN = "H"
 
 
@@ -27,7 +30,7 @@ class PhasePoint:
     Attributes
     ----------
     at : Values
-        Of every formula of q, p, t, the parameters, and H by its name.
+        Of every formula of q, p, t, the parameters, and of H and other functions by their names.
     energy : arb
         H.
     by_q, by_p : list of arb
@@ -39,30 +42,36 @@ class PhasePoint:
         reference: Reference,
         environment: Mapping[tuple[str, int], arb],
         energy: arb,
-        slopes: tuple[list[arb], list[arb]],
+        slopes: Slopes,
+        functions: Mapping[str, tuple[arb, Slopes]] | None = None,
     ) -> None:
         self.reference = reference
         self.environment = environment
         self.energy = energy
         self.by_q, self.by_p = self._slopes = slopes
+        known = {_HAMILTONIAN: (energy, slopes), **(functions or {})}
+        self._functions = {n: f for n, f in known.items() if (n, 0) not in environment}
         self.at = self.with_values({})
+
+    def knowing(self, functions: Mapping[str, tuple[arb, Slopes]]) -> PhasePoint:
+        """The point with names that stand for functions of q, p and t: values and derivatives."""
+        return PhasePoint(self.reference, self.environment, self.energy, self._slopes, functions)
 
     def with_values(self, more: Mapping[tuple[str, int], arb]) -> StepValues:
         """The values of formulas that have further names."""
-        return self.reference.values({(_HAMILTONIAN, 0): self.energy, **self.environment, **more})
+        named = {(name, 0): value for name, (value, _) in self._functions.items()}
+        return self.reference.values({**named, **self.environment, **more})
 
-    def slopes(self, place: int) -> tuple[list[arb], list[arb]]:
+    def slopes(self, place: int) -> Slopes:
         """The derivatives of a formula with respect to q and to p."""
         found = self.at.gradient(place)
         by_q, by_p = column(found, self.reference.q), column(found, self.reference.p)
-        weight = found.get(self.reference.program.symbol(_HAMILTONIAN))
-        if weight is None or (_HAMILTONIAN, 0) in self.environment:
-            return by_q, by_p
-        of_q, of_p = self._slopes
-        return (
-            [a + weight * b for a, b in zip(by_q, of_q, strict=True)],
-            [a + weight * b for a, b in zip(by_p, of_p, strict=True)],
-        )
+        for name, (_, (of_q, of_p)) in self._functions.items():
+            weight = found.get(self.reference.program.symbol(name))
+            if weight is not None:
+                by_q = [a + weight * b for a, b in zip(by_q, of_q, strict=True)]
+                by_p = [a + weight * b for a, b in zip(by_p, of_p, strict=True)]
+        return by_q, by_p
 
     def bracket(self, f: int, g: int) -> arb:
         """{f, g} = sum_j (df/dq_j dg/dp_j - df/dp_j dg/dq_j)."""
@@ -74,7 +83,7 @@ class PhasePoint:
         return poisson(self.slopes(place), self._slopes) + drift
 
 
-def poisson(f: tuple[list[arb], list[arb]], g: tuple[list[arb], list[arb]]) -> arb:
+def poisson(f: Slopes, g: Slopes) -> arb:
     """The bracket of two functions by their derivatives with respect to q and p."""
     return dot(f[0], g[1]) - dot(f[1], g[0])
 

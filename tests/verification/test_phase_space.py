@@ -6,6 +6,7 @@ from fractions import Fraction
 
 import pytest
 
+from lagcli.expression import Number, Sum
 from lagcli.formatters.grammar import to_grammar
 from lagcli.pipeline import _statements as statements
 from lagcli.pipeline import derive
@@ -148,3 +149,33 @@ def test_a_symmetry_that_is_not_listed_is_noticed(name: str) -> None:
         found = verified(problem, replace(answers, sections=wrong))
         assert any("no other" in w for w in found.warnings), charge.name
         assert "algebra" in found.absent, charge.name
+
+
+GAUGED = {  # L, the change of x and of y, whose boundary terms the file does not give
+    "velocity": ("m*(x'^2 + y'^2)/2 + b*(x*y' - y*x')/2", "1", "0"),
+    "time": ("m*(x'^2 + y'^2)/2 + x'*exp(x*t)*t", "t", "0"),
+    "rotated": ("m*(x'^2 + y'^2)/2 - k*(x^2 + y^2)/2 + x'*y^2", "-y", "x"),
+    "mass that depends on the place": ("m*(x'^2 + x^2*y'^2)/2", "cos(y)", "-sin(y)/x"),
+    "velocities in the change": ("m*(x'^2 + y'^2)/2 - k*(x^2 + y^2)/2", "x'", "0"),
+}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("of", GAUGED)
+def test_brackets_of_charges_are_examined_without_a_given_boundary_term(of: str) -> None:
+    L, dx, dy = GAUGED[of]
+    text = (
+        f'coordinates: [x, y]\nparameters: [m, b, k]\nL: "{L}"\n'
+        f'symmetries:\n  one: {{x: "{dx}", y: "{dy}"}}\n'
+        '  other: {x: "y", y: "-x"}\n  shift: {x: 0, y: 1}\n  energy: {t: 1}\n'
+    )
+    derivation = derive(read_problem(of, text.encode()).checked())
+    problem, answers = derivation.problem, statements(derivation).answers(("brackets",))
+    section = answers.sections["brackets"]
+    assert len(section.brackets) == 6
+    assert verified(problem, answers) is answers  # neither refuted nor "not verified"
+    for place, each in enumerate(section.brackets):
+        wrong = replace(each, value=Sum((each.value, Number(Fraction(1, 100)))))
+        changed = (*section.brackets[:place], wrong, *section.brackets[place + 1 :])
+        sheet = replace(answers, sections={"brackets": replace(section, brackets=changed)})
+        assert verified(problem, sheet).sections["brackets"].brackets[place].value is None

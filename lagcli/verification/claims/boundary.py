@@ -48,7 +48,7 @@ def boundary_term(x: Examination, charge: Charge) -> bool:
             return False
         growth = x.reference.program.rate(gauge[0])
         return x.decide(what, lambda s: ([s.loose.at(growth)], [s.loose.at(change)]))
-    if not _is_total_derivative(x, change):
+    if not is_total_derivative(x, change):
         return True
     x.refute(f"that '{charge.name}' has no boundary term", "the change of L is a total derivative")
     return False
@@ -115,12 +115,17 @@ def _one_form(x: Examination, linear: int) -> list[int]:
     return [*slopes, program.sum(linear, *map(program.negative, terms))]
 
 
-def _is_total_derivative(x: Examination, change: int) -> bool:
-    """Whether Euler's operator gives 0 at random states, with random higher derivatives."""
-    residuals, states = euler_operator(x, change), x.states()
+def is_total_derivative(x: Examination, change: int) -> bool:
+    """Whether Euler's operator gives 0."""
+    return vanish(x, euler_operator(x, change))
+
+
+def vanish(x: Examination, places: Sequence[int]) -> bool:
+    """Whether steps are 0 at random states, off the constraints, with random higher derivatives."""
+    states = x.states()
     if not states:
         return False
-    return all(is_zero(_anywhere(state)(residual)) for state in states for residual in residuals)
+    return all(is_zero(_anywhere(state)(place)) for state in states for place in places)
 
 
 def _anywhere(state: State) -> StepValues:

@@ -14,7 +14,7 @@ from flint import arb
 
 from lagcli.verification.examination import LOOKED_AT, Examination
 from lagcli.verification.linear import Unclear, dot, solve
-from lagcli.verification.phase_points import poisson
+from lagcli.verification.phase_points import Slopes, poisson
 from lagcli.verification.states import State
 from lagcli.verification.sweeps import column
 
@@ -26,23 +26,14 @@ class CanonicalSample:
     """One state, with the values of functions and their derivatives by q and p."""
 
     def __init__(self, state: State, functions: Sequence[int]) -> None:
-        reference, laws = state.reference, state.laws
+        reference = state.reference
         self.state = state
         self.values = [state.at(f) for f in functions]
-        one = arb(1)
-        along = [laws.hessian({q: one}) for q in reference.q]
-        P = [column(each, reference.v) for each in along]  # row j: dp/dq_j
-        self.slopes: list[tuple[list[arb], list[arb]]] = []
+        found = [state.at.gradient(f) for f in functions]
+        by = [(column(each, reference.q), column(each, reference.v)) for each in found]
         #: by q and q', of the same rank, also where M is regular on the constraints alone
-        self.gradients: list[list[arb]] = []
-        for f in functions:
-            found = state.at.gradient(f)
-            self.gradients.append(column(found, [*reference.q, *reference.v]))
-            by_p = list(solve(laws.mass_matrix, column(found, reference.v), laws.size).x)
-            by_q = [
-                a - dot(row, by_p) for a, row in zip(column(found, reference.q), P, strict=True)
-            ]
-            self.slopes.append((by_q, by_p))
+        self.gradients = [[*by_q, *by_v] for by_q, by_v in by]
+        self.slopes = slopes_in_phase_space(state, by)
 
     @property
     def finite(self) -> bool:
@@ -53,6 +44,19 @@ class CanonicalSample:
     def bracket(self, i: int, j: int) -> arb:
         """{f_i, f_j}."""
         return poisson(self.slopes[i], self.slopes[j])
+
+
+def slopes_in_phase_space(
+    state: State, by: Sequence[tuple[Sequence[arb], Sequence[arb]]]
+) -> list[Slopes]:
+    """The derivatives with respect to q and p of functions, by those with respect to q and q'."""
+    reference, laws, one = state.reference, state.laws, arb(1)
+    P = [column(laws.hessian({q: one}), reference.v) for q in reference.q]  # row j: dp/dq_j
+    found = []
+    for by_q, by_v in by:
+        by_p = list(solve(laws.mass_matrix, by_v, laws.size).x)
+        found.append(([a - dot(row, by_p) for a, row in zip(by_q, P, strict=True)], by_p))
+    return found
 
 
 def samples(x: Examination, functions: Sequence[int], count: int) -> list[CanonicalSample]:

@@ -8,14 +8,13 @@ Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., sections 9.1 (table 9.1
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 
 from flint import arb
 
 from lagcli.expression import Expression, Name, walk
-from lagcli.problem_data import JACOBI_FUNCTION, CanonicalTransformation, Problem, charge_of
+from lagcli.problem_data import CanonicalTransformation, Symmetry
 from lagcli.record import replace
-from lagcli.rewriting import rebuilt
 from lagcli.statements.phase_space import (
     BracketsSection,
     ExaminedTransformation,
@@ -24,6 +23,7 @@ from lagcli.statements.phase_space import (
     PoissonBracket,
     TransformationsSection,
 )
+from lagcli.verification.claims.charges_in_phase_space import NoetherCharge
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot, size
 from lagcli.verification.phase_points import PhasePoint
@@ -49,7 +49,8 @@ def brackets(x: Examination, section: BracketsSection) -> BracketsSection:
     places = [given[name] for name in section.observables]
     if not x.hold("the observables", printed, lambda s: [s.at(place) for place in places]):
         section = replace(section, observables={})
-    found = tuple(_bracket(x, each) for each in section.brackets)
+    charges = {s.name: NoetherCharge(x, s) for s in _named_symmetries(x, section)}
+    found = tuple(_bracket(x, each, charges) for each in section.brackets)
     rates, what = section.rates, "the rates of the observables"
     if rates is not None and rates.keys() != given.keys():
         x.refute(what, "some are left out")
@@ -62,41 +63,67 @@ def brackets(x: Examination, section: BracketsSection) -> BracketsSection:
     return replace(section, brackets=found, rates=rates, reason=reason)
 
 
-def _bracket(x: Examination, each: PoissonBracket) -> PoissonBracket:
+def _bracket(
+    x: Examination, each: PoissonBracket, charges: Mapping[str, NoetherCharge]
+) -> PoissonBracket:
     what = f"the bracket '{each.name}'"
     if each.value is None:
         return each
     asked = next((b for b in x.problem.brackets if b.name == each.name), each)
-    sides = [_in_momenta(x.problem, side) for side in (asked.left, asked.right)]
-    if None in sides:
+    used = {n for side in (asked.left, asked.right, each.named) for n in _names(side)}
+    charges = {name: charge for name, charge in charges.items() if name in used}
+    if not all(charge.known for charge in charges.values()):
         x.unchecked.append(what)
         return each
-    left, right = (x.reference.place(side) for side in sides if side is not None)
-    if not x.holds(what, each.value, lambda s: s.phase.bracket(left, right)):
+    left, right = map(x.reference.place, (asked.left, asked.right))
+
+    def point(s: State) -> PhasePoint:
+        return s.phase.knowing({name: charge.at(s) for name, charge in charges.items()})
+
+    places = x.places(what, [each.value])
+    if places is None:
         return replace(each, value=None, named=None)
-    named = None if each.named is None else _in_momenta(x.problem, each.named)
-    if named is None:
+
+    def bracket(s: State) -> tuple[list[arb], list[arb]] | None:
+        value = point(s).bracket(left, right)
+        return None if charges and value.is_nan() else ([s.at(places[0])], [value])
+
+    if not x.decide(what, bracket):
+        return replace(each, value=None, named=None)
+    if each.named is None:
         return each
-    place = x.reference.place(named)
-    if x.vanishes(f"{what} by names", lambda s: s.phase.at(place) - s.phase.bracket(left, right)):
-        return each
-    return replace(each, named=None)
+    named = x.reference.place(each.named)
+
+    def by_names(s: State) -> tuple[list[arb], list[arb]] | None:
+        """The values, and the derivatives: these alone where a boundary term is not given."""
+        sides = []
+        for here, place in ((point(s), named), (s.phase, places[0])):
+            by_q, by_p = here.slopes(place)
+            sides.append([here.at(place), *by_q, *by_p])
+        if charges and sides[0][0].is_nan():
+            sides = [side[1:] for side in sides]
+        unknown = charges and any(value.is_nan() for value in sides[0])
+        return None if unknown else (sides[0], sides[1])
+
+    return each if x.decide(f"{what} by names", by_names) else replace(each, named=None)
 
 
-def _in_momenta(problem: Problem, node: Expression) -> Expression | None:
-    """With the conserved quantities of the file's symmetries in q and p; None: not known."""
-    symmetries = {each.name: each for each in problem.symmetries}
-    known = {*problem.observables, *problem.definitions, *(p.name for p in problem.parameters)}
-    asked = {n.name for n in walk(node) if isinstance(n, Name)} & symmetries.keys() - known
-    if any(symmetries[name].gauge is None for name in asked):
-        return None  # the boundary term is not given
+def _named_symmetries(x: Examination, section: BracketsSection) -> Iterator[Symmetry]:
+    """Those whose conserved quantities are named in brackets or in their values."""
+    problem = x.problem
+    if x.reference.of_phase_space:
+        return iter(())  # no Lagrangian, so no conserved quantity of Noether's
+    quantities = (*problem.parameters, *problem.coordinates)
+    known = {*problem.observables, *problem.definitions, *(each.name for each in quantities)}
+    sides = [side for each in problem.brackets for side in (each.left, each.right)]
+    sides += [each for b in section.brackets for each in (b.left, b.right, b.named) if each]
+    used = {name for side in sides for name in _names(side)}
+    return (each for each in problem.symmetries if each.name in used - known)
 
-    def put_in(part: Expression) -> Expression:
-        if isinstance(part, Name) and part.name in asked:
-            return put_in(charge_of(symmetries[part.name]))
-        return Name("H") if part == JACOBI_FUNCTION else rebuilt(part, put_in)
 
-    return put_in(node)
+def _names(formula: Expression | None) -> set[str]:
+    nodes = () if formula is None else walk(formula)
+    return {node.name for node in nodes if isinstance(node, Name)}
 
 
 # -- transformations ----------------------------------------------------------------------------
