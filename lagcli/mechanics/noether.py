@@ -64,7 +64,7 @@ class NoetherCharge:
 
     `gauge` is None where K is no total derivative; the charge is then that of G = 0.  It is
     None, too, where a gauge exists, or may exist, and was not found: the charge is then not
-    `complete`, since it lacks that gauge.
+    `complete`, since it lacks that gauge, unless it is conserved without it.
     `conserved` and `rate` are None where the motion was not solved and the rate needs it.
     """
 
@@ -192,8 +192,11 @@ class Noether:
     ) -> NoetherCharge:
         boundary = sympy.S.Zero if gauge is None else gauge
         contributions = self._contributions(transformation, boundary, change)
-        if gauge is None and exists and not self._rate(list(contributions.values()))[1]:
-            contributions.pop(CHANGE_OF_L, None)  # K = dG/dt, whatever G is
+        complete = gauge is not None or exists is False
+        if not complete:  # conserved without G, too, where the forces' work is -K
+            complete = bool(self._rate(list(contributions.values()))[1])
+            if exists and not complete:
+                contributions.pop(CHANGE_OF_L, None)  # K = dG/dt, whatever G is
         system = self.system
         along = dot(self.dynamics.lagrange.momenta, self.characteristic(transformation))
         charge = along + system.L * transformation.time - boundary
@@ -205,7 +208,6 @@ class Noether:
         if gauge is None and exists is None and conserved is False:
             rate = conserved = verified = None
             broken_by = _NO_GAUGE_KNOWN
-        complete = gauge is not None or exists is False
         verdict = (conserved, rate, verified, broken_by)
         return NoetherCharge(name, source, transformation, gauge, charge, *verdict, complete)
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from lagcli.pipeline import Request, state
+from lagcli.document import Equations
+from lagcli.expression import Name, Negative, walk
+from lagcli.pipeline import Request, explain, state
 from lagcli.statements.wording import CHANGE_OF_L
 
 from .derived import charge, derive, same
+from .test_explanation import words
 
 FREE = "coordinates: [x, y]\nparameters: {m: {assume: positive}, k: {}, c: {assume: positive}}\n"
 
@@ -138,6 +141,36 @@ def test_a_candidate_that_the_constraints_alone_keep_constant_conserves_nothing(
     )
     out, round_ = listed(text)[:2]
     assert (out.trivial, out.charge, round_.trivial) == (True, None, False)
+
+
+DRAGGED = (  # x' and y' are prescribed, z is free
+    "coordinates: [x, y, z]\nparameters: {m: {assume: positive}, k: {}, w: {}, a: {}, b: {}}\n"
+    "T: m*(x'^2 + y'^2 + z'^2)/2 + m*x'*y'/2\nV: POTENTIAL\n"
+    "constraints: {c: x' = a*y' + b, d: y' = w}\n"
+)
+
+
+@pytest.mark.parametrize("V", ["k*exp(x/2) + k*y^2", "k*cos(x)", "k*cos(x*y)", "k*x^3*y"])
+def test_momenta_that_the_constraints_prescribe_conserve_nothing_in_a_potential(V):
+    text = DRAGGED.replace("POTENTIAL", V) + "symmetries: {push: {x: 1, y: 1}}"
+    push, p_z, *_ = listed(text)
+    assert (push.trivial, push.charge) == (True, None)
+    assert (p_z.name, p_z.conserved) == ("p_z", True)
+
+
+@pytest.mark.parametrize("V", ["k*exp(x/2) + k*y^2", "k*cos(x*y)", "k*x^3*y"])
+def test_a_rate_without_a_formula_of_the_boundary_term_is_that_of_Q_minus_G(V):
+    """Of Q = x p_y - y p_x: dQ/dt = m (x'^2 - y'^2)/2 + 0 as x'' = y'' = 0, dG/dt = K."""
+    text = DRAGGED.replace("POTENTIAL", V) + "symmetries: {turn: {x: -y, y: x}}"
+    d = derive(text)
+    turn = charge(d, "turn")
+    assert (turn.gauge, turn.complete, turn.conserved) == (None, False, False)
+    assert same(d, turn.rate, f"diff({V}, y)*x - diff({V}, x)*y")
+    told = explain(d)
+    assert "boundary term G, for which no formula was found" in words(told)
+    blocks = [block for step in told.steps for block in step.blocks]
+    rows = [row for block in blocks if isinstance(block, Equations) for row in block.rows]
+    assert any(Negative(Name("G")) in walk(row.right) for row in rows if row.note)
 
 
 def test_nonholonomic_momentum_of_a_coin_is_conserved_where_it_does_no_work():

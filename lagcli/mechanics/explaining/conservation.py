@@ -9,7 +9,7 @@ import sympy
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
 from lagcli.document import Block, Equations, Heading, Label, Row
-from lagcli.expression import Diff, Name, Product, Rate, Sum
+from lagcli.expression import Diff, Name, Negative, Product, Rate, Sum, sum_of
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, listed, says, shows
 from lagcli.mechanics.impacts import between_impacts
@@ -244,8 +244,15 @@ def _candidate(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
     boundary = sympy.S.Zero if gauge is None else gauge
     same = is_zero(changed - explainer.system.total_derivative(boundary)) is True
     working = explainer.derivation.noether.working(charge) if charge.conserved else []
+    without_formula = not charge.complete and charge.conserved is not None
     if working and gauge is not None and not same:
         yield from _with_work(explainer, gauge, enumerated(working), is_zero(changed) is True)
+    elif without_formula:
+        yield says(
+            "Under it the action changes by the total time derivative of a boundary term ",
+            letters.G,
+            ", for which no formula was found.",
+        )
     elif gauge is None:
         yield says(
             "Under it the action changes, and no boundary term was found whose total time "
@@ -267,10 +274,12 @@ def _candidate(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
         )
         yield shows(letters.G, write(gauge))
     applies = charge.conserved is not False
-    with_gauge, with_time = bool(boundary != 0), change.time != 0
+    with_gauge, with_time = without_formula or bool(boundary != 0), change.time != 0
     yield says(*noether_words(explainer, applies, with_gauge=with_gauge, with_time=with_time))
-    yield shows(letters.Q, explainer.readable.by_terms(charge.charge), _stays(charge)
-                if charge.conserved is not None else "")  # fmt: skip
+    Q = explainer.readable.by_terms(charge.charge)
+    if without_formula:
+        Q = sum_of([Q, Negative(letters.G)])
+    yield shows(letters.Q, Q, _stays(charge) if charge.conserved is not None else "")
     if explainer.derivation.noether.is_trivial(charge):
         yield says(TRIVIAL)
         return
@@ -279,7 +288,7 @@ def _candidate(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
         yield says(f"Whether it is conserved was not decided{why}.")
     elif charge.conserved:
         if not working or same:
-            yield from _work(explainer, charge, with_gauge=bool(boundary != 0))
+            yield from _work(explainer, charge, with_gauge=with_gauge)
         yield from _struck(explainer, charge)
     else:
         yield says(f"It is not conserved, because of {charge.broken_by}:")
