@@ -85,7 +85,7 @@ def _stability(equilibrium: Equilibrium, states: Sequence[State]) -> tuple[str |
         if states == [({}, None)]:
             exist = ["Any ", *listed(equilibrium.free), " is an equilibrium"]
         parts += [*exist, " where ", *conditions(equilibrium.where), ". "]
-    parts += [holding(equilibrium.touching, sticking=equilibrium.sticking)]
+    parts += [holding(equilibrium)]
     at = states[0][0] if states else {}
     parts += stability(equilibrium.verdict, equilibrium.free, equilibrium.on, at)
     parts += [at_the_limit(equilibrium.where, sticking=equilibrium.sticking)]

@@ -241,8 +241,9 @@ class Equilibrium:
     """A state of rest, which exists where each of `where` holds.
 
     With `free` coordinates, or an equation `on`, a family, stable up to displacements along it.
-    The contacts `touching` are closed, those in `open` are not; with `sticking` dry friction
-    holds it; where it is `kinked`, the potential has a minimum across its kinks there.
+    The contacts `touching` are closed, strings among them `taut`, those in `open` are not; with
+    `sticking` dry friction holds it; where it is `kinked`, the potential has a minimum across its
+    kinks there.
     The `indeterminate` coordinates have no value there, as the azimuth at a pole.
     """
 
@@ -252,6 +253,7 @@ class Equilibrium:
     where: tuple[Above, ...] = ()
     free: tuple[str, ...] = ()
     touching: tuple[str, ...] = ()
+    taut: tuple[str, ...] = ()
     open: tuple[str, ...] = ()
     sticking: bool = False
     kinked: bool = False

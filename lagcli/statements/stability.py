@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from lagcli.document import Label
 from lagcli.expression import Expression, Name, operation_count, walk
+from lagcli.statements.answers import Equilibrium
 from lagcli.statements.motions import Above, SteadyMotion, Verdict
 from lagcli.statements.wording import Part, conditions, joined, with_capital
 
@@ -78,10 +79,13 @@ def at_the_limit(where: Sequence[Above], *, sticking: bool) -> str:
     return " At equality it rests, too, with no force to spare." if where and sticking else ""
 
 
-def holding(touching: Sequence[str], *, sticking: bool) -> str:
+def holding(equilibrium: Equilibrium) -> str:
     """What holds it at rest beside smooth forces."""
-    closed = f"In contact: {', '.join(touching)}. " if touching else ""
-    return closed + ("Static friction holds it. " if sticking else "")
+    taut = equilibrium.taut
+    pressed = [name for name in equilibrium.touching if name not in taut]
+    closed = f"In contact: {', '.join(pressed)}. " if pressed else ""
+    pulling = f"Taut: {', '.join(taut)}. " if taut else ""
+    return closed + pulling + ("Static friction holds it. " if equilibrium.sticking else "")
 
 
 def _with_potential(reason: str, name: str) -> list[Part]:

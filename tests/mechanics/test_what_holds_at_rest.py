@@ -9,6 +9,7 @@ import pytest
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.oscillations.small_oscillations import equilibria
 from lagcli.mechanics.steady.statement import steady_motions
+from lagcli.statements.stability import holding
 
 from .derived import derive
 from .formulas import normal
@@ -48,17 +49,25 @@ def test_a_surface_does_not_pull(sign, place, stable):
     assert [to_grammar(m.at["theta"]) for m in section.motions or ()] == [place]
 
 
-def test_a_string_hangs_down():
-    text = """
+@pytest.mark.parametrize(("kind", "told"), [("tension", "Taut"), ("normal", "In contact")])
+def test_a_string_hangs_down(kind, told):
+    text = f"""
 coordinates: [x, y]
-parameters: {m: POSITIVE, g: POSITIVE, l: POSITIVE}
+parameters: {{m: POSITIVE, g: POSITIVE, l: POSITIVE}}
 T: m*(x'^2 + y'^2)/2
 V: m*g*y
 constraints:
-  string: {equation: x^2 + y^2 = l^2, multiplier: S, holds_while: S <= 0, on_loss: release}
+  string:
+    equation: x^2 + y^2 = l^2
+    multiplier: S
+    holds_while: S <= 0
+    on_loss: release
+    acts_as: {kind}
 """
     assert places(text, "y") == ["-l"]
-    assert found(text)[0].touching == ("string",)
+    [rest] = found(text)
+    assert rest.touching == ("string",)
+    assert holding(rest) == f"{told}: string. "
 
 
 def test_a_ball_rests_on_the_floor_of_its_contact():

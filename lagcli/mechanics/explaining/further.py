@@ -127,7 +127,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
             yield says(f"{constraints_named('The contact', lost)} {verb} open here.")
         if each.where:
             yield says("It exists for ", *inequalities(each.where), ".")
-        firm = holding(each.touching, sticking=each.sticking)
+        firm = holding(each)
         limit = at_the_limit(each.where, sticking=each.sticking)
         yield says(firm, *stability(each.verdict, each.free, each.on, each.at), limit)
     if found and not states.complete:

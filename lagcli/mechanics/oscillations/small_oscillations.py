@@ -359,10 +359,15 @@ class SmallOscillations:
             free=tuple(q.name for q in free if q not in gone),
             indeterminate=tuple(q.name for q in free if q in gone),
             touching=place.held.touching,
+            taut=tuple(name for name in place.held.touching if name in self._strings),
             open=place.held.open,
             sticking=place.held.sticking,
             kinked=place.held.kinked,
         )
+
+    @property
+    def _strings(self) -> set[str]:
+        return {c.name for c in self.system.problem.constraints if c.acts_as == "tension"}
 
     def modes(self, place: Place) -> list[ModesOfFrequency]:
         """The modes about one equilibrium as statements."""
