@@ -25,6 +25,8 @@ class NotInLibrary(OSError):
         sentence = "no such file or directory"
         if "." not in name and not name.endswith("/"):  # what is meant as a name, not as a path
             sentence += f", and no problem of the library: {hint}"
+        elif near := _near_file(Path(name)):
+            sentence += f": did you mean '{near}'?"
         super().__init__(2, sentence, name)
 
 
@@ -118,6 +120,16 @@ def files_named(name: str) -> list[str]:
     if place and top == "problems" and (within := place.joinpath(*below)).is_dir():
         return files_in(within)
     return [str(find_problem(name))]
+
+
+def _near_file(wanted: Path) -> str:
+    """The problem file in the same folder that is spelled nearly like this one."""
+    from difflib import get_close_matches
+
+    beside = wanted.parent.iterdir() if wanted.parent.is_dir() else iter(())
+    names = [each.name for each in beside if each.suffix in SUFFIXES]
+    close = get_close_matches(wanted.name, names, n=1)
+    return str(wanted.with_name(close[0])) if close else ""
 
 
 def _near(wanted: str, every: tuple[LibraryEntry, ...]) -> str:

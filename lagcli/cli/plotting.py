@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 _WITHOUT_MOTION = ("phase", "potential")
 #: Stands for an end where only states are drawn.
 _NO_END = 0.0
+#: Where no portrait can be drawn without an end.
+_ASKED_FOR_END = "when does it end? give --until T, or simulation: {until: T}, for curves over time"
 
 
 @record(kw_only=True)
@@ -54,6 +56,7 @@ def plot_file(options: PlotOptions) -> Status:
 
 def _draw(problem: Problem, request: RunRequest, options: PlotOptions) -> Status:
     def work() -> tuple[bytes, str]:
+        from lagcli.pictures.drawing import CannotDraw
         from lagcli.pictures.kinds import PictureRequest, picture_of
 
         drawing = PictureRequest(
@@ -62,8 +65,13 @@ def _draw(problem: Problem, request: RunRequest, options: PlotOptions) -> Status
             section=options.section,
             orbits=options.orbits,
         )
-        with shared("integrating") as progress:
-            picture, refusal = picture_of(problem, request, drawing, progress)
+        try:
+            with shared("integrating") as progress:
+                picture, refusal = picture_of(problem, request, drawing, progress)
+        except CannotDraw:
+            if options.kind is None and request.until == _NO_END:
+                raise CannotDraw(_ASKED_FOR_END) from None
+            raise
         return _written(picture, options), refusal
 
     return drawn(problem, work, options.output)

@@ -36,6 +36,14 @@ def check_dimensions(problem: Problem, limit: int) -> list[Diagnostic]:
     return list(dict.fromkeys(islice(found, limit)))
 
 
+def energies_in(problem: Problem) -> int:
+    """The number of terms of T and V, or of L, that are energies."""
+    inference = Inference(problem)
+    energies = inference.demands.energies
+    terms = () if energies is None else energies.terms
+    return [inference.form(term.form) for term in terms].count(ENERGY)
+
+
 def one_wrong_unit(problem: Problem, first: Diagnostic) -> Diagnostic | None:
     """The only unit without which every term fits, with the one that then follows for it.
 

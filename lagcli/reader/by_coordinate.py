@@ -87,3 +87,17 @@ def coordinate_meant(name: str, scope: Scope) -> str:
         return next(by_index, coordinates[int(bare) - 1])
     rate = rate_meant(name, Vocabulary(tuple(coordinates), frozenset()))
     return rate[0] + "'" * rate[1] if rate else name
+
+
+def state_meant(word: str, coordinates: list[str]) -> str:
+    """`x'` for dx/dt, v, xdot, v0 and x'(0), `x` for x0 and x(t=0); nothing for other words."""
+    from lagcli.reader.foreign.translation import translated
+    from lagcli.reader.foreign.words import UnclearText
+
+    spoken = re.sub(r"\s+(?:dot|prime|punkt|point)$", "_dot", word)
+    plain = re.sub(r"(\(\s*(?:t\s*=\s*)?0\s*\)|_?0)$", "", spoken)
+    try:
+        meant = translated(plain, Vocabulary(tuple(coordinates), frozenset()))
+    except UnclearText:
+        return ""
+    return meant if meant.rstrip("'") in coordinates else ""

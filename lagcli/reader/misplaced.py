@@ -4,14 +4,10 @@ from __future__ import annotations
 
 import re
 from dataclasses import replace
-from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.reader.habits import MAPS
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 _ENERGIES = frozenset("TVLH")
 _RELATION = re.compile("[=<>]")
@@ -29,7 +25,7 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
     """
     given = {key.label for key, _ in root.entries}
     coordinates = [name for key, node in root.entries if key.label == "coordinates"
-                   for name in _names(node)]  # fmt: skip
+                   for name in names_in(node)]  # fmt: skip
     mentions = re.compile(rf"(?<!\w)(?:{'|'.join(map(re.escape, coordinates)) or '(?!)'})(?!\w)")
 
     def is_misplaced(key: Scalar, value: DocumentNode) -> bool:
@@ -57,7 +53,8 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
     return replace(root, entries=entries), mistakes
 
 
-def _names(node: DocumentNode) -> Iterable[str]:
+def names_in(node: DocumentNode | None) -> list[str]:
+    """The names in a list or a map of them."""
     if isinstance(node, Mapping):
-        return (key.label for key, _ in node.entries)
-    return (each.label for each in getattr(node, "items", ()) if isinstance(each, Scalar))
+        return [key.label for key, _ in node.entries]
+    return [each.label for each in getattr(node, "items", ()) if isinstance(each, Scalar)]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-from itertools import islice
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -23,7 +21,7 @@ from lagcli.reader.dynamics import (
 from lagcli.reader.expectations import ExpectReader
 from lagcli.reader.file_reader import FileReader
 from lagcli.reader.habits import KEYS, colon_advice, key_meant
-from lagcli.reader.limits import MISTAKES
+from lagcli.reader.misfits import dimension_mistakes
 from lagcli.reader.misplaced import lifted
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, kind
@@ -45,12 +43,6 @@ from lagcli.record import record, replace
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
-
-
-#: Where a stretch of the file begins and ends, and what fits there.
-_Place = tuple[int, int, str]
-#: Places of a file at which a prime is tried; each takes a reading of the file.
-_TRIALS = 100
 
 
 @record
@@ -135,8 +127,16 @@ def _composed(
     file = FileReader(diagnostics=diagnostics)
     problem = _read(file, source, root)
     if problem is not None and not file.diagnostics:
-        file.diagnostics += _dimension_mistakes(problem, alone=alone) or slips(problem)
+        file.diagnostics += dimension_mistakes(problem, _reading if alone else None) or slips(
+            problem
+        )
     return root, problem, file.diagnostics
+
+
+def _reading(source: Source) -> tuple[Problem | None, list[Diagnostic]]:
+    """The problem that a text writes, and its mistakes."""
+    _, problem, mistakes = _composed(source, alone=False)
+    return problem, mistakes
 
 
 def _document(source: Source) -> tuple[DocumentNode, list[Diagnostic]]:
@@ -246,77 +246,6 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
 
 def _is_problem(node: Mapping) -> bool:
     return "coordinates" in {key.label for key, _ in node.entries}
-
-
-def _dimension_mistakes(problem: Problem, *, alone: bool) -> list[Diagnostic]:
-    """The terms that do not fit, or `alone` the one place that explains several of them."""
-    if all(quantity.unit is None for quantity in (*problem.coordinates, *problem.parameters)):
-        return []
-    from lagcli.dimensions.check import check_dimensions, one_wrong_unit
-
-    found = check_dimensions(problem, MISTAKES)
-    if not found or not alone:
-        return found
-    text = SourceText.of(problem.source)
-    place = _missing_primes(problem, text, found)
-    if not found[1:]:
-        return [found[0] if place is None else _with_term(found[0], place, text)]
-    causes = [] if place is None else [_prime_elsewhere(found[0], place, text)]
-    unit = one_wrong_unit(problem, found[0])
-    known = causes if unit is None else [*causes, unit]
-    return known if len(known) == 1 else found
-
-
-def _prime_elsewhere(first: Diagnostic, place: _Place, text: SourceText) -> Diagnostic:
-    """The one place that explains several terms that do not fit."""
-    start, end, better = place
-    message = f"{text.source.text[start:end]} stands where {better} fits"
-    related = ((first.span, first.message),)
-    return Diagnostic(message, text.span(start, end), f"write {better}", related=related)
-
-
-def _with_term(mistake: Diagnostic, place: _Place, text: SourceText) -> Diagnostic:
-    """The mistake with its term as it fits in the hint, where the prime is within the term."""
-    begin, stop = text.offsets(mistake.span)
-    start, end, better = place
-    if not begin <= start <= end <= stop:
-        return mistake
-    written = text.source.text
-    whole = written[begin:start] + better + written[end:stop]
-    return replace(mistake, hint=f"write {whole}: {mistake.hint}")
-
-
-def _missing_primes(
-    problem: Problem, text: SourceText, mistakes: list[Diagnostic]
-) -> _Place | None:
-    """The only place where a prime more or less lets every term fit; None for none or several.
-
-    It is one name, or a term all of whose coordinates lack their primes.
-    """
-    written = text.source.text
-    names = "|".join(re.escape(each.name) for each in problem.coordinates)
-    name = re.compile(rf"(?<![\w.'])(?:{names})(?![\w(])('?)")
-
-    def fits(place: _Place) -> bool:
-        start, end, better = place
-        changed = Source(text.source.name, written[:start] + better + written[end:])
-        return not _read_source(changed, alone=False).diagnostics
-
-    ends = [*text.line_starts[1:], len(written)]
-    lines = dict.fromkeys([*(each.span.line - 1 for each in mistakes), *range(len(ends))])
-    places = [
-        (place.start(), place.end(), place[0][:-1] if place[1] else f"{place[0]}'")
-        for line in lines
-        for place in name.finditer(written, text.line_starts[line], ends[line])
-    ]
-    for each in mistakes:
-        start, end = text.offsets(each.span)
-        whole, count = name.subn(lambda m: m[0] + "'" * (not m[1]), written[start:end])
-        places += [(start, end, whole)] if count > 1 else []
-    if places[_TRIALS:]:
-        return None
-    found = list(islice(filter(fits, places), 2))
-    return found[0] if len(found) == 1 else None
 
 
 def _stem(name: str) -> str:

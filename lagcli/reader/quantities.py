@@ -60,9 +60,19 @@ def read_coordinates(file: FileReader, node: DocumentNode) -> tuple[Coordinate, 
         attributes = _attributes(file, value, key, "coordinate", _COORDINATE_ATTRIBUTES)
         coordinates.append(Coordinate(name=key.label, span=key.span, **_said(file, attributes)))
     if isinstance(node, Mapping | Sequence) and not size(node):
-        file.error("the problem has no coordinates", node.span, "write coordinates: [x]")
+        names = ", ".join(_moving(node.text.source.text)) or "x"
+        file.error("the problem has no coordinates", node.span, f"write coordinates: [{names}]")
         file.scope.refused.append("")
     return tuple(coordinates)
+
+
+def _moving(text: str) -> list[str]:
+    """The names with primes or dots in the lines of the energies, in their order there."""
+    lines = re.findall(r"^(?:[TLV]|definitions|constraints|  +\w+):(.*)$", text, re.MULTILINE)
+    rates = re.findall(
+        r"([^\W\d]\w*)'+(?![\w'(])|\\dot\s*\{?\\?(\w+)|([^\W\d_]+)_?dot\b", "\n".join(lines)
+    )
+    return [*dict.fromkeys("".join(each) for each in rates)]
 
 
 def declare_parameters(

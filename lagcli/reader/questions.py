@@ -15,7 +15,7 @@ from lagcli.problem_data import (
     SimulationDefaults,
     Where,
 )
-from lagcli.reader.by_coordinate import by_name
+from lagcli.reader.by_coordinate import by_name, state_meant
 from lagcli.reader.habits import advised, name_meant
 from lagcli.reader.headings import state_without_headings
 from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end, source_of
@@ -80,11 +80,9 @@ def _state_name(
     if letters not in coordinates and file.scope.refused:
         return None
     if letters not in coordinates:
-        spoken = re.sub(r"\s+(?:dot|prime|punkt|point)$", "_dot", key.label)
-        plain = re.sub(r"(\(\s*(?:t\s*=\s*)?0\s*\)|_?0)$", "", spoken)
-        meant = _translated(plain, coordinates)
+        meant = state_meant(key.label, coordinates)
         hint = f"write {meant}" if meant else did_you_mean(letters, coordinates)
-        if meant.endswith("'") and plain == key.label:
+        if meant.endswith("'") and not re.search(r"[0\s]", key.label):
             hint = f"the velocity of {meant[:-1]} is {meant}"
         hint = hint or f"known are {', '.join(coordinates)} and velocities: {coordinates[0]}'"
         order = {"position": "", "angle": "", "velocity": "'", "speed": "'"}.get(key.label)
@@ -104,18 +102,6 @@ def _state_name(
         file.error(message, key.span, "leave it out: a state has x and x'")
         return None
     return Name(letters, primes)
-
-
-def _translated(name: str, coordinates: list[str]) -> str:
-    """`x'` for dx/dt, v, xdot and x'(0); nothing for other names."""
-    from lagcli.reader.foreign.translation import translated
-    from lagcli.reader.foreign.words import UnclearText, Vocabulary
-
-    try:
-        meant = translated(name, Vocabulary(tuple(coordinates), frozenset()))
-    except UnclearText:
-        return ""
-    return meant if meant.rstrip("'") in coordinates else ""
 
 
 def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:

@@ -28,12 +28,16 @@ _SHOWN = 3
 #: A longer list of parameters is not repeated.
 _LONGEST = 80
 _SHAPE = re.compile(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
-#: Other words for keys, and constants outside of `parameters`; the hint for all of them.
+#: Other words for keys, constants and states outside of their sections; the hint for all.
 _TOGETHER = (
     (re.compile(r"unknown key ('.*') in the problem: the key is (\w+)"), "the keys are {}"),
     (
         re.compile(r"unknown key ('.*') in the problem: a constant .* parameters: \{(.*)\}"),
         "constants stand under parameters: write parameters: {{{}}}",
+    ),
+    (
+        re.compile(r"unknown key ('.*') in the problem: the state .* initial: \{(.*)\}"),
+        "the state at t = 0 stands under initial: write initial: {{{}}}",
     ),
 )
 _NAME = re.compile(r"unknown name '(\w+)' in (.*)")

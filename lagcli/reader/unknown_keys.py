@@ -7,6 +7,7 @@ from functools import cache
 from typing import TYPE_CHECKING, NamedTuple, get_args
 
 from lagcli.problem_data import Assumption
+from lagcli.reader.by_coordinate import state_meant
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.habits import (
     KEYS,
@@ -20,6 +21,7 @@ from lagcli.reader.habits import (
     name_meant,
     number_and_unit,
 )
+from lagcli.reader.misplaced import names_in
 from lagcli.reader.misshapen import key_by_shape, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.suggest import closest, did_you_mean
@@ -33,6 +35,8 @@ _NEAR = 0.7
 _PROBLEM = "the problem"
 _WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
 _FRICTION = "friction"
+#: The number of a state.
+_STATE = re.compile(r"(?:[-+*/\d.() ]|pi|e(?=[-+\d]))+")
 _MANUAL = "leave it out, or see lagcli help problem-format"
 
 
@@ -92,7 +96,7 @@ def unknown_key(
         inner = [(key_meant(each.label, names), source_of(part)) for each, part in value.entries]
         lines = ", ".join(f"{each}: {part}" for each, part in inner)
         hint = f"leave it out, and begin lines with {lines}" if all(k for k, _ in inner) else ""
-    if "=" in word:
+    if "=" in word and "initial: {" not in hint:
         hint = f"write {name_meant(word)}"
     elif key.in_flow and value.is_empty:
         hint = "inside { } a comma ends the value: put a text with commas in quotes"
@@ -130,6 +134,8 @@ def _meant_of_problem(
 ) -> tuple[str | None, str]:
     """The same for a key of the problem, whose value and neighbours tell what it is."""
     word, written = key.label, value.value if isinstance(value, Scalar) else ""
+    if written and (state := _state_meant(key, written, around)):
+        return None, f"the state at t = 0 stands under initial: write initial: {{{state}}}"
     shape = None if f"{word}s" in KEYS else key_by_shape(value, around)
     near = meant or closest(word, KEYS)
     is_list = isinstance(value, Sequence) or shape == "parameters"
@@ -152,6 +158,20 @@ def _meant_of_problem(
         scope.refused.append(word)
         return meant, f"a formula with a name stands under definitions: {word}: {written}"
     return meant, hint
+
+
+def _state_meant(key: Scalar, written: str, around: Mapping) -> str:
+    """`x: 1` for an entry `x(0): 1`, `theta': 0` for `theta_dot: 0`; nothing for others."""
+    given = next((node for each, node in around.entries if each.label == "coordinates"), None)
+    coordinates = names_in(given)
+    source = around.text.source.text
+    rest = source[: key.start] + source[key.end :]
+    is_used = key.label not in coordinates and re.search(
+        rf"(?<!\w){re.escape(key.label)}(?!\w)", rest
+    )
+    meant = "" if is_used else state_meant(key.label, coordinates)
+    number = re.sub(r"([\d.]+)\s*°", r"\1*pi/180", written)
+    return f"{meant}: {number}" if meant and _STATE.fullmatch(number) else ""
 
 
 def _outer(key: Scalar, value: DocumentNode, names: tuple[str, ...]) -> str:
@@ -192,11 +212,6 @@ def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
 
 
 def _advice_in_problem(word: str, value: str) -> str:
-    start = re.fullmatch(r"(d|v)?_?(q|r|x|y|z|theta|phi)?(?:dot)?_?0", word)
-    if start and (start[1] or start[2]):
-        value = re.sub(r"([\d.]+)\s*°", r"\1*pi/180", value)
-        rate = "'" if start[1] or "dot" in word else ""
-        return f"write initial: {{{start[2] or 'x'}{rate}: {value}}}"
     if said := advised("entries", f"{word}: {value}"):
         return said
     key = meanings("keys").get(word.replace("-", "_"), word)

@@ -66,6 +66,13 @@ def test_a_missing_path_is_only_that(shown):
     assert shown("solve", "keppler.yaml")[2] == "keppler.yaml: error: no such file or directory\n"
 
 
+def test_a_misspelled_path_is_answered_with_the_nearest_file_beside_it(shown, tmp_path):
+    (tmp_path / "pendulum.yml").write_text("coordinates: [x]\nT: x'^2/2\n")
+    for wrong in ("pendulum.yaml", "pendlum.yml", "Pendulum.yml"):
+        told = shown("solve", str(tmp_path / wrong))[2]
+        assert told.endswith(f"did you mean '{tmp_path / 'pendulum.yml'}'?\n")
+
+
 def test_the_list_has_a_line_for_each_problem_with_the_words(shown):
     status, listed, _ = shown("list", "pendulum", "CONICAL")
     assert status == 0

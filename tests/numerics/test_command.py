@@ -121,8 +121,9 @@ def test_missing_values_are_named_with_their_places():
         "-", "--until", "1", stdin="coordinates: [x]\nparameters: [k, m]\nL: m*x'^2/2 - k*x^2\n"
     )
     assert done.returncode == 2
-    assert "-:2:14: error: the parameter 'k' has no value" in done.stderr
-    assert "the parameter 'm' has no value" in done.stderr
+    assert "-:2:14: error: the parameters 'k' and 'm' have no values" in done.stderr
+    assert "parameters: {k: 1, m: 1}, or with --set k=… --set m=…" in done.stderr
+    assert done.stderr.count("error:") == 1
 
 
 @pytest.mark.long

@@ -87,7 +87,7 @@ def test_a_relativistic_particle_under_a_constant_force():
         ("{coordinates: [x, y], L: (x'^2+y'^2)/2 + 1/abs(x-y)}", "divided by zero"),
         ("{coordinates: [x], L: x'^2/2 + exp(x), initial: {x: 1000}}", "beyond all bounds"),
         ("{coordinates: [x], functions: {U: [x]}, L: x'^2/2 - U(x)}", "unspecified"),
-        ("{coordinates: [x], parameters: [k, m], L: m*x'^2/2 - k*x^2}", "'k' has no value"),
+        ("{coordinates: [x], parameters: [k, m], L: m*x'^2/2 - k*x^2}", "'k' and 'm' have no values"),
     ],
 )  # fmt: skip
 def test_refused_with_a_reason(text, word):

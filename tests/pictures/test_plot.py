@@ -85,6 +85,16 @@ def test_without_an_end_the_portrait_is_drawn(plot, tmp_path):
     assert "when does it end? give --until T" in said
 
 
+def test_where_no_portrait_can_be_drawn_the_end_is_asked_for(plot, tmp_path):
+    file = tmp_path / "spring.yaml"
+    file.write_text("coordinates: [x, y]\nT: (x'^2 + y'^2)/2\nV: x^2 + y^2 + x*y\n")
+    status, _, error = plot(file)
+    assert status == 2
+    assert "when does it end? give --until T, or simulation: {until: T}" in error
+    assert "energy levels" not in error
+    assert "energy levels" in plot(file, "--kind", "phase")[2]
+
+
 def test_impacts_are_marked_and_break_the_velocity(plot):
     status, shown, _ = plot(BALL, "--until", 3, "--show", "y,y'")
     assert status == 0

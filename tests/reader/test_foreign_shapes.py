@@ -652,3 +652,28 @@ def test_a_hint_has_no_mistake_of_its_own(changed, hint):
 def test_what_a_hint_says_of_a_name_that_is_declared_nowhere_is_kept():
     written = text(**PENDULUM | {"T": "m*l^2*theta'^2/2", "forces": "F*cos(theta)"})
     assert messages(written)[0].endswith("write {theta: F*cos(theta)}")
+
+
+@pytest.mark.parametrize(
+    ("lines", "hint"),
+    [("x(0): 1\nx'(0): 0\n", "{x: 1, x': 0}"), ("x0: 2\nv0: -1\n", "{x: 2, x': -1}"),
+     ("x: 1\nxdot: 2\n", "{x: 1, x': 2}"), ("x(t=0): pi/2\n", "{x: pi/2}"), ("x0: 30°\n", "{x: 30*pi/180}")],
+)  # fmt: skip
+def test_a_state_outside_of_initial_is_one_mistake(lines, hint):
+    mistake = only_mistake(text() + lines)
+    assert mistake.hint.endswith(f"write initial: {hint}")
+    assert read_problem("p.yaml", f"{text()}initial: {hint}\n".encode()).diagnostics == ()
+
+
+def test_a_constant_that_a_formula_uses_is_no_state():
+    assert "parameters: {x0: 2}" in messages(text(V="k*(x - x0)^2/2") + "x0: 2\n")[0]
+
+
+@pytest.mark.parametrize(
+    ("kinetic", "names"),
+    [("m*(x'^2 + y'^2)/2", "x, y"), ("m*(r'^2 + r^2*phi'^2)/2", "r, phi"),
+     (r"m*\dot{\theta}^2/2", "theta"), ("m*(xdot^2 + y_dot^2)/2", "x, y"), ("m*v^2/2", "x")],
+)  # fmt: skip
+def test_coordinates_that_are_not_declared_are_named_by_their_velocities(kinetic, names):
+    found = messages(f"title: Kepler's problem\nparameters: [m]\nT: {kinetic}\n")
+    assert found[0] == f"the problem has no coordinates; write coordinates: [{names}]"

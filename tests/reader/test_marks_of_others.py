@@ -241,7 +241,10 @@ def test_sympy_and_placeholders(written, hint):
         (text(F="{x: -k*x}"), "the key is forces"),
         (text(**{"generalised-forces": "{x: -k*x}"}), "the key is forces"),
         (text(V=None, potentials="k*x^2"), "the key is V"),
-        (text(theta0="30°"), "write initial: {theta: 30*pi/180}"),
+        (
+            text(coordinates="[theta]", T="m*theta'^2/2", V=None, theta0="30°"),
+            "write initial: {theta: 30*pi/180}",
+        ),
         (text(initial="{x: 1, at rest}"), "a velocity that is not given is 0"),
         (text() + "l = 9.81 m\n", "write parameters: {l: {value: 9.81, unit: m}}"),
         ("coordinates = {x, y}\n", "write coordinates: [x, y]"),

@@ -21,7 +21,7 @@ def constants_of(
     Raises
     ------
     Refusal
-        With every parameter that has no value, or one that cannot be.
+        With all parameters that have no value, or one that cannot be.
     """
     graph, formulas = equations.graph, equations.parameter_values
     parameters = {graph.symbol(p.name): p for p in equations.problem.parameters}
@@ -29,7 +29,7 @@ def constants_of(
     needed = {s: p for s, p in parameters.items() if s.mask & mask}
     missing = [p for s, p in needed.items() if s not in formulas]
     if missing:
-        raise Refusal(tuple(_missing(parameter) for parameter in missing))
+        raise Refusal((_missing(missing),))
     values: dict[Symbol, Any] = {}
     while len(values) < len(needed):
         known = mask_of(values)
@@ -39,12 +39,17 @@ def constants_of(
     return values
 
 
-def _missing(parameter: Parameter) -> Diagnostic:
-    return Diagnostic(
-        f"the parameter '{parameter.name}' has no value",
-        parameter.span,
-        f"give it one here, or with --set {parameter.name}=…",
-    )
+def _missing(parameters: list[Parameter]) -> Diagnostic:
+    names = [parameter.name for parameter in parameters]
+    options = " ".join(f"--set {name}=…" for name in names)
+    if len(names) == 1:
+        message, hint = f"the parameter '{names[0]}' has no value", "give it one here, or with"
+    else:
+        listed = f"{', '.join(map(repr, names[:-1]))} and {names[-1]!r}"
+        message = f"the parameters {listed} have no values"
+        values = ", ".join(f"{name}: 1" for name in names)
+        hint = f"give them some here, as in parameters: {{{values}}}, or with"
+    return Diagnostic(message, parameters[0].span, f"{hint} {options}")
 
 
 def _value(

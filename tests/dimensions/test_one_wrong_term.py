@@ -1,0 +1,73 @@
+"""One term with a wrong dimension: the hint has the term or the unit with which all of them fit."""
+
+import random
+import re
+
+import pytest
+
+from lagcli.reader import read_problem
+
+SPRING = (
+    "coordinates: [x]\nparameters: {{m: {{unit: kg}}, k: {{unit: {}}}, g: {{unit: m/s^2}}}}\n"
+    "T: {}\nV: {}\n"
+)
+
+
+def errors(written):
+    return [x for x in read_problem("p.yaml", written.encode()).diagnostics if x.is_error]
+
+
+@pytest.mark.parametrize(
+    ("unit", "kinetic", "potential", "wrong", "hint"),
+    [("N", "m*x'^2/2", "k*x^2/2", "'k*x^2/2'", "write k*x/2, or N/m for the unit N of k: "),
+     ("kg", "m*x'^2/2", "k*x^2/2 - m*g*x", "'k*x^2/2'", "write N/m for the unit kg of k: "),
+     ("N/m", "m*x'^2/2", "k*x/2 - m*g*x", "'k*x/2'", "write k*x^2/2, or N for the unit N/m of k: "),
+     ("N/m", "m*x'/2", "k*x^2/2 - m*g*x", "'m*x'/2'", "write m*x'^2/2: "),
+     ("N/m", "x'^2/2", "k*x^2/2 - m*g*x", "'x'^2/2'", "write m*x'^2/2: "),
+     ("N/m", "m*x'^2/2", "k*x^2/2 - m*x", "'m*x'", "write g*m*x: "),
+     ("N/m", "m*x^2/2", "k*x^2/2", "'m*x^2/2'", "write m*x'^2/2: "),
+     ("N/m", "m*x'^2/2", "k*x^2/2 - g*x", "'g*x'", "write m*g*x, or N for the unit m/s^2 of g: ")],
+)  # fmt: skip
+def test_a_coordinate_without_a_unit_is_a_length(unit, kinetic, potential, wrong, hint):
+    [only] = errors(SPRING.format(unit, kinetic, potential))
+    assert only.message.startswith(wrong)
+    assert only.hint.startswith(hint)
+
+
+def test_a_coordinate_of_another_kind_is_found_by_the_terms():
+    circuit = (
+        "coordinates: [q]\nparameters: {{I: {{unit: H}}, C: {{unit: F}}, U: {{unit: V}}}}\n"
+        "T: I*q'^2/2\nV: q^2/(2*C) - {}\n"
+    )
+    assert errors(circuit.format("q*U")) == []
+    [only] = errors(circuit.format("q^2*U"))
+    assert only.message.startswith("'q^2*U' is")
+    assert only.hint.startswith("write q*U")
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_the_term_in_the_hint_is_put_in(seed):
+    draw = random.Random(seed)
+    length, m, angle = (
+        draw.choice("lRa"),
+        draw.choice(["m", "M", "m_1"]),
+        draw.choice(["phi", "theta"]),
+    )
+    good = (
+        f"coordinates: [{angle}]\n"
+        f"parameters: {{{m}: {{unit: kg}}, {length}: {{unit: m}}, g: {{unit: m/s^2}}}}\n"
+        f"T: {m}*{length}^2*{angle}'^2/2\nV: -{m}*g*{length}*cos({angle})\n"
+    )
+    assert errors(good) == []
+    wrong = draw.choice([
+        good.replace(f"{length}^2", length), good.replace(f"{length}^2", f"{length}^3"),
+        good.replace(f"T: {m}*", "T: "), good.replace("*g*", "*"), good.replace(f"{angle}'^2", f"{angle}'"),
+        good.replace(f"-{m}*g", f"-{m}^2*g"),
+    ])  # fmt: skip
+    [only] = errors(wrong)
+    term = re.match(r"write (.+?): ", only.hint)
+    assert term is not None, only
+    lines = wrong.split("\n")
+    line, span = lines[only.span.line - 1], only.span
+    lines[span.line - 1] = line[: span.column - 1] + term[1] + line[span.end_column - 1 :]
+    assert errors("\n".join(lines)) == []
