@@ -63,9 +63,12 @@ def rank(rows):
     return len(rows[0]) - len(solve(rows, [mpf(0)] * len(rows))[1])
 
 
-def least(rows, right):
-    """The shortest x with rows x = right (as nearly as can be), by normal equations A A^T y."""
-    gram = [[dot(a, b) for b in rows] for a in rows]
+def least(rows, right, weight=0):
+    """The shortest x with rows x = right (as nearly as can be), by normal equations A A^T y.
+
+    With a weight w, the x of the least |rows x - right|^2 + w |x|^2 (Levenberg, Marquardt).
+    """
+    gram = [[dot(a, b) + (weight if a is b else 0) for b in rows] for a in rows]
     y, _, _ = solve(gram, right)
     return [sum(y[i] * rows[i][j] for i in range(len(rows))) for j in range(len(rows[0]))]
 

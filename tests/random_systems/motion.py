@@ -175,10 +175,14 @@ class Motion:
     # -- states ------------------------------------------------------------------------
 
     def draw(self, tries=60, wide=1):
-        """A random state on the constraints with its motion, or None."""
-        for _ in range(tries):
+        """A random state on the constraints with its motion, or None.
+
+        Every fourth attempt has damped steps: those of Newton leave a surface on which the
+        gradients of redundant constraints are parallel.
+        """
+        for attempt in range(tries):
             try:
-                state = self._on_constraints(self._anywhere(wide))
+                state = self._on_constraints(self._anywhere(wide), damped=attempt % 4 == 3)
                 if state is not None:
                     self.L(state)
                     return state
@@ -199,14 +203,15 @@ class Motion:
             state.v = self._L.begin(self.names(state), v)
         return state
 
-    def _on_constraints(self, state):
+    def _on_constraints(self, state, damped):
         holonomic = [name for name in self.constraints if not self.on_velocities[name]]
         for _ in range(60 if holonomic else 0):
             values = [self.value(name, state) for name in holonomic]
             rows = [self.row(name, state) for name in holonomic]
             if all(abs(each) < mpf(10) ** -40 for each in values):
                 break
-            step = linear.least(rows, values)
+            weight = min(linear.dot(values, values), mpf(1) / 4) if damped else 0
+            step = linear.least(rows, values, weight)
             state = replace(state, q=[q - d for q, d in zip(state.q, step, strict=True)])
             if max(map(abs, state.q)) > 50:
                 return None

@@ -8,6 +8,7 @@ import pytest
 
 from .judge import Judge
 from .kinds.draw import parameters
+from .motion import Motion
 from .run import answer
 from .system import CANONICAL, MAIN, System
 
@@ -96,3 +97,22 @@ def test_a_place_of_rest_that_is_left_out_is_noticed():
     assert [each.section for each in Judge(PAIR, sheet).examine()] == ["equilibria"]
     sheet["equilibria"] = [{"at": {"x": "0", "y": "0"}, "stable": False}]
     assert [each.section for each in Judge(PAIR, sheet).examine()] == ["equilibria"]
+
+
+@pytest.mark.parametrize("factor", ["1 + z*(U)", "1 + x*(U)", "2 + y*(U)^2"])
+@pytest.mark.parametrize("surface", ["x*y - a^2", "x^2 + y^2 - a^2"])
+def test_states_are_found_where_redundant_constraints_are_parallel(surface, factor):
+    """u = 0 and u (1 + z u) = 0: Newton's step doubles z, since u z u = 0 has no gradient."""
+    again = f"({surface})*({factor.replace('U', surface)})"
+    made = System(
+        coordinates={"x": None, "y": None, "z": None},
+        parameters=parameters("m", "a"),
+        T="m*(x'^2 + y'^2 + z'^2)/2",
+        V="0",
+        constraints={"c1": f"{surface} = 0", "c2": "z - a*x = 0", "c3": f"{again} = 0"},
+    )
+    for seed in range(3):
+        motion = Motion(made, seed)
+        state = motion.draw()
+        assert state is not None
+        assert all(abs(motion.value(name, state)) < 1e-30 for name in made.constraints)
