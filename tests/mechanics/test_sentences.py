@@ -490,6 +490,20 @@ def test_several_damped_coordinates_have_their_polynomial():
     assert sympy.expand(shown - determinant) == 0
 
 
+@pytest.mark.parametrize(
+    ("k", "only"),
+    [("", ", where … ≠ 0, a uniform drift"), ("{assume: positive}", " a uniform drift")],
+)
+def test_a_charge_beside_a_hill_drifts_where_0_is_a_simple_root(k, only):
+    """s² (s² + k + b²): at k = -b² displacements grow in proportion to t³."""
+    text = (
+        f"{{coordinates: [x, y], parameters: {{b: , k: {k}}}, "
+        "L: (x'^2 + y'^2)/2 + b*(x*y' - y*x')/2 - k*y^2/2}"
+    )
+    told = said(text, "Small oscillations", "modes")
+    assert f"To first order this is not an oscillation but{only}." in told
+
+
 def test_a_frequency_0_is_a_drift():
     text = PLANE + "T: m*(x'^2 + y'^2)/2\nV: k*(x - y)^2/2"
     assert "not an oscillation but a uniform drift" in said(text, "Small oscillations", "modes")

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, cast
 
 import sympy
-from sympy import Expr, Symbol
+from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, nullspace, shape, simplify
 from lagcli.algebra.build import free_of
@@ -203,17 +203,24 @@ def _fewer(where: Sequence[Part]) -> list[Part]:
     return [*parts, *where, *([" it has"] if where else []), " fewer independent shapes: "]
 
 
+def _no_more_roots(explainer: Explainer, place: Place) -> list[Part]:
+    """Where 0 is no root of a higher multiplicity."""
+    lowest = next((c for c in place.characteristic.in_s or [] if c != 0), S.One)
+    weak = [f for f, _ in factors_of(lowest) if sign(f) not in (1, -1)]
+    return _not_zero(explainer, weak, place)
+
+
 def _without_oscillation(explainer: Explainer, mode: ModesOfFrequency, place: Place) -> list[Part]:
     """What a root 0 is: each is two roots s = 0, and a null vector of K stays displaced."""
     staying = len(nullspace(place.near.K))
     lead = "To first order this is not an oscillation"
     if staying == mode.multiplicity:
         kept = place.verdict.stable is True and Near(place.near).dimension == 0
-        return [f"{lead} but a uniform drift{_KEPT if kept else '.'}"]
+        turned = _no_more_roots(explainer, place) if _moving(place.matrices[1]) else []
+        only = [", where ", *turned, ","] if turned else []
+        return [f"{lead} but", *only, f" a uniform drift{_KEPT if kept else '.'}"]
     if staying == 2 * mode.multiplicity:
-        lowest = next(c for c in place.characteristic.in_s or [] if c != 0)
-        weak = [f for f, _ in factors_of(lowest) if sign(f) not in (1, -1)]
-        where = _not_zero(explainer, weak, place)
+        where = _no_more_roots(explainer, place)
         among: list[Part] = ["where ", *where, " "] if where else []
         return [f"{lead}: ", *among, "what is displaced stays displaced."]
     return [f"{lead}: displacements stay, or grow in proportion to the time."]
