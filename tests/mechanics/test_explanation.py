@@ -252,6 +252,24 @@ def test_letters_of_the_file_are_left_to_it():
     assert Name("L") not in shown
 
 
+@pytest.mark.parametrize(
+    ("kinetic", "told"),
+    [
+        ("m*(a - q)*q'^2/2", True),
+        ("m*(a^2 + q^2)*q'^2/2", False),
+        ("m*(q'^2 + s'^2*sin(q)^2)/2", True),
+        ("m*q'^2/2 + m*exp(q)*s'^2/2", False),
+    ],
+)
+def test_an_equation_is_not_divided_by_a_coefficient_that_vanishes(kinetic, told):
+    coordinates = "[q, s]" if "s'" in kinetic else "[q]"
+    explanation = told_text(
+        f"title: Bead\ncoordinates: {coordinates}\nparameters: {{m: {{assume: positive}}, "
+        f"a: {{assume: positive}}}}\nT: {kinetic}\nV: m*a*q\n"
+    )
+    assert (", where that is not 0," in words(explanation, "The accelerations")) is told
+
+
 @pytest.mark.parametrize(("friction", "told"), [("", False), ("dissipation: c*q'^2/2\n", True)])
 def test_no_word_is_lost_on_a_letter_that_does_not_occur(friction, told):
     """D is the depth of a well; that a dissipation function would be D_sys matters with one."""

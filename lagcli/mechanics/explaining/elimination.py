@@ -12,6 +12,8 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import dot, is_zero, solve_linear
+from lagcli.algebra.build import free_of
+from lagcli.algebra.signs import sign
 from lagcli.document import Block, Equations, Label, Matrix, Row
 from lagcli.expression import ZERO, Expression, Name, operation_count
 from lagcli.mechanics.constraints import ConstraintEquation
@@ -73,6 +75,7 @@ def _unsolved(explainer: Explainer) -> Iterator[Block]:
 def _free(explainer: Explainer, motion: SolvedMotion) -> Iterator[Block]:
     n = len(explainer.system.names)
     M = explainer.dynamics.lagrange.mass_matrix
+    finite = ", where that is not 0," * _may_vanish(explainer, [M[j][j] for j in range(n)])
     if n == 1:
         coefficient = explainer.readable.as_written(M[0][0])
         acceleration = explainer.accelerations[0]
@@ -81,14 +84,15 @@ def _free(explainer: Explainer, motion: SolvedMotion) -> Iterator[Block]:
         elif operation_count(coefficient) <= _INLINE:
             yield says(
                 "The equation is linear in ", acceleration, ". Divided by its coefficient ",
-                coefficient, " it reads",
+                coefficient, f"{finite} it reads",
             )  # fmt: skip
         else:
             yield says("The equation is linear in ", acceleration,
-                       ". Divided by its coefficient it reads")  # fmt: skip
+                       f". Divided by its coefficient{finite} it reads")  # fmt: skip
     elif _diagonal(M):
         yield says(
-            "Each equation contains only one acceleration. Divided by its coefficient it reads"
+            "Each equation contains only one acceleration. Divided by its "
+            f"coefficient{finite} it reads"
         )
     else:
         yield says(
@@ -99,6 +103,14 @@ def _free(explainer: Explainer, motion: SolvedMotion) -> Iterator[Block]:
         yield says("The coefficients are the second derivatives of ", explainer.letters.L,
                    " with respect to the velocities. The solution is")  # fmt: skip
     yield Equations(tuple(_accelerations(explainer, motion)))
+
+
+def _may_vanish(explainer: Explainer, coefficients: Sequence[Expr]) -> bool:
+    """Whether one that depends on the state may be 0, as at the pole of a sphere."""
+    system = explainer.system
+    state = (*system.q, *system.qdot, system.t)
+    moving = [c for c in coefficients if not free_of(c, state)]
+    return any(sign(c) is None and sign(c**2) != 1 for c in moving)
 
 
 def _diagonal(M: Sequence[Sequence[Expr]]) -> bool:
