@@ -270,3 +270,48 @@ def test_the_angular_momentum_of_a_top_on_axes_of_space_and_of_the_body(moments,
             for e in (charge, wanted)
         )
         assert abs(one - other) < 1e-12
+
+
+def charge_at(charge, r, phi, r_rate, phi_rate, t):
+    """Its value where the state is given in polar coordinates."""
+    c, s = sympy.cos(phi), sympy.sin(phi)
+    state = {"r": r, "phi": phi, "r'": r_rate, "phi'": phi_rate, "t": t, "x": r * c, "y": r * s}
+    state |= {"x'": r_rate * c - r * phi_rate * s, "y'": r_rate * s + r * phi_rate * c}
+    state |= {"m": 1.7, "k": 2.3, "a": 0.31, "c": 0.22, "F": 0.43}
+    values = {name: sympy.Float(value, 30) for name, value in state.items()}
+    return charge.charge.xreplace({s: values[s.name] for s in charge.charge.free_symbols})
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("V", "all_named"),
+    [
+        ("0", True),
+        ("-k/r", True),
+        ("k*r^2/2", True),
+        ("k*r^2/2 + a/x^2", True),
+        ("k*r^2 + a/x^2 + c/y^2", False),
+        ("-k/r + a/y^2", True),
+        ("-k/r + a/y^2 + c*x/(r*y^2)", True),
+        ("k*(4*x^2 + y^2)/2 + a/y^2", False),
+        ("F*x", False),
+    ],
+)
+def test_in_polar_coordinates_the_charges_are_those_of_cartesian_ones(V, all_named):
+    """Smorodinsky and Winternitz, Phys. Lett. 16 (1965) 354: each name, and what it stands for."""
+    head = f"parameters: {{m: {POS}, k: {POS}, a: {{}}, c: {{}}, F: {{}}}}\n"
+    polar = f"({V})".replace("x", "(r*cos(phi))").replace("y", "(r*sin(phi))")
+    plane = f"({V})".replace("r", "sqrt(x^2 + y^2)")
+    known = names_of(f"{head}coordinates: [x, y]\nT: m*(x'^2 + y'^2)/2\nV: {plane}\n")
+    found = names_of(f"{head}coordinates: [r, phi]\nT: m*(r'^2 + r^2*phi'^2)/2\nV: {polar}\n")
+    named = {"L_z" if n == "p_phi" else n: c for n, c in found.items() if n[:7] != "charge_"}
+    assert set(named) <= set(known)
+    if all_named:
+        assert {n for n in known if n[:7] != "charge_"} == set(named)
+    states = (1.3, 0.7, -0.4, 0.9, 0.6), (0.8, 0.5, 0.3, -0.6, 1.1)
+    # what changes from state to state: a constant of the parameters alone may be added
+    for each in named:
+        own, others = (
+            [charge_at(charges[each], *state) for state in states] for charges in (named, known)
+        )
+        assert abs((own[0] - own[1]) - (others[0] - others[1])) < 1e-12, each

@@ -10,6 +10,7 @@ By the terms of second degree alone, where other potentials act beside the centr
 runge_lenz     p x L + ... with Kepler's m k r/|r| (Stark, Hartmann)
 L_z_squared    L_z^2 + ..., L_squared (Smorodinsky and Winternitz)
 L_z_p_y        L_z p_y + ..., as of an oscillator with frequencies 1:2
+p_x_p_y        p_x p_y + ..., of a potential that separates along x + y and x - y
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
+from lagcli.mechanics.discovery.cartesian import cartesian
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.names import AXES
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
@@ -39,65 +41,71 @@ class HiddenNames:
         rest = dict.fromkeys(equations.v, sympy.S.Zero)
         self._rest = rest
         self.V = -system.L.xreplace(rest)
-        self.axes = list(self._axes(kinds))
-        self._tensors = list(self._known_tensors(kinds))
+        self._cartesian = cartesian(kinds, equations)
+        self.axes = self._axes(kinds)
+        self._tensors = list(self._known_tensors())
 
     def of(self, functions: Sequence[tuple[Slot, Expr]], charge: NoetherCharge) -> tuple[str, Expr]:
         """The name, empty for none, and the factor that makes the charge the textbook's."""
         if any(self.t in f.free_symbols for _, f in functions):
             return self._timed(functions), sympy.S.One
         if functions and all(not (f.free_symbols & set(self.q)) for _, f in functions):
-            return self._constant_tensor(functions)
+            name, factor = self._constant_tensor(functions)
+            if name:
+                return name, factor
         S = charge.charge.xreplace(self._rest)
         parts = sympy.Add.make_args(sympy.expand(self.V))  # of MICZ's potential that in 1/r
         for name, x in self.axes:
             ratios = (self._constant_ratio(S, x * part) for part in parts)
             ratio = next((r for r in ratios if r is not None), None)
-            if ratio is not None:
-                return f"runge_lenz_{name}", sympy.S.NegativeOne if ratio < 0 else sympy.S.One
+            if ratio is not None and self._cartesian is not None:
+                return f"runge_lenz_{name}", self._cartesian.mass / ratio
         return self._of_tensor(charge.charge)
 
     def _of_tensor(self, Q: Expr) -> tuple[str, Expr]:
         """The name by the terms of second degree, of which the others follow."""
-        if not self._tensors:
+        if self._cartesian is None:
             return "", sympy.S.One
         pairs = combinations_with_replacement(self.v, 2)
         leading = sympy.Add(*(Q.diff(u, w) * u * w / (2 if u == w else 1) for u, w in pairs))
         for name, known in self._tensors:
-            ratio = sympy.cancel(leading / known)
-            if ratio.free_symbols.isdisjoint({*self.q, *self.v}):
-                return name, sympy.Integer(-1 if ratio.could_extract_minus_sign() else 1)
+            u = next(w for w in self.v if known.has(w))
+            slope = leading.diff(u) * known - leading * known.diff(u)
+            if is_zero(slope) is True:
+                ratio = simplify(leading / known)
+                if ratio.free_symbols.isdisjoint({*self.q, *self.v}):
+                    m = self._cartesian.mass
+                    return name, (m / 2 if name.startswith("energy") else m**2) / ratio
         return "", sympy.S.One
 
-    def _known_tensors(self, kinds: Kinds) -> Iterator[tuple[str, Expr]]:
-        """Products of momenta and angular momenta, in Cartesian coordinates of one mass."""
-        n, names = range(len(self.q)), [x.name for x in self.q]
-        cartesian = len(kinds.lengths) == len(self.q) and set(names) <= set("xyz")
-        if not (cartesian and self._has_one_mass):
+    def _known_tensors(self) -> Iterator[tuple[str, Expr]]:
+        """Products of components of p and L, with m = 1."""
+        if self._cartesian is None or not set(self._cartesian.names) <= set("xyz"):
             return
-        L = {(i, k): self.q[i] * self.v[k] - self.q[k] * self.v[i] for i in n for k in n}
+        names, X = self._cartesian.names, self._cartesian.X
+        elastic = self._constant_ratio(self.V, self._cartesian.radius**2) is not None
+        n, v = range(len(X)), self._cartesian.moved(self.q, self.v)
+        L = {(i, k): X[i] * v[k] - X[k] * v[i] for i in n for k in n}
         for i, k in combinations(n, 2):
             yield f"L_{AXES[''.join(sorted(names[i] + names[k]))]}_squared", L[i, k] ** 2
-        if len(self.q) == 3:
+            mixed = f"fradkin_{names[i]}{names[k]}" if elastic else f"p_{names[i]}_p_{names[k]}"
+            yield mixed, v[i] * v[k]
+        if len(X) == 3:
             yield "L_squared", sympy.Add(*(L[pair] ** 2 for pair in combinations(n, 2)))
         kepler = any(self._attracts(part) for part in sympy.Add.make_args(sympy.expand(self.V)))
         for i in n:
-            known = sympy.Add(*(self.v[k] * L[i, k] for k in n))
+            known = sympy.Add(*(v[k] * L[i, k] for k in n))
             if kepler:
                 yield f"runge_lenz_{names[i]}", known
-            elif len(self.q) == 2 and set(names) == {"x", "y"}:
+            elif set(names) == {"x", "y"}:
                 yield f"L_z_p_{names[1 - i]}", known if names[i] == "x" else -known
-
-    @property
-    def _has_one_mass(self) -> bool:
-        """Whether T is m v^2/2."""
-        n, m = range(len(self.q)), self.mass[0][0]
-        return all(self.mass[i][k] == (m if i == k else 0) for i in n for k in n)
+            yield f"energy_{names[i]}", v[i] ** 2
 
     def _attracts(self, part: Expr) -> bool:
         """Whether a term of V is c/r."""
-        r = sympy.sqrt(sympy.Add(*(x**2 for x in self.q)))
-        return self._constant_ratio(part, 1 / r) is not None
+        return self._cartesian is not None and (
+            self._constant_ratio(part, 1 / self._cartesian.radius) is not None
+        )
 
     def _timed(self, functions: Sequence[tuple[Slot, Expr]]) -> str:
         """The dilation and the conformal integral of one separated coordinate."""
@@ -136,8 +144,8 @@ class HiddenNames:
         joined = f"{x.name}{y.name}" if short else f"{x.name}_{y.name}"
         return (f"fradkin_{joined}", sympy.S.One) if bound else nothing
 
-    def _constant_ratio(self, above: Expr, below: Expr) -> int | None:
-        """The sign of above/below where that is constant and not 0."""
+    def _constant_ratio(self, above: Expr, below: Expr) -> Expr | None:
+        """above/below where that is constant and not 0."""
         if above == 0 or below == 0:
             return None
         x = next((x for x in self.q if x in below.free_symbols), None)
@@ -145,38 +153,18 @@ class HiddenNames:
         if is_zero(slope) is not True:
             return None
         ratio = simplify(above / below)
-        if ratio.free_symbols & set(self.q) or ratio == 0:
-            return None
-        return -1 if ratio.could_extract_minus_sign() else 1
+        return None if ratio.free_symbols & set(self.q) or ratio == 0 else ratio
 
-    def _axes(self, kinds: Kinds) -> Iterator[tuple[str, Expr]]:
-        """Cartesian coordinates of a central V: those given, or those of r and its angles."""
-        if is_zero(self.V) is True:
-            return
-        if len(kinds.lengths) == len(self.q):
-            if not self._has_one_mass:
-                return
-            from_centre = [x - kinds.centre.get(x, 0) for x in self.q]
-            if self._is_central(from_centre):
-                yield from ((x.name, y) for x, y in zip(self.q, from_centre, strict=True))
-            return
-        if len(kinds.radii) != 1 or any(y in self.V.free_symbols for y in kinds.angles):
-            return
-        [r] = kinds.radii
-        if len(kinds.angles) == 1:
-            [phi] = kinds.angles
-            yield "x", r * sympy.cos(phi)
-            yield "y", r * sympy.sin(phi)
-        elif len(kinds.latitudes) == 1 and len(kinds.angles) == 2:
-            [(theta, pole)] = kinds.latitudes.items()
-            [phi] = [y for y in kinds.angles if y != theta]
-            yield "x", r * pole * sympy.cos(phi)
-            yield "y", r * pole * sympy.sin(phi)
-            yield "z", r * (sympy.sin if pole.func is sympy.cos else sympy.cos)(theta)
-
-    def _is_central(self, r: Sequence[Expr]) -> bool:
-        return len(r) > 1 and all(
-            is_zero(self.V.diff(x) * r[i] - self.V.diff(y) * r[k]) is True
-            for k, x in enumerate(self.q)
-            for i, y in enumerate(self.q[:k])
-        )
+    def _axes(self, kinds: Kinds) -> Sequence[tuple[str, Expr]]:
+        """Cartesian coordinates, with their names, where V is a function of r alone."""
+        found, q, V = self._cartesian, self.q, self.V
+        if found is None or len(found.X) < 2 or is_zero(V) is True:
+            return ()
+        if kinds.angles:
+            central = V.free_symbols.isdisjoint({*q} - {*kinds.radii})
+        else:
+            central = all(
+                is_zero(V.diff(q[k]) * found.X[i] - V.diff(q[i]) * found.X[k]) is True
+                for i, k in combinations(range(len(q)), 2)
+            )
+        return list(zip(found.names, found.X, strict=True)) if central else ()

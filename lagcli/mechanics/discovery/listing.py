@@ -11,6 +11,7 @@ from sympy import Expr
 from lagcli.algebra import simplify
 from lagcli.algebra.jumps import is_continuous
 from lagcli.mechanics.constraints import ConstraintEquation
+from lagcli.mechanics.discovery.cartesian import Cartesian
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.names import Naming, distinct
 from lagcli.mechanics.noether import NoetherCharge
@@ -24,11 +25,15 @@ class Listing:
     """
 
     def __init__(
-        self, system: System, constraints: Sequence[ConstraintEquation], kinds: Kinds
+        self,
+        system: System,
+        constraints: Sequence[ConstraintEquation],
+        kinds: Kinds,
+        cartesian: Cartesian | None,
     ) -> None:
         self.points: tuple[NoetherCharge, ...] = ()
         self.hidden: tuple[NoetherCharge, ...] = ()
-        self.naming = Naming(system.t, system.q, kinds)
+        self.naming = Naming(system.t, system.q, kinds, cartesian)
         self._system = system
         self._constrained = bool(constraints)
         self._moved = any(e.drift != 0 for e in constraints)  # and so does work

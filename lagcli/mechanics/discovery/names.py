@@ -11,6 +11,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify
+from lagcli.mechanics.discovery.cartesian import Cartesian
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.noether import NoetherCharge
 
@@ -25,12 +26,16 @@ class Naming:
     t: Symbol
     q: tuple[Symbol, ...]
     kinds: Kinds
+    cartesian: Cartesian | None = None
 
     def of_point(self, xi: Sequence[Expr], tau: Expr) -> str:
         """The name of a point symmetry, or an empty text."""
         moved = {x: e for x, e in zip(self.q, xi, strict=True) if e != 0}
         if tau != 0:
             return self._of_time(tau, moved)
+        if along := self._carried(xi):
+            timed = self.t in sympy.Tuple(*along.values()).free_symbols
+            return self._translation_in_time(along) if timed else self._translation(along)
         if all(not (e.free_symbols & {self.t, *self.q}) for e in moved.values()):
             return self._translation(moved)
         if not any(e.free_symbols & set(self.q) for e in moved.values()):
@@ -41,6 +46,16 @@ class Naming:
         drifts = centred != moved and self.t not in sympy.Tuple(*centred.values()).free_symbols
         name = self._rotation({x: e for x, e in centred.items() if e != 0}) if drifts else ""
         return name and f"{name}{MOVING}"  # about a point that moves, as in crossed fields
+
+    def _carried(self, xi: Sequence[Expr]) -> dict[Symbol, Expr]:
+        """The Cartesian components of what moves all places alike, where angles hide that."""
+        if self.cartesian is None or not self.kinds.angles:
+            return {}
+        components = self.cartesian.moved(self.q, xi)
+        if not sympy.Tuple(*components).free_symbols.isdisjoint(self.q):
+            return {}
+        named = zip(self.cartesian.names, components, strict=True)
+        return {Symbol(name, real=True): change for name, change in named if change != 0}
 
     def _drift(self, change: Expr) -> Expr:
         """The part of a displacement that is the same at all places."""
@@ -249,8 +264,11 @@ class Naming:
 
     def orientation(self, name: str, charge: NoetherCharge) -> Expr:
         """The sign that turns a charge into the textbook's: L_y = z p_x - x p_z."""
-        changes = zip(self.q, charge.transformation.changes, strict=True)
-        moved = {x: change for x, change in changes if change != 0}
+        xi = charge.transformation.changes
+        moved = {x: change for x, change in zip(self.q, xi, strict=True) if change != 0}
+        if charge.transformation.time == 0 and (along := self._carried(xi)):
+            backward = next(iter(along.values())).could_extract_minus_sign()
+            return sympy.S.NegativeOne if backward else sympy.S.One
         if name.startswith("L_") and name.endswith("_relative"):
             one, *_, other = sorted(moved, key=lambda x: x.name)
             slope = moved[other].diff(one)  # of y_2 by x_1: the other particle's is opposite

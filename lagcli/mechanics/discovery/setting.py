@@ -14,6 +14,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.row_rank import rank
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, time_functions
+from lagcli.mechanics.discovery.cartesian import cartesian
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.isometries import Isometries
 from lagcli.mechanics.discovery.kinds import Kinds, kinds
@@ -47,7 +48,9 @@ class Setting:
     @cached_property
     def listing(self) -> Listing:
         """The charges that were found, with their names."""
-        return Listing(self.system, self.dynamics.constraints.equations, self.coordinate_kinds)
+        kinds = self.coordinate_kinds
+        constraints = self.dynamics.constraints.equations
+        return Listing(self.system, constraints, kinds, cartesian(kinds, self.equations))
 
     @property
     def point_charges(self) -> tuple[NoetherCharge, ...]:
