@@ -45,6 +45,13 @@ def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
             nonzero |= {_without_logarithms(factor): None} if power > 0 else {}
         else:
             odd.append(_without_logarithms(factor))
+    for factor in tuple(odd):  # 1 + cos(x) beside sin(x), which is not 0 either
+        known = sign_of_circle(factor)
+        turned = factor.as_independent(sympy.cos, sympy.sin)[1]
+        beside = sympy.sin if isinstance(turned, sympy.cos) else sympy.cos
+        if known is not None and {beside(*turned.args)} & {*odd, *nonzero}:
+            odd.remove(factor)
+            direction *= known
     others = [x for x in nonzero if x not in odd]
     plain = [e for e in radicands if not _exceeds_a_square(e, (*odd, *others))]
     roots = [e for e in (deciding(x, positive) for x in plain) if e not in {x**2 for x in others}]

@@ -193,6 +193,17 @@ def test_an_arc_whose_cosine_is_given_is_never_negative(inside):
     assert sign(sympy.acos(inside)) is None  # it is 0 where the cosine is 1
 
 
+@pytest.mark.parametrize("side", [1, -1])
+def test_beside_a_sine_one_plus_a_cosine_has_one_sign(side):
+    a, b = sympy.symbols("a b", real=True)
+    sin, cos = sympy.sin, sympy.cos
+    assert deciding((1 + side * cos(a)) * sin(a) * b) == sin(a) * b
+    assert deciding((1 + side * sin(a)) * cos(a)) == cos(a)
+    assert deciding((cos(a) - 1) * sin(a)) == -sin(a)
+    assert deciding((1 + cos(a)) * sin(b)).has(cos)
+    assert deciding((1 + cos(a)) * b) == (1 + cos(a)) * b
+
+
 @pytest.mark.parametrize("power", [1, 2, 3])
 def test_a_sine_keeps_its_odd_power_beside_its_square(power):
     """1 - cos² is sin²: with a factor sin beside it, the sign is that of sin."""
