@@ -9,7 +9,7 @@ from lagcli.expression import ZERO, Equation
 from lagcli.problem_data import Contact
 from lagcli.reader.file_reader import Required
 from lagcli.reader.habits import name_meant
-from lagcli.reader.misshapen import is_sentence
+from lagcli.reader.misshapen import is_sentence, source_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.scope import POSITION, VALUES, Kind, name_mistake
@@ -51,7 +51,7 @@ def declared(
     equation = formula if "=" in formula else f"{formula} = 0"
     what, hint = "constraint", f"write {key.label}: {{equation: {equation}}}"
     if known == _ATTRIBUTES:
-        what, hint = "contact", _HINT
+        what, hint = "contact", _hint(file, key, parts)
     if name_mistake(f"a{key.label}") is not None or not key.label:  # lambda_<name> must be a name
         message = f"'{key.label}' is not a valid name for a {what}"
         if re.search("[=<>≤≥]", key.label):
@@ -82,6 +82,16 @@ def declared(
                 multiplier, place = text.label, text.span
     file.declare(multiplier, kind, place)
     return Declared(key, multiplier, attributes)
+
+
+def _hint(file: FileReader, key: Scalar, parts: list[tuple[Scalar, DocumentNode]]) -> str:
+    """`write floor: {gap: y >= 0, restitution: e}` for `floor: {y: 0, restitution: e}`."""
+    coordinates = [*file.scope.of_kind("coordinate")]
+    at = next(((k.label, source_of(v)) for k, v in parts if k.label in coordinates), None)
+    given = [f"{k.label}: {source_of(v)}" for k, v in parts if k.label in _ATTRIBUTES]
+    if at is None or not given:
+        return _HINT
+    return f"write {key.label}: {{gap: {at[0]} >= {at[1]}, {', '.join(given)}}}"
 
 
 def declare_contacts(file: FileReader, node: DocumentNode, constraints: set[str]) -> list[Declared]:

@@ -113,6 +113,9 @@ def read_definitions(
     definitions = {}
     for place, (key, value) in enumerate(declared):
         what = f"the definition of '{key.label}'"
+        parts = value.items if isinstance(value, Sequence) else ()
+        for axis, _ in zip("xyz", parts, strict=False):  # a vector
+            file.scope.components[f"{key.label}.{axis}"] = f"{key.label}_{axis}"
         expression = file.expression(value, what, STATE, before=place)
         definitions[key.label] = expression
         known = file.scope.definitions[key.label]
@@ -149,6 +152,10 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
         attributes = {name: attribute for name, (_, attribute) in found.items()}
         if "position" not in attributes:
             file.scope.refused.append("points")
+            given = value.entries if isinstance(value, Mapping) else ()
+            for axis, at in given:
+                if axis.label in {"x", "y", "z"} and isinstance(at, Scalar):
+                    file.scope.components[f"{key.label}.{axis.label}"] = at.value
             continue
         position = _position(file, attributes["position"], key.label)
         mass = force = None

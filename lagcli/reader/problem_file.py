@@ -37,7 +37,12 @@ from lagcli.reader.restrictions import declare_constraints, read_constraints, re
 from lagcli.reader.scenery import read_scenery
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
 from lagcli.reader.text import Mistake, SourceText, decode
-from lagcli.reader.undeclared import one_for_alike, one_for_habit, one_for_undeclared
+from lagcli.reader.undeclared import (
+    one_for_alike,
+    one_for_habit,
+    one_for_shapes,
+    one_for_undeclared,
+)
 from lagcli.reader.value_checks import check_values, slips
 from lagcli.record import record, replace
 
@@ -113,8 +118,10 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
         mistakes = followed(source, mistakes, _document)
     by_place = one_for_alike(sorted(mistakes, key=lambda each: each.span))
     declared = one_for_undeclared(by_place, _parameters(root))
-    starts = [key.span.line for key, _ in root.entries] if isinstance(root, Mapping) else []
-    found = one_for_habit(declared, starts)
+    entries = root.entries if isinstance(root, Mapping) else []
+    sections = [(key.span.line, key.label) for key, _ in entries]
+    shaped = one_for_shapes(declared, sections)
+    found = one_for_habit(shaped, [line for line, _ in sections])
     has_errors = any(diagnostic.is_error for diagnostic in found)
     return ProblemReading(source, None if has_errors else problem, found)
 

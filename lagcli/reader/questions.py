@@ -16,7 +16,7 @@ from lagcli.problem_data import (
     Where,
 )
 from lagcli.reader.by_coordinate import by_name, state_meant
-from lagcli.reader.habits import advised, name_meant
+from lagcli.reader.habits import advised, key_meant, name_meant
 from lagcli.reader.headings import state_without_headings
 from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end, source_of
 from lagcli.reader.names import derivative_order
@@ -92,6 +92,9 @@ def _state_name(
             hint = f"write {name_meant(key.label)}"
         if letters.startswith("p_") and letters[2:] in coordinates:
             hint = f"a state has velocities, not momenta: give {letters[2:]}'"
+        if part := key_meant(key.label, _SIMULATION_ATTRIBUTES):
+            inner = f"{part}: {source_of(value)}"
+            hint = f"an end of the run stands under simulation: write simulation: {{{inner}}}"
         said = advised("state", key.label).replace("VELOCITY", f"{coordinates[0]}'")
         hint = said or hint
         file.error(f"'{key.label}' in initial is not a coordinate", key.span, hint)

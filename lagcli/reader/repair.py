@@ -75,7 +75,8 @@ def with_whole(
             sides = sides_of(read(Excerpt.whole(Source("", whole))))
         except (UnclearText, Mistake):
             continue
-        wrong = [each for side in sides for each in name_mistakes(side, scope, role, what)]
+        wrong = [each for side in sides for each in name_mistakes(side, scope, role, what)
+                 if not _named_in(each) <= {*scope.components.values()}]  # fmt: skip
         words = set(re.findall(r"\w+", re.sub(r"_?[\[{](\w+)[\]}]", r"_\1", node.value)))
         if len(whole) > _LONGEST or not all(_is_undeclared(each, role, words) for each in wrong):
             named = [each for each in wrong if each.hint]
@@ -142,9 +143,13 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
 
 def _is_undeclared(mistake: Diagnostic, role: Role, words: set[str]) -> bool:
     """Whether a name is not declared that the author has written: another mistake."""
-    named = set(re.findall(r"'(\w+)'", mistake.message))
-    undeclared = role.order >= 0 and UNDECLARED in mistake.hint and named <= words
+    undeclared = role.order >= 0 and UNDECLARED in mistake.hint and _named_in(mistake) <= words
     return undeclared or mistake.message.startswith("the acceleration ")
+
+
+def _named_in(mistake: Diagnostic) -> set[str]:
+    """The names that a message quotes."""
+    return set(re.findall(r"'(\w+)'", mistake.message))
 
 
 def _vocabulary(scope: Scope, role: Role) -> Vocabulary:

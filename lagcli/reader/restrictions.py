@@ -32,6 +32,7 @@ _SCALED = re.compile(
 )
 #: `x*cos(alpha)`, of a finite rotation.
 _TURNED = re.compile(r"\b(?:cos|sin|cosh|sinh|exp)\(\s*-?([^\W\d]\w*)\s*\)")
+_FRICTION = re.compile("fric|drag|reib|frott|attrit|roz|brems|wrijv|тре", re.IGNORECASE)
 _WORDS = frozenset("yes no true false True False none None null auto".split())
 _ON_LOSS = ("stop", "release")
 _FORMULA = re.compile("[-+*/^=(]")
@@ -71,6 +72,9 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
         if node is None:
             continue
         name = one.key.label
+        if law := _law_of_force(file, node, name):
+            file.error(f"'{name}' is the law of a force, not a constraint", node.span, law)
+            continue
         mistakes = len(file.diagnostics)
         equation = file.equation(node, f"the constraint '{name}'", STATE)
         if len(file.diagnostics) == mistakes and not file.scope.refused:
@@ -95,6 +99,21 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
             )
         )
     return tuple(constraints)
+
+
+def _law_of_force(file: FileReader, node: DocumentNode, name: str) -> str:
+    """`forces: {s: -mu*m*g*sign(s')}` for `friction: F_R = mu*m*g`; nothing for constraints."""
+    written = node.value if isinstance(node, Scalar) else ""
+    found = re.fullmatch(r"\s*([^\W\d]\w*)\s*=+\s*[-−]?\s*([^=<>]+?)\s*", written)
+    if found is None or found[1] in file.scope.kinds or file.scope.refused:
+        return ""
+    if not (_FRICTION.search(name) or re.fullmatch(r"F_?(?:R|f|fr|r)", found[1])):
+        return ""
+    along, size = next(iter(file.scope.of_kind("coordinate")), "x"), found[2]
+    backwards = "" if re.search(rf"(?<!\w){along}'", size) else f"*sign({along}')"
+    is_open = "N" not in file.scope.kinds and re.search(r"(?<!\w)N(?!\w)", size)
+    normal = ", with the normal force N written out, m*g on a level floor" if is_open else ""
+    return f"write forces: {{{along}: -{size}{backwards}}}{normal}"
 
 
 def _on_loss(file: FileReader, one: Declared) -> OnLoss:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
 from lagcli.expression import Name
+from lagcli.reader.by_coordinate import state_meant
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.number_units import unit_mistake
@@ -102,7 +103,13 @@ def _read(
         raise ProblemError(source, (Diagnostic(message, text.span(0, 0), f"write {each}"),))
     if name not in names:
         known = f"known are {', '.join(names)}" if names else "the file declares none"
-        hint = did_you_mean(name, names) or known
+        meant = state_meant(name, [x for x in names if kind != "parameter" and x[-1] != "'"])
+        hint = (
+            f'write {source.name.split()[0]} "{meant}={value}"'
+            if meant
+            else did_you_mean(name, names)
+        )
+        hint = hint or known
         message = f"there is no {kind} '{name}'"
         raise ProblemError(source, (Diagnostic(message, text.span(0, len(written)), hint),))
     start = len(written) + 1

@@ -28,6 +28,7 @@ _SHOWN = 3
 #: A longer list of parameters is not repeated.
 _LONGEST = 80
 _SHAPE = re.compile(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
+_SHAPE_OF_SECTION = re.compile(r"'?(\w+)'? must be an? (?:map|list)\b.*")
 #: Other words for keys, constants and states outside of their sections; the hint for all.
 _TOGETHER = (
     (re.compile(r"unknown key ('.*') in the problem: the key is (\w+)"), "the keys are {}"),
@@ -81,6 +82,40 @@ def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
             message = f"unknown keys {earlier}, {wrong['keys']} in {place}"
             kept[key] = replace(first, message=message)
     return tuple(kept.values())
+
+
+def one_for_shapes(
+    diagnostics: Sequence[Diagnostic], sections: Sequence[tuple[int, str]]
+) -> tuple[Diagnostic, ...]:
+    """The mistakes, with one for all sections whose whole value has another shape.
+
+    Parameters
+    ----------
+    diagnostics
+        By their place.
+    sections
+        The lines at which the sections begin, with their names.
+    """
+    names = {name for _, name in sections}
+    found = [
+        (each, match[1])
+        for each in diagnostics
+        if (match := _SHAPE_OF_SECTION.match(each.message)) and match[1] in names
+        and each.hint.startswith("write ") and not each.related
+    ]  # fmt: skip
+    if not found[1:]:
+        return tuple(diagnostics)
+    listed = ", ".join(name for _, name in found[:-1])
+    wholes = [f"{name}: {_in_braces(each.hint.removeprefix('write '))}" for each, name in found]
+    message = f"{listed} and {found[-1][1]} must be lists or maps"
+    whole = replace(found[0][0], message=message, hint=f"write {'; '.join(wholes)}")
+    gone = [each for each, _ in found[1:]]
+    kept = (whole if each is found[0][0] else each for each in diagnostics)
+    return tuple(each for each in kept if all(each is not other for other in gone))
+
+
+def _in_braces(written: str) -> str:
+    return written if written[:1] in "[{" else f"{{{written}}}"
 
 
 def one_for_habit(

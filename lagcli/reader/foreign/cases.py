@@ -16,12 +16,24 @@ _FORMS = (
 )
 
 
+#: A group in parentheses with one more level inside.
+_GROUP = re.compile(r"(?<!\w)\(((?:[^()]|\([^()]*\))*)\)")
+
+
+def _within(group: re.Match[str]) -> str:
+    return f"({without_cases(group[1])})"
+
+
+def _balanced(text: str | None) -> bool:
+    return text is None or text.count("(") == text.count(")")
+
+
 def without_cases(text: str) -> str:
     """`(a)*(1 + sign(x))/2 + (b)*(1 - sign(x))/2` for `a if x > 0 else b`; others as they are."""
     matches = (re.fullmatch(form, text.strip()) for form in _FORMS)
-    found = next(filter(None, matches), None)
+    found = next((each for each in matches if each and all(map(_balanced, each.groups()))), None)
     if found is None:
-        return text
+        return _GROUP.sub(_within, text)
     left, right = found["left"].strip(), found["right"].strip()
     difference = left if right == "0" else f"{left} - ({right})"
     signs = "+-" if found["sign"] in ">≥" else "-+"

@@ -8,6 +8,7 @@ from html import unescape
 from typing import NamedTuple
 
 from lagcli.notation.greek import BY_LETTER, BY_NAME
+from lagcli.reader.foreign.indexed_sums import written_out
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, parts_of
 from lagcli.reader.habits import REMARK, is_angle, unit_behind
 
@@ -61,6 +62,12 @@ _BETWEEN = re.compile(
 _PRODUCT_OF_VECTORS = re.compile(
     r"[(\[]([^()\[\]]+,[^()\[\]]+)[)\]]\s*[.·]\s*[(\[]([^()\[\]]+,[^()\[\]]+)[)\]]"
 )
+#: A product of two vectors by their letters: A·v, dot(A, v), \\vec{A}\\cdot\\vec{v}.
+_LETTER_OF_VECTOR = r"\\?(?:(?:vec|mathbf|boldsymbol|bm)\s*)?\{?\s*([^\W\d_])\s*\}?"
+_LETTERS_OF_VECTORS = re.compile(
+    rf"(?<![\w.}}]){_LETTER_OF_VECTOR}\s*(?:[·⋅∙•]|\\cdot(?![a-z])|\s\.\s)\s*{_LETTER_OF_VECTOR}(?![\w'(])"
+    rf"|(?<![\w.])(?:\w+\.)?dot\(\s*{_LETTER_OF_VECTOR}\s*,\s*{_LETTER_OF_VECTOR}\s*\)"
+)
 #: A coordinate behind the word for its rate.
 _DOT_BEFORE = re.compile(r"(?<![\\\w.])(d)?dot\s+(?P<name>[^\W\d]\w*)")
 #: Relations in words: y is 0, N is positive, x is less than l.
@@ -87,6 +94,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
     text = re.sub(r"\\(?:begin|end)\s*\{\w+\*?\}|\\[()\[\]]", " ", text)
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
+    text = _products_of_vectors(written_out(text, names), names)
     text = re.sub(r"->|→|⇒", "=", text) if names.related else text
     for words, sign in _RELATIONS:
         text = words.sub(f" {sign} ", text)
@@ -122,6 +130,27 @@ def _by_components(found: re.Match[str]) -> str:
     return (
         f"({' + '.join(f'({a.strip()})*({b.strip()})' for a, b in zip(left, right, strict=True))})"
     )
+
+
+def _products_of_vectors(text: str, names: Vocabulary) -> str:
+    """`(A_x*x' + A_y*y')` for A·v, where A has components in the file."""
+    axes = [x for x in names.coordinates if x in {"x", "y", "z"}]
+
+    def components(letter: str) -> list[str]:
+        if letter in {"v", "r"} - {*names.known} and axes == [*names.coordinates]:
+            return [x + "'" * (letter == "v") for x in axes]
+        listed = [f"{letter}_{x}" for x in axes if f"{letter}.{x}" in names.components]
+        return listed or [
+            next((each for each in (f"{letter}_{x}", f"{letter}{x}") if each in names.known), "0")
+            for x in axes
+        ]
+
+    def written(found: re.Match[str]) -> str:
+        one, two = (components(each) for each in found.groups() if each)
+        pairs = [pair for pair in zip(one, two, strict=False) if "0" not in pair]
+        return f"({' + '.join(map('*'.join, pairs))})" if pairs else found[0]
+
+    return _LETTERS_OF_VECTORS.sub(written, text)
 
 
 def _dotted(found: re.Match[str], names: Vocabulary) -> str:

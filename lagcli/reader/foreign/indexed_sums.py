@@ -1,0 +1,109 @@
+r"""Sums over an index, each term written out: Σ_i m*x_i'^2, sum(m*x_i'^2, i=1..3)."""
+
+from __future__ import annotations
+
+import re
+
+from lagcli.reader.foreign.words import UnclearText, Vocabulary
+
+#: The limits behind the term, in the call of a function: i=1..3, (i, 1, 3), i, 1, 3.
+_CALL = re.compile(r"(?<![\w.])(?:\w+\.)?[sS]um\s*[(\[]")
+_BEHIND = re.compile(
+    r"(?P<term>.*?)\s*(?:,|\bfor\b)\s*[({]?\s*(?P<index>[^\W\d_])\s*"
+    r"(?:[=,]|in(?:\s+range)?\s*\(?)\s*(?P<first>\d+)\s*(?:\.{2,3}|…|:|,|to)\s*(?P<last>\d+)\s*\)?[)}]?",
+    re.DOTALL,
+)
+#: The limits below and above the sign of a sum.
+_SIGN = re.compile(
+    r"(?:Σ|∑|\\sum|(?<![\w.])[sS]um(?=_))\s*(?:\\limits)?\s*"
+    r"_\{?\s*(?P<index>[^\W\d_])\s*(?:=\s*(?P<first>\d+)\s*\}?\s*\^?\{?\s*(?P<last>\d+))?\s*\}?"
+)
+_MOST = 12
+
+
+def written_out(text: str, names: Vocabulary) -> str:
+    """The text with the terms of each sum over an index in its place.
+
+    Raises
+    ------
+    UnclearText
+        Where the range of an index is neither given nor that of names with it.
+    """
+    while called := _CALL.search(text):
+        end = _closing(text, called.end())
+        inside = _BEHIND.fullmatch(text[called.end() : end])
+        if inside is None:
+            return text
+        terms = _terms(inside["term"], inside, names)
+        text = text[: called.start()] + terms + text[end + 1 :]
+    while signed := _SIGN.search(text):
+        end = _end_of_product(text, signed.end())
+        terms = _terms(text[signed.end() : end].strip(" *"), signed, names)
+        text = f"{text[: signed.start()]}{terms} {text[end:]}".rstrip()
+    return text
+
+
+def _terms(term: str, limits: re.Match[str], names: Vocabulary) -> str:
+    """`(m_1*x_1'^2 + m_2*x_2'^2)` for `m_i*x_i'^2`."""
+    index = limits["index"]
+    used = re.compile(
+        rf"(?P<stem>[^\W\d_](?:\w*[^\W_])??)(?:_\{{?|\[)\s*{index}\s*(?P<step>[-+]\s*\d+)?\s*[\]}}]?(?!\w)"
+        rf"|(?<![\w.]){index}(?!\w)"
+    )
+    stems = {found["stem"] for found in used.finditer(term) if found["stem"]}
+    if limits["first"]:
+        places = range(int(limits["first"]), int(limits["last"]) + 1)
+    else:
+        counted = [
+            {int(n[1]) for x in names.known if (n := re.fullmatch(rf"{stem}_?(\d+)", x))}
+            for stem in stems
+        ]
+        places = sorted(set.intersection(*filter(None, counted))) if any(counted) else []
+    if not stems or not 0 < len(places) <= _MOST:
+        raise UnclearText
+
+    def at(place: int) -> str:
+        def named(found: re.Match[str]) -> str:
+            if not found["stem"]:
+                return str(place)
+            here = place + int((found["step"] or "0").replace(" ", ""))
+            spelled = (f"{found['stem']}_{here}", f"{found['stem']}{here}")
+            found_names = [each for each in (*spelled, found["stem"]) if each in names.known]
+            if not found_names or found_names[0] in {*names.coordinates} - {*spelled}:
+                raise UnclearText
+            return found_names[0]
+
+        written = used.sub(named, term)
+        return f"({written})" if re.search(r"(?<=[\w)'])\s*[-+]", _outside(written)) else written
+
+    return f"({' + '.join(map(at, places))})"
+
+
+def _outside(text: str) -> str:
+    """What stands outside of all parentheses."""
+    while (inner := re.sub(r"\([^()]*\)", "", text)) != text:
+        text = inner
+    return text
+
+
+def _closing(text: str, start: int) -> int:
+    """The place of the bracket that ends a call."""
+    depth = 1
+    for place in range(start, len(text)):
+        depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(text[place], 0)
+        if depth == 0:
+            return place
+    raise UnclearText
+
+
+def _end_of_product(text: str, start: int) -> int:
+    """Where the product ends that begins there: before + or -, or a bracket that is closed."""
+    depth = 0
+    for place in range(start, len(text)):
+        depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(text[place], 0)
+        begun = text[start:place].strip()
+        if depth < 0 or (
+            depth == 0 and begun and text[place] in "+-−=" and begun[-1] not in "*/^_{"
+        ):
+            return place
+    return len(text)
