@@ -52,7 +52,7 @@ def _terms(term: str, limits: re.Match[str], names: Vocabulary) -> str:
     )
     stems = {found["stem"] for found in used.finditer(term) if found["stem"]}
     if limits["first"]:
-        places = range(int(limits["first"]), int(limits["last"]) + 1)
+        places = [*range(int(limits["first"]), int(limits["last"]) + 1)]
     else:
         counted = [
             {int(n[1]) for x in names.known if (n := re.fullmatch(rf"{stem}_?(\d+)", x))}
