@@ -106,7 +106,7 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     open_ = tuple(written(vanishing_part(e), order) for e in unsolved)
     if places is None:
         return EquilibriaSection(equilibria=None, reason=rest.reason, open=open_)
-    several = [each.rest.unless for each in oscillations.held]  # contacts may be closed
+    several = [] if places else [each.rest.unless for each in oscillations.held]  # contacts closed
     unless = several[0] if len(several) == 1 else None if any(x != () for x in several) else ()
     return EquilibriaSection(
         equilibria=tuple(map(oscillations.equilibrium, places)),
@@ -116,7 +116,7 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
         edge=() if places else rest.edge,
         where=rest.restricted_to,
         open=open_,
-        unless=() if places else unless_written(unless, order),
+        unless=unless_written(unless, order),
     )
 
 

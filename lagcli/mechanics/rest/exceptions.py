@@ -17,6 +17,7 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, solve_system
 from lagcli.expression import Expression
 
+_MOST_OPEN = 8  # parameters that may be 0, each of which is put to 0 in turn
 _MOST_CONDITIONS = 4  # of which each is left out in turn
 
 
@@ -68,7 +69,7 @@ def _at_zero(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Ex
     """
     known = {p for e in conditions for p in e.free_symbols} - {*unknowns}
     open_ = sorted(filter(_can_vanish, known), key=str)
-    alone = [p for p in open_ if _holds_without(conditions, [p], unknowns)]
+    alone = [p for p in open_[:_MOST_OPEN] if _holds_without(conditions, [p], unknowns)]
     if not alone:
         together = len(open_) > 1 and _holds_without(conditions, open_, unknowns)
         return _each_for_itself(conditions, unknowns) if together else ()
