@@ -163,6 +163,8 @@ class _Abbreviations:
         first = {which: next(iter(found)) for which, found in shapes.items()}
         for tree in self._trees:  # a result is no abbreviation of itself
             counts.pop(self._alike(tree)[1], None)
+            if isinstance(tree, Quotient) and operation_count(tree) <= _TWO_LINES:
+                counts.pop(self._alike(tree.numerator)[1], None)
         for which, part in first.items():  # an angle has no name of its own
             if which in counts and isinstance(part, Call):
                 for angle in part.arguments:

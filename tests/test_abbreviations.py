@@ -116,6 +116,17 @@ def test_names_follow_each_other_in_every_product_as_in_the_list(seed):
     same_values(written_out(short).sections, rows)
 
 
+def test_a_short_quotient_is_not_a_name_over_something():
+    """H = (c r sqrt(...) - k)/r stays what it is, though the bracket occurs elsewhere."""
+    letters = [Name(letter) for letter in "abcdefgh"]
+    products = [Product((one, other)) for one in letters for other in letters if one != other]
+    above, long = Sum(tuple(products[:5])), Sum(tuple(products))
+    rows = {"short": Quotient(above, Name("v")), "u": Product((Name("u"), above)), "long": long}
+    section = AccelerationsSection(accelerations=rows, verified="exact")
+    short = abbreviated(replace(HOOP, sections={"accelerations": section}), ())
+    assert formulas(short.sections)[0] == rows["short"]
+
+
 @pytest.mark.long
 @pytest.mark.parametrize(
     "file", ["problems/chains/triple-pendulum.yaml", "problems/chains/slider-crank.yaml"]

@@ -403,7 +403,7 @@ class Manner:
                     minus = not minus
                 elif wrong is None:
                     free.append((factors, place))
-        several = len(free) > 1
+        several = len(free) > 1 and not inside  # sqrt((a − b) c), not sqrt(−(b − a) c)
         for factors, place in free if several else ():
             base, _ = odd_base(factors[place])
             assert base is not None

@@ -124,6 +124,14 @@ def test_rows_of_one_answer_have_one_denominator():
     assert (first, second) == ("g/(m*r - g*a)", "-theta'/(m*r - g*a)")
 
 
+def test_a_bracket_that_stood_the_other_way_round_leaves_no_minus_in_a_root():
+    """(c² − v²)^(1/2) after an acceleration with v² − c²."""
+    write = manner()
+    assert to_grammar(write(parse_text("g*(r'^2 - a^2)/R"))) == "g*(r'^2 - a^2)/R"
+    root = write(parse_text("sqrt((a^2 - r'^2)*(g^2 + m*r))"))
+    assert to_grammar(root) == "sqrt((g^2 + m*r)*(a^2 - r'^2))"
+
+
 NAMES = st.sampled_from([Name("r"), Name("theta"), Name("m"), Name("R"), Name("a"), Name("r", 1)])
 LEAVES = NAMES | st.integers(1, 4).map(lambda k: parse_text(str(k)))
 
