@@ -74,10 +74,16 @@ def _unknown(name: str, known: Known) -> str:
     return f"unknown section '{name}': {advice or 'there are ' + ', '.join(names)}"
 
 
+def _initials(heading: str) -> str:
+    """`eom` for Equations of motion."""
+    return "".join(each[0] for each in heading.casefold().split())
+
+
 def _headed(word: str, sections: Sequence[Declaration]) -> str:
-    """The section whose heading has the words, first of all one that begins with them."""
+    """The section whose heading has the words or their initials, first one that begins so."""
     wanted = word.casefold().replace("_", " ")
-    held = [one for one in sections if wanted in one.heading.casefold()]
+    held = [one for one in sections if wanted in {one.heading.casefold(), _initials(one.heading)}]
+    held = held or [one for one in sections if wanted in one.heading.casefold()]
     held.sort(key=lambda one: not one.heading.casefold().startswith(wanted))
     return f"'{held[0].heading}' is the section {held[0].name}" if held and len(word) > 2 else ""
 

@@ -90,6 +90,7 @@ def _quoted(line: str) -> str:
 
 #: In the order in which they are tried.
 _CHANGES: tuple[Callable[[str], str], ...] = (
+    lambda line: re.sub(r"\s+//\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
     lambda line: re.sub(r"^(\s*\"?[^\W\d]\w*\"?)\s*(?:<-|←|:=|->|→|=>|=)\s*", r"\1: ", line),
     _formula,
@@ -103,7 +104,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"(?<=[\w)])\s+\[[\w*/^ ]+\](?=\s*[,}])", "", line),
     _paired,
     lambda line: line.replace(";", ",") if re.search(r"[\[{].*;", line) else line,
-    lambda line: re.sub(r"\s+(?://|%|--|;)\s*(?=\S)", "  # ", line, count=1),
+    lambda line: re.sub(r"\s+(?:%|--|;)\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^([^{]*?)\s*[;,]\s+(?=[^\W\d]\w*:\s)", r"\1\n", line, count=1),
     lambda line: re.sub(r"(?<=[:,\[] )[%@`&!*](?=\w)", "", line),
     _listed,

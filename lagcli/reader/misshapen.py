@@ -14,7 +14,8 @@ from lagcli.reader.number_units import unit_mistake
 
 #: What is found without a question.
 FOUND = frozenset(
-    "frequency frequencies period equilibrium equilibria modes energy momentum charges".split()
+    "frequency frequencies period equilibrium equilibria modes "
+    "energy momentum momenta charges".split()
 )
 
 SEVERAL = "one value each, with a name of its own; several are run by lagcli sweep --vary"
@@ -54,6 +55,14 @@ def as_list(written: str) -> str:
         outer = inner
     is_tuple = within is not None and "," in outer and not {"(", ")"} & {*outer}
     return f"[{within[1] if within and is_tuple else written.strip()}]"
+
+
+def as_rayleigh(forces: str) -> str:
+    """`c*x'^2/2 + k*y'^2/2` for the sum `-c*x' - k*y'` of forces; nothing for other texts."""
+    terms = re.split(r"(?<=[\w'])\s*[-+−]\s*", forces.strip(" -+−"))
+    if not all(re.fullmatch(r"[\w*/.]*\w'[\w*/.]*", term) for term in terms):
+        return ""
+    return " + ".join(re.sub(r"(\w+')", r"\1^2", term) + "/2" for term in terms)
 
 
 def as_items(node: DocumentNode) -> str:

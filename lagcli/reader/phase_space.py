@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from lagcli.expression import Name, walk
 from lagcli.problem_data import BracketQuestion, CanonicalTransformation
-from lagcli.reader.misshapen import source_of
+from lagcli.reader.misshapen import FOUND, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import PHASE_SPACE, name_mistake
 
@@ -25,6 +25,7 @@ _KINDS = {
     "F3": "momenta and new coordinates",
     "F4": "momenta and new momenta",
 }
+_FOUND = "leave it out: momenta, energy and charges are found"
 _WRITE = "write name: {Q: p_x, p_Q: -x}"
 
 #: What a bracket calls the Hamiltonian, where the file has no such name.
@@ -37,7 +38,9 @@ def read_observables(file: FileReader, node: DocumentNode) -> dict[str, Expressi
     items = getattr(node, "items", [node])
     given = items[0].value.strip() if items and isinstance(items[0], Scalar) else ""
     given = given if re.search(r"[-+*/^(]|^\w+$", given) else ""
-    for key, value in file.entries(node, "observables", f"write A: {given or 'x*p_y - y*p_x'}"):
+    words = {each.value for each in items if isinstance(each, Scalar)}
+    hint = _FOUND if words and words <= FOUND else f"write A: {given or 'x*p_y - y*p_x'}"
+    for key, value in file.entries(node, "observables", hint):
         what = f"the observable '{key.label}'"
         expression = file.expression(value, what, BRACKETED)
         if not _is_momentum(file, key) and file.declare(key.label, "observable", key.span):

@@ -43,6 +43,11 @@ class _Said(TypedDict, total=False):
 _COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
 _PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
 _RANGE = re.compile(r"\s*[\[(]?\s*(-?[\d.]*\d)\s*(?:\.\.+|…|to|bis|:|–)\s*-?[\d.:]+\s*[\])]?\s*")
+#: A number with words behind it.
+_NUMBER_WITH_WORDS = re.compile(
+    r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)(?:\s*[(:;,]|\s+[-–—]|\s)\s*"
+    r"([^\W\d_]{3,}(?:[ -][^\W\d_]+)*)\s*\)?\s*"
+)
 _WORDS = re.compile(r"[^\W\d_]{4,}(?: [^\W\d_]+)*")
 #: `m = 1 kg`, `k: 2`, `l 3`, several of them.
 _VALUES = re.compile(
@@ -107,6 +112,8 @@ def read_parameters(
             file.error(f"'{key.label}' has a range for its value", given.span, hint)
         elif isinstance(given, Scalar) and is_described(given.value, file.scope.kinds):
             described.append((key, given))
+        elif isinstance(given, Scalar) and (both := _with_words(given.value, file.scope.kinds)):
+            file.error(f"the value of '{key.label}' is a number alone", given.span, both)
         elif "value" in attributes:
             what = f"the value of '{key.label}'"
             value = file.expression(attributes["value"], what, VALUES)
@@ -137,6 +144,14 @@ def _indexed(name: str, node: DocumentNode | None) -> str:
         return ""
     written = ", ".join(f"{name}_{index}: {source_of(value)}" for index, value in given)
     return f"write {written}; several are run by lagcli sweep --vary"
+
+
+def _with_words(text: str, known: Collection[str]) -> str:
+    """`write {value: 1, description: mass of the bob}` for `1 (mass of the bob)`."""
+    found = _NUMBER_WITH_WORDS.fullmatch(text)
+    if found is None or unit_behind(text) or {*re.findall(r"\w+", found[2])} & {*known}:
+        return ""
+    return f"write {{value: {found[1]}, description: {found[2].strip()}}}"
 
 
 def is_described(text: str, known: Collection[str]) -> bool:

@@ -40,6 +40,10 @@ _TOGETHER = (
         re.compile(r"unknown key ('.*') in the problem: the state .* initial: \{(.*)\}"),
         "the state at t = 0 stands under initial: write initial: {{{}}}",
     ),
+    (
+        re.compile(r"unknown key ('.*') in the problem: forces stand .* forces: \{(.*)\}"),
+        "forces stand by coordinate: write forces: {{{}}}",
+    ),
 )
 _NAME = re.compile(r"unknown name '(\w+)' in (.*)")
 

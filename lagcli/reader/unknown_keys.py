@@ -22,7 +22,7 @@ from lagcli.reader.habits import (
     number_and_unit,
 )
 from lagcli.reader.misplaced import names_in
-from lagcli.reader.misshapen import key_by_shape, source_of
+from lagcli.reader.misshapen import as_rayleigh, key_by_shape, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.text import Mistake
@@ -136,6 +136,8 @@ def _meant_of_problem(
     word, written = key.label, value.value if isinstance(value, Scalar) else ""
     if written and (state := _state_meant(key, written, around)):
         return None, f"the state at t = 0 stands under initial: write initial: {{{state}}}"
+    if written and (force := _force_meant(word, written, around)):
+        return None, f"forces stand by coordinate: write forces: {{{force}}}"
     shape = None if f"{word}s" in KEYS else key_by_shape(value, around)
     near = meant or closest(word, KEYS)
     is_list = isinstance(value, Sequence) or shape == "parameters"
@@ -174,6 +176,17 @@ def _state_meant(key: Scalar, written: str, around: Mapping) -> str:
     return f"{meant}: {number}" if meant and _STATE.fullmatch(number) else ""
 
 
+def _force_meant(word: str, written: str, around: Mapping) -> str:
+    """`x: -c*x'` for an entry `F_x: -c*x'`, `q2: F` for `Q2: F`; nothing for others."""
+    given = next((node for each, node in around.entries if each.label == "coordinates"), None)
+    coordinates = names_in(given)
+    found = re.fullmatch(r"[QF]_?(\w+)", word)
+    along = found[1] if found else ""
+    if along.isdigit() and 0 < int(along) <= len(coordinates):
+        along = coordinates[int(along) - 1]
+    return f"{along}: {written}" if along in coordinates and not is_constant(word, written) else ""
+
+
 def _outer(key: Scalar, value: DocumentNode, names: tuple[str, ...]) -> str:
     """The advice for a key of the problem that stands in one of its sections."""
     known = {*names, *(f"{name}s" for name in names), *(name.rstrip("s") for name in names)}
@@ -205,7 +218,8 @@ def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
     if word in get_args(Assumption) and word != "real" and "assume" in known:
         return f"write assume: {word}"
     if advice := advice_in(section).get(word):
-        return advice.replace("{word}", word)
+        whole = as_rayleigh(value) if word == _FRICTION else ""
+        return f"write dissipation: {whole}" if whole else advice.replace("{word}", word)
     if section == "expect" and word.endswith("''"):
         return f"write accelerations: {{{word[:-2]}: {value.strip()}}}"
     return _advice_in_problem(word, value.strip()) if section == "problem" else ""

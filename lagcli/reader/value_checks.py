@@ -26,7 +26,9 @@ from lagcli.expression import (
 )
 from lagcli.reader.constants import rational_value
 from lagcli.reader.foreign.words import Vocabulary, rate_meant
+from lagcli.reader.misshapen import as_rayleigh
 from lagcli.reader.names import derivative_order
+from lagcli.reader.text import SourceText
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -190,7 +192,9 @@ def _check_dissipation(file: FileReader, problem: Problem) -> None:
         file.error("the dissipation contains no velocity", formula.span, _FRICTION)
     elif _parity(formula, problem.definitions) == -1:
         message = "the dissipation changes its sign with the velocities"
-        file.error(message, formula.span, _FRICTION)
+        start, end = SourceText.of(problem.source).offsets(formula.span)
+        whole = as_rayleigh(problem.source.text[start:end])
+        file.error(message, formula.span, f"write {whole}: {_FRICTION}" if whole else _FRICTION)
 
 
 def _parity(formula: Expression, definitions: Mapping[str, Expression]) -> int:

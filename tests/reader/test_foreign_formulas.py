@@ -16,6 +16,7 @@ from lagcli.expression import Call, Name, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.library import entries
 from lagcli.reader import parse_text, read_problem
+from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary
 
@@ -151,3 +152,67 @@ def test_a_line_that_yaml_does_not_read_is_proposed_as_the_reader_accepts_it(lin
     assert only.hint.startswith("write ")
     changed = [only.hint.removeprefix("write "), *lines[1:]]
     assert read_problem("p.yaml", "\n".join([*changed, ""]).encode()).problem is not None
+
+
+SUMS = [
+    "sum({}, i=1..{})", "sum({}, i, 1, {})", "Sum({}, (i, 1, {}))", "sum({}, i = 1:{})",
+    "sum({}, i from 1 to {})", "Σ_i {}", "∑_{{i}} {}",
+    r"\sum_{{i=1}}^{{{1}}} {0}", r"\sum_i {}",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_sum_over_an_index_has_the_value_of_its_terms(seed):
+    draw = random.Random(seed)
+    count, mark = draw.randrange(2, 5), draw.choice(["_{}", "{}"])
+    x = [f"x{mark.format(k)}" for k in range(1, count + 1)]
+    masses = [f"m{mark.format(k)}" for k in range(1, count + 1)]
+    names = Vocabulary(tuple(x), frozenset([*masses, "k", "t", "pi"]))
+    term, one = draw.choice([
+        ("m_i*x_i'^2/2", lambda k: f"{masses[k]}*{x[k]}'^2/2"),
+        ("(x_i - k*m_i)^2", lambda k: f"({x[k]} - k*{masses[k]})^2"),
+        ("i*k*x[i]", lambda k: f"{k + 1}*k*{x[k]}"),
+        ("k*m_{i}*x_{i}^2", lambda k: f"k*{masses[k]}*{x[k]}^2"),
+    ])  # fmt: skip
+    form = draw.choice([each for each in SUMS if "from" not in each])
+    found = translated("k - " + form.format(term, count) + " + k*pi", names)
+    terms = " + ".join(map(one, range(count)))
+    assert sp.expand(plain(parse_text(found)) - plain(parse_text(f"k - ({terms}) + k*pi"))) == 0
+
+
+@pytest.mark.parametrize("text", ["Σ_i k*y_i", "sum(x_i, i=1..n)", "Σ_i k", "sum(k*x_i, i=1..50)"])
+def test_a_sum_without_a_range_or_an_index_is_unclear(text):
+    names = Vocabulary(("x_1", "x_2"), frozenset({"k", "n"}))
+    with pytest.raises(UnclearText):
+        translated(text, names)
+
+
+def test_a_range_of_python_ends_before_its_end():
+    names = Vocabulary(("x1", "x2", "x3"), frozenset({"k"}))
+    found = translated("sum(k*x_i^2 for i in range(1, 3))", names)
+    assert found == "(k*x1^2 + k*x2^2)"
+
+
+def test_neighbours_in_a_sum_have_the_next_index():
+    names = Vocabulary(("x1", "x2", "x3"), frozenset({"k"}))
+    found = translated("k/2*sum((x_{i+1} - x_i)^2, i=1..2)", names)
+    assert found == "k/2*((x2 - x1)^2 + (x3 - x2)^2)"
+
+
+@pytest.mark.parametrize(
+    "text", ["q*A·v", r"q \vec{A}\cdot\vec{v}", "q*dot(A, v)", "q*np.dot(v, A)"]
+)
+def test_a_product_of_vectors_has_the_components_of_the_file(text):
+    names = Vocabulary(("x", "y", "z"), frozenset({"q", "A_x", "A_z"}))
+    expected = plain(parse_text("q*(A_x*x' + A_z*z')"))
+    assert sp.expand(plain(parse_text(translated(text, names))) - expected) == 0
+
+
+@pytest.mark.parametrize(
+    ("text", "whole"),
+    [("m*y + (k*y^2/2 if y < 0)", "m*y + ((k*y^2/2)*(1 - sign(y))/2)"),
+     ("m*y + (0 if y > 0 else k*y^2) + 1", "m*y + ((k*y^2)*(1 - sign(y))/2) + 1"),
+     ("m*(y + 1) + k*(y - 1)", "m*(y + 1) + k*(y - 1)")],
+)  # fmt: skip
+def test_cases_inside_of_a_sum_leave_its_other_terms(text, whole):
+    assert without_cases(text) == whole

@@ -10,7 +10,7 @@ from lagcli.reader.foreign.words import UnclearText, Vocabulary
 _CALL = re.compile(r"(?<![\w.])(?:\w+\.)?[sS]um\s*[(\[]")
 _BEHIND = re.compile(
     r"(?P<term>.*?)\s*(?:,|\bfor\b)\s*[({]?\s*(?P<index>[^\W\d_])\s*"
-    r"(?:[=,]|in(?:\s+range)?\s*\(?)\s*(?P<first>\d+)\s*(?:\.{2,3}|…|:|,|to)\s*(?P<last>\d+)\s*\)?[)}]?",
+    r"(?:[=,]|in(?P<python>\s+range)?\s*\(?)\s*(?P<first>\d+)\s*(?:\.{2,3}|…|:|,|to)\s*(?P<last>\d+)\s*\)?[)}]?",
     re.DOTALL,
 )
 #: The limits below and above the sign of a sum.
@@ -52,7 +52,8 @@ def _terms(term: str, limits: re.Match[str], names: Vocabulary) -> str:
     )
     stems = {found["stem"] for found in used.finditer(term) if found["stem"]}
     if limits["first"]:
-        places = [*range(int(limits["first"]), int(limits["last"]) + 1)]
+        beyond = 0 if limits.groupdict().get("python") else 1
+        places = [*range(int(limits["first"]), int(limits["last"]) + beyond)]
     else:
         counted = [
             {int(n[1]) for x in names.known if (n := re.fullmatch(rf"{stem}_?(\d+)", x))}
