@@ -127,9 +127,9 @@ def _near_file(wanted: Path) -> str:
     from difflib import get_close_matches
 
     beside = wanted.parent.iterdir() if wanted.parent.is_dir() else iter(())
-    names = [each.name for each in beside if each.suffix in SUFFIXES]
-    close = get_close_matches(wanted.name, names, n=1)
-    return str(wanted.with_name(close[0])) if close else ""
+    files = {each.stem: each.name for each in beside if each.suffix in SUFFIXES}
+    close = get_close_matches(wanted.stem, files, n=1, cutoff=0.7)
+    return str(wanted.with_name(files[close[0]])) if close else ""
 
 
 def _near(wanted: str, every: tuple[LibraryEntry, ...]) -> str:
