@@ -92,7 +92,7 @@ SPECIAL = {
     # A = B (Aizawa and Saito, J. Phys. Soc. Japan 32 (1972) 1636)
     "discovery/henon-heiles-any-cubic": {
         ("epsilon", "6"): (2, "charge_1"),
-        ("epsilon", "1"): (2, "charge_1"),
+        ("epsilon", "1"): (2, "p_x_p_y"),
     },
     "discovery/power-law-potential": {
         ("n", "2"): (10, "fradkin_xy conformal_sin"),

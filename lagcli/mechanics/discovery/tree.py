@@ -55,9 +55,9 @@ class Tree:
         self._parts: list[tuple[int, ...]] = []
         self._steps: list[Step] = []
 
-    def at(self, point: Sequence[int]) -> Values:
+    def at(self, point: Sequence[int]) -> ModularValues:
         """The values at a point."""
-        return Values(self, point)
+        return ModularValues(self, point)
 
     def number(self, expression: Expr) -> int:
         """The number of a node, above those of its parts."""
@@ -132,7 +132,7 @@ class Tree:
             known[i] = self._steps[i]([known[k] for k in self._parts[i]], point) % PRIME
 
 
-class Values:
+class ModularValues:
     """The values of the expressions of a tree at one point, each part computed once."""
 
     def __init__(self, tree: Tree, point: Sequence[int]) -> None:

@@ -27,7 +27,7 @@ from lagcli.verification.sweeps import column
 _NO_VALUE = arb("nan")
 
 
-class NoetherCharge:
+class ChargeOfSymmetry:
     """Q of one symmetry of the file.
 
     Parameters

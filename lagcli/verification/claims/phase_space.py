@@ -23,7 +23,7 @@ from lagcli.statements.phase_space import (
     PoissonBracket,
     TransformationsSection,
 )
-from lagcli.verification.claims.charges_in_phase_space import NoetherCharge
+from lagcli.verification.claims.charges_in_phase_space import ChargeOfSymmetry
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot, size
 from lagcli.verification.phase_points import PhasePoint
@@ -49,7 +49,7 @@ def brackets(x: Examination, section: BracketsSection) -> BracketsSection:
     places = [given[name] for name in section.observables]
     if not x.hold("the observables", printed, lambda s: [s.at(place) for place in places]):
         section = replace(section, observables={})
-    charges = {s.name: NoetherCharge(x, s) for s in _named_symmetries(x, section)}
+    charges = {s.name: ChargeOfSymmetry(x, s) for s in _named_symmetries(x, section)}
     found = tuple(_bracket(x, each, charges) for each in section.brackets)
     rates, what = section.rates, "the rates of the observables"
     if rates is not None and rates.keys() != given.keys():
@@ -64,7 +64,7 @@ def brackets(x: Examination, section: BracketsSection) -> BracketsSection:
 
 
 def _bracket(
-    x: Examination, each: PoissonBracket, charges: Mapping[str, NoetherCharge]
+    x: Examination, each: PoissonBracket, charges: Mapping[str, ChargeOfSymmetry]
 ) -> PoissonBracket:
     what = f"the bracket '{each.name}'"
     if each.value is None:
