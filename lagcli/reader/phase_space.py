@@ -11,6 +11,7 @@ from lagcli.problem_data import BracketQuestion, CanonicalTransformation
 from lagcli.reader.misshapen import FOUND, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import PHASE_SPACE, name_mistake
+from lagcli.record import replace
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
@@ -46,6 +47,21 @@ def read_observables(file: FileReader, node: DocumentNode) -> dict[str, Expressi
         if not _is_momentum(file, key) and file.declare(key.label, "observable", key.span):
             found[key.label] = expression
     return found
+
+
+def mend_velocities(file: FileReader, node: DocumentNode, kinetic: Expression) -> None:
+    """Make the velocities in each observable one mistake, with momenta in the hint."""
+    for key, value in node.entries if isinstance(node, Mapping) else ():
+        place = f" cannot stand in the observable '{key.label}'"
+        found = [each for each in file.diagnostics if each.message.endswith(place)]
+        if not isinstance(value, Scalar) or not found:
+            continue
+        from lagcli.reader.momenta_meant import with_momenta
+
+        if whole := with_momenta(value.value, kinetic, value.text):
+            mended = replace(found[0], hint=f"write {whole}: {FUNCTION.why}")
+            kept = [each for each in file.diagnostics if each not in found[1:]]
+            file.diagnostics[:] = [mended if each is found[0] else each for each in kept]
 
 
 def _is_momentum(file: FileReader, key: Scalar) -> bool:

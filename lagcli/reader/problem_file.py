@@ -24,8 +24,14 @@ from lagcli.reader.habits import KEYS, colon_advice, key_meant
 from lagcli.reader.misfits import dimension_mistakes
 from lagcli.reader.misplaced import lifted
 from lagcli.reader.misshapen import source_of
+from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, kind
-from lagcli.reader.phase_space import read_brackets, read_observables, read_transformations
+from lagcli.reader.phase_space import (
+    mend_velocities,
+    read_brackets,
+    read_observables,
+    read_transformations,
+)
 from lagcli.reader.quantities import (
     declare_parameters,
     read_coordinates,
@@ -243,6 +249,10 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
         simulation=read_simulation(file, section("simulation")),
         picture=read_scenery(file, section("picture"), points),
     )
+    potential = problem.potential
+    at_rest = potential is None or derivative_order(potential, file.scope) < 1
+    if file.diagnostics and problem.kinetic is not None and at_rest:
+        mend_velocities(file, section("observables"), problem.kinetic)
     problem = replace(problem, expect=ExpectReader(file, problem).read(section("expect")))
     if len(given) == len(root.entries):  # else the energy may be there under another key
         check_masses(file, problem, section("points").span)

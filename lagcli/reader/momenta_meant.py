@@ -1,0 +1,94 @@
+"""A function of velocities as one on phase space: `x*p_y - y*p_x` for `m*(x*y' - y*x')`.
+
+The momenta are p = ∂T/∂q', where T is a sum of squares of single velocities.
+"""
+
+from __future__ import annotations
+
+import re
+
+from lagcli.expression import Expression, Name, Number, Power, Product, Quotient, Sum, walk
+from lagcli.reader.text import SourceText
+
+#: Factors above and below of the square of a velocity.
+_Factors = tuple[list[str], list[str]]
+_HALF = re.compile(r"0\.5|\(\w+/2\)")
+
+
+def with_momenta(text: str, kinetic: Expression, source: SourceText) -> str:
+    """The text with momenta for velocities; nothing where T mixes velocities or lacks one.
+
+    Parameters
+    ----------
+    text
+        A formula of coordinates and velocities.
+    kinetic
+        T.
+    source
+        The text that the places of T point into.
+    """
+    squares: dict[str, _Factors] = {}
+    used = {*re.findall(r"([^\W\d]\w*)'(?!')", text)}
+    if not _squares(kinetic, ([], []), squares, source) or not used or not used <= squares.keys():
+        return ""
+    inertia = {name: _inertia(squares[name]) for name in used}
+    if len({*inertia.values()}) == 1:
+        letters = next(iter(inertia.values())).replace(" ", "")
+        common = r"\s*".join(map(re.escape, letters))
+        if whole := re.fullmatch(rf"\s*{common}\s*\*\s*(?:\(([^()]*)\)|(\w+'))\s*", text):
+            text = whole[1] or whole[2]
+            inertia = dict.fromkeys(used, "1")
+
+    def momentum(found: re.Match[str]) -> str:
+        divisor = inertia[found[1]]
+        grouped = divisor if re.fullmatch(r"\w+|\([^()]*\)", divisor) else f"({divisor})"
+        return f"(p_{found[1]}/{grouped})" if divisor != "1" else f"p_{found[1]}"
+
+    return re.sub(r"([^\W\d]\w*)'", momentum, text)
+
+
+def _inertia(factors: _Factors) -> str:
+    """`m*l^2` for the factors of `m*l^2*theta'^2/2`: twice them, p = 2 a q' where T = a q'^2."""
+    above, below = [*factors[0]], [*factors[1]]
+    half = next((each for each in above if _HALF.fullmatch(each)), None)
+    if "2" in below:
+        below.remove("2")
+    elif half is not None:
+        above[above.index(half)] = half.strip("()").removesuffix("/2")
+        above = [each for each in above if each not in {"0.5", "1"}]
+    else:
+        above.insert(0, "2")
+    return "*".join(above or ["1"]) + "".join(f"/{each}" for each in below)
+
+
+def _squares(
+    node: Expression, around: _Factors, found: dict[str, _Factors], source: SourceText
+) -> bool:
+    """Whether a term is a sum of squares of single velocities, whose factors are noted."""
+    above, below = around
+    match node:
+        case Sum(terms=terms):
+            return all(_squares(term, around, found, source) for term in terms)
+        case Product(factors=factors):
+            moving = [each for each in factors if _has_velocity(each)]
+            others = [_written(each, source) for each in factors if not _has_velocity(each)]
+            inner = ([*above, *others], below)
+            return len(moving) == 1 and _squares(moving[0], inner, found, source)
+        case Quotient(numerator=over, denominator=under) if not _has_velocity(under):
+            return _squares(over, (above, [*below, _written(under, source)]), found, source)
+        case Power(base=Name(name=name, primes=1), exponent=Number(value=power)) if power == 2:
+            is_new = name not in found
+            found[name] = around
+            return is_new
+    return False
+
+
+def _has_velocity(node: Expression) -> bool:
+    return any(isinstance(each, Name) and each.primes for each in walk(node))
+
+
+def _written(node: Expression, source: SourceText) -> str:
+    """The text of a factor, in parentheses where it is not one name or number."""
+    start, end = source.offsets(node.span)
+    text = source.source.text[start:end].strip()
+    return text if re.fullmatch(r"[\w.]+(?:\^\w+)?", text) or text[:1] == "(" else f"({text})"

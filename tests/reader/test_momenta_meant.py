@@ -1,0 +1,58 @@
+"""Velocities in a function on phase space: the hint has the same function of the momenta."""
+
+import random
+
+import pytest
+import sympy as sp
+
+from lagcli.reader import parse_text, read_problem
+from tests.reader.test_foreign_formulas import plain
+
+ENERGIES = [
+    ("m*(x'^2 + y'^2)/2", {"x": "m", "y": "m"}),
+    ("(m + M)*x'^2/2 + m*y'^2/2", {"x": "m + M", "y": "m"}),
+    ("m/2*(x'^2 + x^2*y'^2)", {"x": "m", "y": "m*x**2"}),
+    ("0.5*m*x'^2 + 0.5*M*y'^2", {"x": "m", "y": "M"}),
+    ("m*x'^2 + M*y'^2/3", {"x": "2*m", "y": "2*M/3"}),
+    ("1/2*m*x'^2 + y'^2/2", {"x": "m", "y": "1"}),
+]
+FUNCTIONS = [
+    "m*x'",
+    "m*(x*y' - y*x')",
+    "x'",
+    "(m + M)*x'",
+    "x*x' + y*y'",
+    "m*x'^2/2 + y'^2",
+    "M*y'",
+]
+
+
+def file_with(kinetic, function, potential="0"):
+    return (
+        f"coordinates: [x, y]\nparameters: [m, M, k]\nT: {kinetic}\nV: {potential}\n"
+        f"observables:\n  A: {function}\n"
+    )
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_the_momenta_in_the_hint_are_those_of_the_energy(seed):
+    draw = random.Random(seed)
+    kinetic, inertia = draw.choice(ENERGIES)
+    function = draw.choice(FUNCTIONS)
+    [only] = read_problem("p.yaml", file_with(kinetic, function).encode()).diagnostics
+    written = only.hint.removeprefix("write ").partition(": ")[0]
+    momenta = {f"p_{q}": sp.sympify(a) * sp.Symbol(f"{q}dot") for q, a in inertia.items()}
+    difference = plain(parse_text(written)).subs(momenta) - plain(parse_text(function))
+    assert sp.nsimplify(sp.simplify(difference), rational=True) == 0
+    mended = read_problem("p.yaml", file_with(kinetic, written).encode())
+    assert mended.diagnostics == ()
+
+
+@pytest.mark.parametrize(
+    ("kinetic", "potential"),
+    [("m*(x'^2 + y'^2)/2 + m*x'*y'", "0"), ("m*x'^4/2 + y'^2", "0"),
+     ("m*(x'^2 + y'^2)/2", "k*x*y'")],
+)  # fmt: skip
+def test_other_energies_have_no_such_hint(kinetic, potential):
+    found = read_problem("p.yaml", file_with(kinetic, "m*x'", potential).encode()).diagnostics
+    assert "write" not in found[0].hint
