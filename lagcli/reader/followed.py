@@ -72,9 +72,16 @@ def _settled(text: str, start: int, end: int, read: Reading, author: str, left: 
         return ""
     scalars = ((x.start, x.end) for x in _scalars(root) if x.start <= begin <= stop <= x.end)
     around = next(scalars, (begin, stop))
-    written = _nearest(text[slice(*around)], begin - around[0], stop - around[0], proposed[1])
+    written = _nearest(
+        text[slice(*around)], begin - around[0], stop - around[0], _unquoted(proposed[1])
+    )
     changed = text[: around[0]] + written + text[around[1] :]
     return _settled(changed, start, end + len(changed) - len(text), read, author, left - 1)
+
+
+def _unquoted(proposed: str) -> str:
+    """`tau` for `'tau'`: a name is quoted in a hint."""
+    return re.sub(r"^'(\w+)'$", r"\1", proposed)
 
 
 def _nearest(text: str, start: int, end: int, proposed: str) -> str:

@@ -1,4 +1,4 @@
-"""Keys of the problem that are indented into the section above them."""
+"""Keys of the problem that are indented into the section or the heading above them."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ import re
 from dataclasses import replace
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.reader.habits import MAPS
+from lagcli.reader.habits import KEYS, MAPS
+from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 
 _ENERGIES = frozenset("TVLH")
@@ -41,6 +42,14 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
     entries: list[tuple[Scalar, DocumentNode]] = []
     mistakes = []
     for key, node in root.entries:
+        whole = node.entries if isinstance(node, Mapping) and key.label not in KEYS else []
+        if whole and all(each.label in {*KEYS} - given for each, _ in whole):
+            message = f"unknown key '{key.label}' in the problem"
+            lines = ", ".join(f"{each.label}: {source_of(value)}" for each, value in whole)
+            hint = f"leave it out, and begin lines with {lines}"
+            mistakes.append(Diagnostic(message, key.span, hint))
+            entries += whole
+            continue
         inner = node.entries if isinstance(node, Mapping) and key.label in _SECTIONS else []
         moved = [entry for entry in inner if is_misplaced(*entry)]
         for each, _ in moved:

@@ -8,7 +8,15 @@ from typing import get_args
 
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
-from lagcli.reader.habits import CASE, MAPS, habits, is_constant, key_meant, unit_behind
+from lagcli.reader.habits import (
+    CASE,
+    MAPS,
+    habits,
+    is_constant,
+    key_meant,
+    number_and_unit,
+    unit_behind,
+)
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import unit_mistake
 
@@ -146,8 +154,8 @@ def _as_attributes(node: DocumentNode, written: str, names: tuple[str, ...]) -> 
     if isinstance(node, Scalar):
         if written in get_args(Assumption):
             return f"write {{assume: {written}}}"
-        if unit_behind(f"1 {written}") == written:
-            return f"write {{unit: {written}}}"
+        if unit := number_and_unit(f"1 {written}")[1]:
+            return f"write {{unit: {unit}}}"
         if is_constant("x", written):
             return "a state stands under initial, as in initial: {x: 1}"
         if "value" in names:

@@ -320,6 +320,9 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         ]
         hint = f"declare it: functions: {{{name}: [{', '.join(given)}]}}, or write its formula"
         hint = f"did you mean {best}(…)?" if best else hint
+        if power := re.fullmatch(r"(sin|cos|tan|sinh|cosh|tanh)2", name):
+            inner = str(given[0]) if given and isinstance(node.arguments[0], Name) else "…"
+            hint = f"write {power[1]}({inner})^2, or {power[1]}(2*{inner}) for the double angle"
         hint = instead(name) or hint
         yield Diagnostic(f"unknown function '{name}' in {what}", node.span, hint)
 

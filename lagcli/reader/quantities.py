@@ -95,6 +95,9 @@ def read_parameters(
     described: list[tuple[Scalar, Scalar]] = []
     for key, node in declared:
         attributes: dict[str, DocumentNode] = {}
+        if node is not None and (bare := _in_order(node)):
+            file.error(f"the attributes of '{key.label}' have names", node.span, bare)
+            continue
         if indexed := _indexed(key.label, node):
             file.error(f"'{key.label}' has several values", key.span, indexed)
             file.scope.refused += ["", f"{key.label}["]
@@ -130,6 +133,14 @@ def read_parameters(
         file.error(message, first.span, f"{hint}, and so for {others}" if others else hint)
     _check_cycles(file, parameters)
     return tuple(parameters)
+
+
+def _in_order(node: DocumentNode | None) -> str:
+    """`write {value: 1, unit: m}` for `{1, m}`; nothing for others."""
+    entries = node.entries if isinstance(node, Mapping) else []
+    written = [key.label for key, value in entries if value.is_empty]
+    is_pair = len(written) == len(entries) == 2 and unit_behind(" ".join(written)) == written[1]
+    return f"write {{value: {written[0]}, unit: {written[1]}}}" if is_pair else ""
 
 
 def _indexed(name: str, node: DocumentNode | None) -> str:
@@ -352,6 +363,12 @@ def _pairs(node: DocumentNode, section: str) -> str:
         source = [re.sub(r"^\[(\w+),\s*([^,\]]+)\]$", r"\1: \2", text) for text in source]
         given = [re.fullmatch(r"(\w+)\s*[=:]\s*(\S.*?)\s*", text) for text in source]
         given = [] if any(each and re.search(r"\(['\"]", each[2]) for each in given) else given
+        if any(given) and not all(given) and section == "parameters":  # [m, g = 9.81]
+            parts = [
+                f"{each[1]}: {each[2]}" if each else text
+                for each, text in zip(given, source, strict=True)
+            ]
+            return ", ".join(parts) if all(re.match(r"\w+(: |$)", x) for x in parts) else ""
     if not given or not all(given):
         return ""
     return ", ".join(f"{each[1]}: {each[2]}" for each in given if each)

@@ -94,7 +94,12 @@ def _read(
     written, equals, value = source.text.partition("=")
     name = unicodedata.normalize("NFC", written.strip()).translate(_PRIMES)
     if not equals:
+        option = source.name.split()[0]
+        apart = re.fullmatch(r"\s*([^\W\d]\w*)('*)\s*(?:[: ]\s*(\S+)\s*)?", written)
         hint = "write name=value"
+        if apart is not None:
+            whole = f"{apart[1]}{apart[2]}={apart[3] or '1'}"
+            hint = f"write {option} " + (f'"{whole}"' if apart[2] else whole)
         raise ProblemError(source, (Diagnostic("an '=' is missing", text.span(0, 0), hint),))
     if re.search(r"[,;]\s*[^\W\d]\w*'*\s*=", value):
         option = source.name.split()[0]
