@@ -17,6 +17,7 @@ PROMISED = (
     ("reactions/round-body-on-incline", ("forces", "constraint_forces")),
     ("hoop", ("equations", "momenta", "constraint_forces", "canonical_equations", "find")),
     ("oscillations/damped-oscillator", ("equations", "charges")),
+    ("classics/spherical-pendulum", ("equilibria",)),
     ("hamiltonian/brackets-of-angular-momentum", ("brackets",)),
     ("hamiltonian/oscillator-by-generating-function", ("canonical",)),
 )
@@ -101,3 +102,45 @@ def test_a_minimum_is_not_called_stable_to_first_order_only(section: str) -> Non
     assert weaker != list(places)
     assert not refuted(problem, answers, section, whole)
     assert refuted(problem, answers, section, replace(whole, **{listed: tuple(weaker)}))
+
+
+WITHOUT_A_SIGN = "m: {assume: positive}, g: {}, a: {}, b: {}, c: {assume: nonnegative}"
+
+
+@pytest.mark.parametrize(
+    "V",
+    ["m*g*y + a*x^2", "exp(x)*(a + b*c)", "b*x + c*y + (x - y)^2", "a*b*x + y^2", "(a^2 - c)*exp(x)",
+     "(a + b)*x + (a - b)*y"],
+)  # fmt: skip
+@pytest.mark.parametrize("name", ["equilibria", "steady_motions"])
+def test_special_values_of_parameters_are_not_left_out(name: str, V: str) -> None:
+    """ "There is none unless a = 0" without the "unless", or with another condition."""
+    text = f"""title: t
+coordinates: [x, y]
+parameters: {{{WITHOUT_A_SIGN}}}
+T: m*(x'^2 + y'^2)/2
+V: {V}
+"""
+    problem = read_problem("t.yaml", text.encode()).checked()
+    answers = solve(problem, [name])
+    section = answers.sections[name]
+    assert section.unless
+    assert not refuted(problem, answers, name, section)
+    assert refuted(problem, answers, name, replace(section, unless=()))
+    wrong = Sum((*section.unless, Name("m")))
+    assert refuted(problem, answers, name, replace(section, unless=(wrong,)))
+
+
+@pytest.mark.parametrize("V", ["exp(x) + y", "m*exp(x)*(c + 1) + (y - a)^2", "(a - b)*exp(x) + y"])
+def test_where_no_values_of_parameters_are_special_none_are_missed(V: str) -> None:
+    text = f"""title: t
+coordinates: [x, y]
+parameters: {{{WITHOUT_A_SIGN}}}
+T: m*(x'^2 + y'^2)/2
+V: {V}
+"""
+    problem = read_problem("t.yaml", text.encode()).checked()
+    for name in ("equilibria", "steady_motions"):
+        answers = solve(problem, [name])
+        assert answers.sections[name].unless == ()
+        assert not refuted(problem, answers, name, answers.sections[name])

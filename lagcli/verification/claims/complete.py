@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from itertools import combinations
 
+from lagcli.expression import Name, walk
 from lagcli.problem_data import Problem
 from lagcli.statements.answers import (
     AccelerationsSection,
@@ -16,6 +17,7 @@ from lagcli.statements.answers import (
     ConstraintForcesSection,
     DimensionsSection,
     EquationsSection,
+    EquilibriaSection,
     MomentaSection,
     MultipliersSection,
     Section,
@@ -63,6 +65,12 @@ def _compared(problem: Problem, section: Section) -> Iterator[Compared]:
             yield [name for each in section.friction_needed for name in each.frictions], friction
         case ChargesSection(discovered=False):
             yield [each.name for each in section.charges], [s.name for s in problem.symmetries]
+        case EquilibriaSection(equilibria=tuple(places)):
+            for place in places:
+                tied = [
+                    e.name for side in place.on or () for e in walk(side) if isinstance(e, Name)
+                ]
+                yield (*place.at, *place.free, *place.indeterminate, *tied), coordinates
         case SteadySection(motions=tuple(motions)):
             for motion in motions:
                 yield motion.momenta, () if motion.rolling else section.momenta

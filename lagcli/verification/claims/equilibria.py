@@ -25,7 +25,13 @@ from lagcli.verification.claims.rest import (
     without_open,
 )
 from lagcli.verification.claims.stability import refutes
-from lagcli.verification.claims.unlisted import Balance, shown, unlisted
+from lagcli.verification.claims.unlisted import (
+    Balance,
+    at_special_values,
+    shown,
+    unlisted,
+    without_sign,
+)
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import size
 
@@ -68,6 +74,8 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
             found.append(each if verdict is judged else replace(each, verdict=verdict))
         searched = section.complete and not section.at_all_times
         other = _another(x, found) if searched else ""
+        if searched and not (other or found or section.where):
+            other = _special(x, "the equilibria", section.unless)
     if other:
         x.refute("completeness of the equilibria", f"there is one at {other}")
         section = replace(section, complete=False)
@@ -91,6 +99,22 @@ def _another(x: Examination, found: list[Equilibrium]) -> str:
     places = [RestPlace(x, "the equilibria", each.at, {}, each.on, each.where) for each in found]
     near = next(unlisted(Balance(x), places), None)
     return "" if near is None else shown(near)
+
+
+def _special(
+    x: Examination,
+    what: str,
+    unless: Sequence[Expression] | None,
+    turning: Sequence[str] = (),
+) -> str:
+    """A place where there is said to be none but where each of `unless` vanishes."""
+    places = None if unless is None else x.places(what, unless)
+    if places is None or x.reference.large or x.problem.contacts or x.problem.functions:
+        return ""
+    near = at_special_values(x, places, turning)
+    if near is None:
+        return ""
+    return shown(near, turning, [p.name for p in without_sign(x)])
 
 
 def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
@@ -176,6 +200,8 @@ def _another_motion(x: Examination, section: SteadySection, found: list[SteadyMo
     near = next(unlisted(Balance(x, turning), places, mirrored=mirrored), None)
     if near is not None:
         return shown(near, turning)
+    if not (found or section.where or section.resting):
+        return _special(x, "the steady motions", section.unless, turning)
     poles = [place for place, each in zip(places, found, strict=True) if each.rates is None]
     resting = unlisted(Balance(x), poles)
     near = next((each for each in resting if each.at_a_pole), None)

@@ -16,14 +16,14 @@ from random import Random
 
 from flint import arb, ctx
 
-from lagcli.problem_data import Coordinate, Inequality
+from lagcli.problem_data import Inequality, Parameter, Quantity
 from lagcli.verification.claims.near import LinearMotion
 from lagcli.verification.claims.rest import RestPlace
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear, least_step, size
 from lagcli.verification.phase_points import Environment
 from lagcli.verification.states import State
-from lagcli.verification.sweeps import column
+from lagcli.verification.sweeps import StepValues, column
 
 #: Starts of Newton's method at each of `_STATES` choices of the parameters.
 _STARTS = 10
@@ -47,10 +47,14 @@ class Balance:
         The examination.
     turning
         The coordinates that turn at constant rates: their momenta are given.
+    parameters
+        Those whose values are sought, too.
     """
 
-    def __init__(self, x: Examination, turning: Sequence[str] = ()) -> None:
-        self.x, self.turning = x, tuple(turning)
+    def __init__(
+        self, x: Examination, turning: Sequence[str] = (), parameters: Sequence[Parameter] = ()
+    ) -> None:
+        self.x, self.turning, self.parameters = x, tuple(turning), tuple(parameters)
         program, reference = x.reference.program, x.reference
         forces = list(reference.forces)
         for j, (q, v) in enumerate(zip(reference.q, reference.v, strict=True)):
@@ -77,7 +81,8 @@ class Balance:
         self.conditions += [row.value for row in reference.rows]
         still = [n for n in names if n not in self.turning]
         self.sought = [(n, 0) for n in still] + [(n, 1) for n in self.turning]
-        self.sought += [(row.constraint.multiplier, 0) for row in reference.rows]
+        self.multipliers = [(row.constraint.multiplier, 0) for row in reference.rows]
+        self.sought += [*self.multipliers, *((each.name, 0) for each in self.parameters)]
         self.symbols = [program.symbol(*key) for key in self.sought]
 
     def found(self) -> Iterator[LinearMotion]:
@@ -101,7 +106,7 @@ class Balance:
             sign = _SIGNS.get(coordinate.assume)
             environment[coordinate.name, 0] = value if sign is None else abs(value) * sign
             environment[coordinate.name, 1] = arb(0)
-        for key in self.sought[len(self.x.reference.names) :]:
+        for key in self.multipliers:
             environment[key] = arb(random.randint(-1024, 1024)) / 1024
         for name in self.turning:
             environment[name, 1] = arb(random.randint(-2048, 2048)) / 1024
@@ -141,7 +146,7 @@ class Balance:
             return False
         if near.at_a_pole and (self.turning or not _rests_at_a_pole(near)):
             return False
-        if any(_is_outside(near, c) for c in x.problem.coordinates):
+        if any(_is_outside(near, c) for c in (*x.problem.coordinates, *self.parameters)):
             return False
         held = (c.holds_while for c in x.problem.constraints)
         return all(h is None or _holds(x, near, h) for h in held)
@@ -161,9 +166,9 @@ class Balance:
             return all(size(one(f) - other(f)) < _SAME for f in self.conditions)
 
 
-def _is_outside(near: LinearMotion, coordinate: Coordinate) -> bool:
-    """Whether the coordinate is not what it is said to be: r = 0 is no place of a positive r."""
-    value, assume = float(near.environment[coordinate.name, 0]), coordinate.assume
+def _is_outside(near: LinearMotion, given: Quantity) -> bool:
+    """Whether a quantity is not what it is said to be: r = 0 is no place of a positive r."""
+    value, assume = float(near.environment[given.name, 0]), given.assume
     if abs(value) < _SAME:
         return assume in {"positive", "negative", "nonzero"}
     return value * _SIGNS.get(assume, 0) < 0
@@ -207,6 +212,33 @@ def unlisted(
             yield near
 
 
+def at_special_values(
+    x: Examination, unless: Sequence[int], turning: Sequence[str] = ()
+) -> LinearMotion | None:
+    """A place that is there for special values of the parameters only; None where none was found.
+
+    Of such places the conditions in `unless` hold.  Parameters with a sign keep their values: to
+    be positive excludes few values, so that what is there for one is there nearby.
+    """
+    loose = without_sign(x)
+    for near in Balance(x, turning, loose).found() if loose else ():
+        at = x.reference.values(near.environment)
+        if near.regular and not (unless and all(_vanishes(at, place) for place in unless)):
+            return near
+    return None
+
+
+def without_sign(x: Examination) -> list[Parameter]:
+    """The parameters that may be 0, or have either sign."""
+    given = (p for p in x.problem.parameters if not p.integer)
+    return [p for p in given if p.assume not in {"positive", "negative"}]
+
+
+def _vanishes(at: StepValues, place: int) -> bool:
+    scale = 1 + max(map(size, at.gradient(place).values()), default=0.0)
+    return size(at(place)) < _SAME * scale
+
+
 def _is_at(balance: Balance, near: LinearMotion, place: RestPlace, *, mirror: bool) -> bool:
     """Whether a listed motion is the one found, or with `mirror` that with opposite momenta."""
     sign = -1 if mirror else 1
@@ -229,12 +261,13 @@ def _gap(a: LinearMotion, b: LinearMotion, key: tuple[str, int], sign: int = 1) 
     return float((a.environment[key] - sign * b.environment[key]).mid())
 
 
-def shown(near: LinearMotion, turning: Sequence[str] = ()) -> str:
-    """Where a place is."""
+def shown(near: LinearMotion, turning: Sequence[str] = (), parameters: Sequence[str] = ()) -> str:
+    """Where a place is, and for which values."""
     names = near.x.reference.names
     parts = [f"{n} = {float(near.environment[n, 0]):.6g}" for n in names if n not in turning]
     parts += [f"{n}' = {float(near.environment[n, 1]):.6g}" for n in turning]
+    parts += [f"{n} = {float(near.environment[n, 0]):.6g}" for n in parameters]
     return ", ".join(parts)
 
 
-__all__ = ["Balance", "shown", "unlisted"]
+__all__ = ["Balance", "at_special_values", "shown", "unlisted", "without_sign"]
