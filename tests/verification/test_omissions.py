@@ -144,3 +144,15 @@ V: {V}
         answers = solve(problem, [name])
         assert answers.sections[name].unless == ()
         assert not refuted(problem, answers, name, answers.sections[name])
+
+
+@pytest.mark.parametrize("V", ["a*sign(x - 2*y)*x + k*y^2/2", "k*sign(x)*(1 + y^2)"])
+def test_an_energy_that_jumps_is_undecided_and_not_missed(V: str) -> None:
+    text = f"title: t\ncoordinates: [x, y]\nparameters: [m, k, a]\nT: m*(x'^2 + y'^2)/2\nV: {V}\n"
+    problem = read_problem("t.yaml", text.encode()).checked()
+    answers = solve(problem, ["charges"])
+    energy = next(c for c in answers.sections["charges"].charges if c.name == "energy")
+    assert energy.conserved is None
+    assert not refuted(problem, answers, "charges", answers.sections["charges"])
+    none = replace(answers.sections["charges"], charges=())
+    assert refuted(problem, answers, "charges", none)

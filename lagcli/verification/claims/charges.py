@@ -46,7 +46,9 @@ def _evident_are_listed(x: Examination, charges: Sequence[Charge], *, with_rates
         lasts = all(is_zero(s.laws.rate(place)) for s in states)
         if not (lasts or with_rates):
             continue
-        listed = [c.charge for c in charges if (c.conserved or not lasts) and c.charge is not None]
+        # one that is undecided is listed with its sentence
+        stated = (c for c in charges if c.conserved is not False or not lasts)
+        listed = [c.charge for c in stated if c.charge is not None]
         known = [each for charge in listed for each in x.places("", [charge]) or ()]
         if _is_independent(x, place, known):
             is_so = "conserved" if lasts else "left out with its rate"
