@@ -56,11 +56,13 @@ def _evident_are_listed(x: Examination, charges: Sequence[Charge], *, with_rates
 
 
 def _evident(x: Examination, states: Sequence[State]) -> Iterator[tuple[str, int]]:
-    """p_j where L does not contain q_j, and the energy function."""
-    reference = x.reference
+    """p_j where L does not contain q_j, nor jumps with it, and the energy function."""
+    reference, program = x.reference, x.reference.program
+    steps = (program.steps[place] for place in program.order([reference.lagrangian]))
+    jumping = program.symbols([s.parts[0] for s in steps if (s.kind, s.what) == ("call", "sign")])
     for name, q, p in zip(reference.names, reference.q, reference.momenta, strict=True):
         slope = reference.by(reference.lagrangian, q)
-        if all(is_zero(s.at(slope)) for s in states):
+        if (name, 0) not in jumping and all(is_zero(s.at(slope)) for s in states):
             yield f"p_{name}", p
     yield "the energy function", reference.energy
 
