@@ -97,7 +97,11 @@ def _hint(file: FileReader, key: Scalar, parts: list[tuple[Scalar, DocumentNode]
 def declare_contacts(file: FileReader, node: DocumentNode, constraints: set[str]) -> list[Declared]:
     """Enter the multipliers into the scope; a constraint's name is taken."""
     contacts = []
-    for key, value in file.named(node, "contacts", _ATTRIBUTES, _HINT):
+    gaps = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+    gaps = [re.sub(r"([<>])(?!=)", r"\1=", each) for each in gaps if re.search("[<>≤≥]", each)]
+    names = [f"c{place}" for place in range(1, len(gaps) + 1)] if gaps[1:] else ["floor"]
+    listed = f"write {{{', '.join(map('{}: {}'.format, names, gaps))}}}" if gaps else _HINT
+    for key, value in file.named(node, "contacts", _ATTRIBUTES, listed):
         if key.label in constraints:
             file.error(f"'{key.label}' is a constraint already", key.span)
         elif one := declared(file, key, value, "contact force", _ATTRIBUTES):

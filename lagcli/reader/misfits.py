@@ -17,6 +17,8 @@ from lagcli.record import replace
 _Place = tuple[int, int, str]
 #: Places of a file at which another text is tried; each takes a reading of the file.
 _TRIALS = 100
+#: Terms that are mended one by one.
+_MOST = 3
 Reading = Callable[[Source], tuple[Problem | None, list[Diagnostic]]]
 
 
@@ -42,24 +44,45 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
     if is_usual := energies_in(usual) >= energies_in(problem):
         problem, found = usual, check_dimensions(usual, MISTAKES)
 
-    def fits(place: _Place) -> bool:
+    def left(place: _Place) -> list[str] | None:
+        """The terms that do not fit with another text there; None where it is not read."""
         start, end, better = place
         changed = problem.source.text[:start] + better + problem.source.text[end:]
         other, mistakes = read(Source(problem.source.name, changed))
-        if mistakes or other is None:
-            return False
-        return not is_usual or not check_dimensions(_with_usual_units(other), 1)
+        if other is None or mistakes != check_dimensions(other, MISTAKES):
+            return None
+        return _terms(check_dimensions(_with_usual_units(other) if is_usual else other, MISTAKES))
 
-    place = _only(fits, _other_primes(problem, text, found))
+    def only(places: list[_Place], remaining: list[str]) -> _Place | None:
+        """The only place with which these terms are left; None for none, several, very many."""
+        fitting = (each for each in places if left(each) == remaining)
+        few = [] if places[_TRIALS:] else list(islice(fitting, 2))
+        return few[0] if len(few) == 1 else None
+
+    place = only(_other_primes(problem, text, found), [])
+    unit = one_wrong_unit(problem, found[0])
     if not found[1:]:
         if place is not None:
             return [_with_term(found[0], place, text)]
-        factor = _only(fits, _other_factors(problem, text, found[0]))
-        return [_with_term(found[0], factor, text, one_wrong_unit(problem, found[0]))]
-    unit = one_wrong_unit(problem, found[0])
+        factor = only(_other_factors(problem, text, found[0]), [])
+        return [_with_term(found[0], factor, text, unit)]
     causes = [] if place is None else [_prime_elsewhere(found[0], place, text)]
     known = causes if unit is None else [*causes, unit]
-    return known if len(known) == 1 else found
+    if len(known) == 1:
+        return known
+    for number, each in enumerate(found[:_MOST]):
+        others = _terms([*found[:number], *found[number + 1 :]])
+        term = text.source.text[slice(*text.offsets(each.span))]
+        is_bare = not any(re.search(rf"\b{one.name}\b", term) for one in problem.parameters)
+        places = _other_factors(problem, text, each)
+        powers = [place for place in places if is_bare or place[0] != place[1]]
+        found[number] = _with_term(each, only(powers, others), text)
+    return found
+
+
+def _terms(mistakes: list[Diagnostic]) -> list[str]:
+    """The terms that mistakes are about."""
+    return sorted(each.message.partition(" is ")[0] for each in mistakes)
 
 
 def _with_usual_units(problem: Problem) -> Problem:
@@ -136,9 +159,3 @@ def _other_factors(problem: Problem, text: SourceText, mistake: Diagnostic) -> l
             better = f"{base[0] if base else ''}{f'^{other}' if other > 1 else ''}"
             places.append((each.start(), each.end(), better if other else "1"))
     return places
-
-
-def _only(fits: Callable[[_Place], bool], places: list[_Place]) -> _Place | None:
-    """The only place with which every term fits; None for none, several, or very many places."""
-    found = [] if places[_TRIALS:] else list(islice(filter(fits, places), 2))
-    return found[0] if len(found) == 1 else None

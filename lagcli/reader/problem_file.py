@@ -143,6 +143,8 @@ def _composed(
         file.diagnostics += dimension_mistakes(problem, _reading if alone else None) or slips(
             problem
         )
+    elif any(each.is_error for each in file.diagnostics):
+        problem = None
     return root, problem, file.diagnostics
 
 

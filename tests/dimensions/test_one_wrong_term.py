@@ -71,3 +71,25 @@ def test_the_term_in_the_hint_is_put_in(seed):
     line, span = lines[only.span.line - 1], only.span
     lines[span.line - 1] = line[: span.column - 1] + term[1] + line[span.end_column - 1 :]
     assert errors("\n".join(lines)) == []
+
+
+def test_terms_that_are_wrong_for_themselves_are_mended_one_by_one():
+    written = (
+        "coordinates: {x: {unit: m}, theta: {unit: rad}}\n"
+        "parameters: {m: {unit: kg}, R: {unit: m}, g: {unit: m/s^2}, a: {unit: rad}}\n"
+        "T: m*x'^2/2 + m*R*theta'^2/4\nV: -m*g*x*sin(a)\nconstraints: {rolling: x' = theta'}\n"
+    )
+    first, second = errors(written)
+    assert first.hint.startswith("write m*R^2*theta'^2/4: ")
+    assert second.hint.startswith("write R*theta': ")
+    mended = written.replace("m*R*", "m*R^2*").replace("= theta'", "= R*theta'")
+    assert errors(mended) == []
+
+
+def test_no_factor_is_guessed_where_a_unit_may_be_wrong_as_well():
+    written = (
+        "coordinates: {phi: {unit: rad}}\n"
+        "parameters: {I: {unit: kg*m}, m: {unit: kg}, g: {unit: m/s^2}, s: {unit: m},"
+        " k: {unit: N/m}}\nT: I*phi'^2/2\nV: -m*g*s*cos(phi) + k*phi^2/2\n"
+    )
+    assert not [each.hint for each in errors(written) if "write" in each.hint]
