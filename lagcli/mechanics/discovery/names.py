@@ -162,9 +162,10 @@ class Naming:
             [plane] = planes
             if plane in AXES and (len(moved) == 2) == (len(self.q) <= 3):
                 return f"L_{AXES[plane]}"
-        if len(moved) == 2:  # of two masses: m_1 m_2 (x y' - y x')
+        if len(moved) == 2:
             one, other = moved
-            return f"angular_momentum_{one.name}_{other.name}"
+            kind = "angular_momentum" if whole else "rotation"  # m_1 m_2 (x y' - y x')
+            return f"{kind}_{one.name}_{other.name}"
         return "angular_momentum" if whole and len(moved) == len(self.q) else ""
 
     def of_relative(self, charge: Expr, xi: Sequence[Expr], v: Sequence[Symbol]) -> str:
