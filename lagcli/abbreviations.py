@@ -44,6 +44,8 @@ _TWO_LINES = 36
 #: What is named has as many operations, or two thirds of them where it occurs often.
 _WORTH = 8
 _OFTEN = 3
+#: What has no more operations with the names in it has none of its own.
+_HARDLY = 2
 #: Occurrences from which a sine or cosine of a difference is named.
 _CIRCULAR = 4
 _MOST_NAMES = 12
@@ -110,24 +112,26 @@ class _Abbreviations:
         self._taken = Names(taken)
         self._alike = SignedNumbers()
         self._labels: dict[str, tuple[int, int]] = {}  # what is named, as it was when chosen
+        self._wholes: dict[str, Expression] = {}
         self._chosen: dict[str, Expression] = {}
         self._trees = list(trees)
         self._stem = free_stem(PART_STEMS, taken)
         self._numbered: dict[str, list[str]] = {self._stem: [], "Delta": []}  # k1, k2, …, Δ, Δ2, …
         while len(self._chosen) < _MOST_NAMES and (best := self._best()) is not None:
             self._take(best)
+        self._short = self._left_out()
         found = dict(self._ordered())
         self._final: dict[str, str] = {}
         for labels in self._numbered.values():
             counted = (name for name in found if name in labels)
-            self._final.update(zip(counted, labels, strict=True))
+            self._final.update(zip(counted, labels, strict=False))
         self.where = {self._final.get(n, n): self._renamed(node) for n, node in found.items()}
 
     def __call__(self, node: Expression) -> Expression:
         """The formula with the names."""
         for label in self._labels:  # as they were chosen
             node = self._with_name(node, label)
-        return self._renamed(node)
+        return self._renamed(substituted(node, self._short))
 
     def _with_name(self, node: Expression, label: str) -> Expression:
         """The formula with a name for what is the same up to its sign and the order of terms."""
@@ -137,6 +141,8 @@ class _Abbreviations:
         if isinstance(node, (Name, PartialCall)) or not children(node):
             return node
         found = rebuilt(node, lambda part: self._with_name(part, label))
+        if isinstance(found, Sum):
+            found = _with_part_named(found, label, self._wholes[label])
         return node if found is node else _with_sign_before(found)
 
     def _renamed(self, node: Expression) -> Expression:
@@ -190,6 +196,7 @@ class _Abbreviations:
         if not circular:
             self._numbered[stem].append(label)
         self._labels[label] = its
+        self._wholes[label] = whole
         self._trees = [self._with_name(tree, label) for tree in self._trees]
         self._chosen = {name: self._with_name(node, label) for name, node in self._chosen.items()}
         self._chosen[label] = whole
@@ -202,6 +209,18 @@ class _Abbreviations:
             wanted = f"{stem}{number}"
         self._taken.add(wanted)
         return wanted
+
+    def _left_out(self) -> dict[str, Expression]:
+        """What is hardly longer than a name with the names in it, as a + √Δ: written out again."""
+        short: dict[str, Expression] = {}
+        for name in [*self._chosen]:
+            node = substituted(self._chosen[name], short)
+            if operation_count(node) <= _HARDLY and not isinstance(node, Call):
+                short = {n: substituted(x, {name: node}) for n, x in short.items()} | {name: node}
+                del self._chosen[name]
+        self._chosen = {name: substituted(node, short) for name, node in self._chosen.items()}
+        self._trees = [substituted(tree, short) for tree in self._trees]
+        return short
 
     def _ordered(self) -> Iterator[tuple[str, Expression]]:
         """The names as they occur in the formulas, each after those that it uses."""
@@ -224,6 +243,25 @@ def _is_worth(part: Expression, count: int, below: bool) -> bool:
         return count >= _CIRCULAR and bool(_circular_name(part))
     size = operation_count(part)
     return (below and size > 2) or size >= _WORTH or (count >= _OFTEN and 3 * size > 2 * _WORTH)
+
+
+def _with_part_named(node: Sum, label: str, whole: Expression) -> Expression:
+    """Δ + a √Δ for b² − 4 c + a √Δ, where Δ is b² − 4 c."""
+    if not isinstance(whole, Sum) or len(whole.terms) >= len(node.terms):
+        return node
+    for named, terms in (
+        (Name(label), whole.terms),
+        (Negative(Name(label)), tuple(map(opposite, whole.terms))),
+    ):
+        places = [node.terms.index(term) for term in terms if term in node.terms]
+        if len({*places}) == len(terms):
+            kept = [
+                named if k == min(places) else t
+                for k, t in enumerate(node.terms)
+                if k == min(places) or k not in places
+            ]
+            return Sum((*kept,))
+    return node
 
 
 def _circular_name(node: Expression) -> str:

@@ -235,3 +235,19 @@ def test_an_explanation_lists_each_name_where_it_first_occurs(file, also):
     for stem in {name.rstrip("0123456789") for name in names}:
         numbers = [int(n[len(stem) :] or 1) for n in names if n.rstrip("0123456789") == stem]
         assert numbers == sorted(numbers)
+
+
+@pytest.mark.parametrize("sign", ["", "-"])
+def test_a_part_of_a_sum_has_its_name(sign):
+    """Turning points of x² w²/2 + a x³/3 + b x⁴/4: Δ + a √Δ, and a + √Δ has no name."""
+    cubic = {"": "- m*a*x^3/3", "-": "+ m*a*x^3/3"}[sign]
+    file = (
+        "coordinates: [x]\nparameters: {m: {assume: positive}, w: {assume: positive}, a: ,"
+        f" b: {{assume: positive}}}}\nL: m*x'^2/2 - m*w^2*x^2/2 {cubic} - m*b*x^4/4"
+    )
+    problem = read_problem("t.yaml", file.encode()).checked()
+    short = state(derive(problem), Request(sections=("reduction",), abbreviate=True))
+    assert list(short.where) == ["Delta"]
+    shown = render([short], "text", Options())
+    assert "Δ + a √Δ" in shown
+    assert shown.count("a² − 4 w² b") == 1
