@@ -338,8 +338,7 @@ def _rate(motion: Motion, potential: Expression, order: Sequence[str]) -> Expres
     for factor in sympy.Mul.make_args(motion.mass / 2):
         base, power = factor.as_base_exp()
         if factor.is_Rational:
-            above, below = map(square_part, factor.as_numer_denom())
-            outside *= above[0] / below[0]
+            outside *= square_part(sympy.Integer(factor.p))[0]  # sqrt(3 m/(4 (E - V)))
         elif base.is_positive and power.is_Integer:
             outside *= base ** int(power / 2)
     writer = Writer(order)
