@@ -164,14 +164,22 @@ def _spread(form: Expression, hamiltonian: Hamiltonian) -> int:
 
 
 def _above_and_below(form: Expression, hamiltonian: Hamiltonian) -> int:
-    """What (r² p_r² + (p_phi - b)²)/(2 m r²) costs, where each momentum has a mass of its own."""
+    """What (r² p_r² + (p_phi - b)²)/(2 m r²) costs, where each momentum has a mass of its own.
+
+    So does (m2 p1² + m1 p2²)/(2 m1 m2 l²), of momenta that are not coupled.
+    """
     coordinates = {q.name for q in hamiltonian.system.q}
     momenta = {p.name for p in hamiltonian.system.momenta}
     for part in walk(form):
         if not isinstance(part, Quotient):
             continue
         below = {f.base if isinstance(f, Power) else f for f in factors_of(part.denominator)}
-        letters = {f for f in below if isinstance(f, Name) and f.name in coordinates}
+        names = [
+            {n.name for n in walk(t) if isinstance(n, Name)} & momenta
+            for t in terms_of(part.numerator)
+        ]
+        apart = all(len(each) == 1 for each in names)
+        letters = {f for f in below if isinstance(f, Name) and (apart or f.name in coordinates)}
         monomial = not any(isinstance(f, Sum) for f in below)
         for term in terms_of(part.numerator) if monomial else ():
             factors = {f.base if isinstance(f, Power) else f for f in factors_of(term)}
