@@ -258,7 +258,7 @@ class Writer:
             return ZERO
         if len(parts) == 1:
             return parts[0]
-        parts.sort(key=self.ordering.term)
+        parts = self.ordering.sorted(parts)
         if self.ordering.term(parts[0])[0] == 0:
             parts = positive_first(parts)
         return Sum(tuple(parts))

@@ -19,6 +19,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
     factors_of,
+    opposite,
     power_of,
     quotient_of,
     walk,
@@ -122,6 +123,27 @@ def _number_of(above: Iterable[Expression], below: Iterable[Expression]) -> Frac
         for fs in (above, below)
     )
     return over / under
+
+
+def over_root(node: Expression) -> Expression:
+    """x (1 − l/√(x² + y²)) for x (√(x² + y²) − l)/√(x² + y²), of a product."""
+    minus, above, below = parts_of(node)
+    if any(isinstance(whole_power(f)[0], Sum) for f in below):  # a fraction in a sum over a sum
+        return node
+    for root in (f for f in below if isinstance(f, Call) and f.function == "sqrt"):
+        for place, factor in enumerate(above if isinstance(root.arguments[0], Sum) else ()):
+            terms = factor.terms if isinstance(factor, Sum) else ()
+            left = [term for term in terms if term not in (root, opposite(root))]
+            if len(terms) != 2 or len(left) != 1 or root in walk(left[0]):
+                continue
+            turned = opposite(root) in terms
+            other, over, under = parts_of(left[0])
+            ratio = quotient_of(over, [*under, root])
+            above[place] = Sum((ONE, Negative(ratio) if other ^ turned else ratio))
+            below = [f for f in below if f is not root]
+            whole = quotient_of([*above], below)
+            return over_root(Negative(whole) if minus ^ turned else whole)
+    return node
 
 
 def cancelled(
@@ -284,13 +306,13 @@ def multiplied(node: Sum, ordering: Ordering) -> Sum:
     names = {part.name for part in walk(node) if isinstance(part, Name)}
     if len({name.rstrip("0123456789_").lower() for name in names}) != 1:
         return node
-    terms = [each for term in node.terms for each in _distributed(term, ordering)]
+    terms = [each for term in node.terms for each in distributed(term, ordering)]
     if not len(node.terms) < len(terms) <= _MULTIPLIED:
         return node
-    return Sum(tuple(positive_first(sorted(terms, key=ordering.term))))
+    return Sum(tuple(positive_first(ordering.sorted(terms))))
 
 
-def _distributed(term: Expression, ordering: Ordering) -> list[Expression]:
+def distributed(term: Expression, ordering: Ordering) -> list[Expression]:
     """The terms of a product with one bracket; the product itself where it is none."""
     minus, above, below = parts_of(term)
     sums = [factor for factor in above if isinstance(factor, Sum)]

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
 from math import gcd, lcm, prod
-from typing import cast
+from typing import TypeAlias, cast
 
 from lagcli.expression import (
     ONE,
@@ -34,6 +34,7 @@ from lagcli.expression import (
 )
 from lagcli.notation.factors import (
     base_and_exponent,
+    distributed,
     odd_base,
     parts_of,
     power_product,
@@ -51,7 +52,7 @@ from lagcli.notation.likeness import (
     parity,
     signed_key,
 )
-from lagcli.notation.ordering import Ordering, is_letter, is_rate
+from lagcli.notation.ordering import Ordering, is_letter, is_rate, positive_first
 from lagcli.rewriting import rebuilt
 
 #: How many times as long as the answer's the file's own sum may be.
@@ -60,6 +61,8 @@ _LONGER = 1.4
 _LIMIT = 2
 #: Terms of a sum, or a part of one, that is looked for within longer sums.
 _SHORT = 4
+#: The letters of a sum or its square, what it is multiplied out, and it.
+_Short: TypeAlias = tuple[frozenset[Expression], Polynomial, Expression]
 
 
 class GivenSums:
@@ -78,7 +81,7 @@ class GivenSums:
     ) -> None:
         self._found: dict[frozenset[Expression], list[tuple[Polynomial, Sum]]] = {}
         self._ordering = ordering
-        self._short: list[tuple[frozenset[Expression], Polynomial, Expression]] = []
+        self._short: list[_Short] = []
         for whole in energies:
             self._keep(whole, multiplied_out(whole))
         for part in (part for node in formulas for part in walk(node)):
@@ -102,11 +105,31 @@ class GivenSums:
                 self._short.append((leaves, out, part))
 
     def within(self, node: Sum) -> Sum:
-        """a (x + y)² + b for a x² + 2 a x y + a y² + b, where the file has x + y."""
+        """a (x + y)² + b for a x² + 2 a x y + a y² + b, where the file has x + y.
+
+        k (z − y) − c (y − x) for k z − (k + c) y + c x, where it has z − y and y − x.
+        """
         leaves = _leaves(node)
         near = [each for each in self._short if each[0] <= leaves]
         if not near or len(node.terms) < 2:
             return node
+        found = self._with_short(node, near)
+        apart = [each for term in node.terms for each in self._of_each_parameter(term)]
+        if len(apart) == len(node.terms):
+            return found
+        other = self._with_short(Sum((*apart,)), near)
+        shorter = len(other.terms) < len(found.terms) and _cost(other) <= _cost(found)
+        return Sum((*positive_first(other.terms),)) if shorter else found
+
+    def _of_each_parameter(self, term: Expression) -> list[Expression]:
+        """a x and b x of (a + b) x with parameters a and b."""
+        _, above, _ = parts_of(term)
+        sums = [f for f in above if isinstance(f, Sum)]
+        if len(above) == len(sums) or not all(map(self._ordering.is_parameter, sums)):
+            return [term]
+        return distributed(term, self._ordering)
+
+    def _with_short(self, node: Sum, near: Sequence[_Short]) -> Sum:
         parts = [multiplied_out(term) for term in node.terms]
         if any(part is None or len(part) > _SHORT for part in parts):
             return node

@@ -44,6 +44,7 @@ from lagcli.notation.factors import (
     cancelled,
     multiplied,
     odd_base,
+    over_root,
     parts_of,
     power_product,
     product_of_powers,
@@ -146,6 +147,8 @@ class Manner:
                 continue
             if several and self._above.has(base):
                 continue
+            if several and self._momenta.are_subtracted(negative_of(base)):
+                continue
             minuses = sum(isinstance(term, Negative) for term in base.terms)
             if 2 * minuses + 1 >= len(base.terms):  # no more minus signs than before
                 above[place] = with_base(factor, negative_of(base))
@@ -155,6 +158,8 @@ class Manner:
     def vanishing(self, node: Expression) -> Expression:
         """What is 0 where the node is: x2 − x1 − l where the file has that, not x1 − x2 + l."""
         shown = self(node)
+        if isinstance(shown, Negative):
+            return shown.operand
         return negative_of(shown) if isinstance(shown, Sum) and self._signs.wrong(shown) else shown
 
     def _in_manner(self, node: Expression, *, inside: bool) -> Expression:
@@ -285,7 +290,8 @@ class Manner:
     def _sum(self, node: Sum) -> Expression:
         """The sum, its brackets as in the denominator above: a - b (u - v), not a + b (v - u)."""
         whole = multiplied(self._ordered(node), self._ordering)
-        first, *rest = with_versines(self._sums.within(whole).terms)
+        found = map(over_root, self._sums.within(whole).terms)
+        first, *rest = with_versines(tuple(found))
         return Sum((first, *map(self._as_within, rest))) if rest else first
 
     def _ordered(self, node: Sum) -> Sum:
@@ -294,12 +300,12 @@ class Manner:
         terms = [each for term in terms for each in self._opened(term)]
         terms = self._brackets.velocity(terms)
         if not isinstance(terms[0], Negative):
-            return node if tuple(terms) == node.terms else Sum(tuple(terms))
+            return node if tuple(terms) == node.terms else Sum((*self._ordering.in_powers(terms),))
         if accelerates(terms[0]):  # m l² θ'' − m l y'' sin θ + …
             first = [t for t in terms if not isinstance(t, Negative) and accelerates(t)][:1]
             return Sum((*first, *(t for t in terms if t not in first)))
         # in order anew: a bracket that was turned has changed the sign of its term
-        return Sum((*positive_first(sorted(terms, key=self._ordering.term)),))
+        return Sum((*positive_first(self._ordering.sorted(terms)),))
 
     def _opened(self, term: Expression) -> list[Expression]:
         """2 Ω y' and Ω² x of Ω (2 y' + Ω x), where the file does not have the bracket."""
@@ -343,7 +349,9 @@ class Manner:
             if like is not None and abs(like[0]) == 1:
                 return Power(like[1], node.exponent)
             wrong = self._signs.wrong(base)
-            turned = self._signs.begins_worse(base) or self._momenta.are_subtracted(base)
+            turned = self._momenta.are_subtracted(base)
+            if not self._momenta.are_subtracted(negative_of(base)):
+                turned = turned or self._signs.begins_worse(base)
             if wrong or (wrong is None and turned):
                 return Power(negative_of(base), node.exponent)
         return with_whole_powers(node)
@@ -407,6 +415,10 @@ class Manner:
         for factors, place in free if several else ():
             base, _ = odd_base(factors[place])
             assert base is not None
+            if self._momenta.are_subtracted(base):  # (r p − a) (r p − b)
+                base = negative_of(base)
+                factors[place] = with_base(factors[place], base)
+                minus = not minus
             if self._above.turns(base):
                 factors[place] = with_base(factors[place], negative_of(base))
                 minus = not minus
@@ -415,8 +427,11 @@ class Manner:
             assert base is not None
             if several and self._above.has(base):
                 continue
+            turned = negative_of(base)
+            if several and self._momenta.are_subtracted(turned):  # r p − k, not k − r p
+                continue
             if 2 * sum(isinstance(t, Negative) for t in base.terms) >= len(base.terms):
-                factors[place] = with_base(factors[place], negative_of(base))
+                factors[place] = with_base(factors[place], turned)
                 minus = False
                 break
         for factor in () if inside else below:
@@ -431,7 +446,7 @@ class Manner:
         else:
             above = self._ordering.with_letters(above)
         below = self._ordering.with_letters(below)
-        whole = quotient_of(above, below)
+        whole = over_root(quotient_of(above, below))
         return Negative(whole) if minus else whole
 
 

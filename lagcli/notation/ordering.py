@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
+from itertools import pairwise
 from typing import TypeAlias
 
 from lagcli.expression import (
@@ -23,6 +24,8 @@ from lagcli.expression import (
 )
 
 _AFTER_NUMBERS = 10**6  # no file has so many names; measured: 21
+#: Terms of a polynomial whose order is seen.
+_SEVERAL = 3
 #: sin(x)*cos(x), but other functions by name.
 _RANK = {"sin": "co", "sinh": "co"}
 _CIRCULAR = frozenset(("sin", "cos", "tan", "cot"))
@@ -209,6 +212,21 @@ class Ordering:
         moving = -rates if velocities > 1 and momenta else -velocities  # s'² before s' p, before p²
         return (-accelerations, not number, fast, moving, variables, later, letters)
 
+    def sorted(self, terms: Iterable[Expression]) -> list[Expression]:
+        """The terms in their order, a polynomial in one variable by its powers."""
+        return self.in_powers(sorted(terms, key=self.term))
+
+    def in_powers(self, terms: list[Expression]) -> list[Expression]:
+        """w² + a x + b x², not a x + b x² + w²; r² + 2 a r + 2 a², not 2 a r + r² + 2 a²."""
+        names = {part.name for term in terms for part in walk(term) if isinstance(part, Name)}
+        moving = [x for x in names if not self.is_parameter(Name(x))]
+        powers = _powers(terms, moving[0]) if len(moving) == 1 else None
+        if powers is None or len(set(powers)) < max(_SEVERAL, len(terms)) or _is_monotone(powers):
+            return terms
+        rising = len({sum(_power(term, x) or 0 for x in names) for term in terms}) > 1
+        places = sorted(range(len(terms)), key=powers.__getitem__, reverse=not rising)
+        return [terms[k] for k in places]
+
     def _variables(self, node: Expression) -> Iterator[int]:
         """Positions of the coordinates among the factors, of those with the most primes."""
         names = list(_factor_names(node))
@@ -290,18 +308,69 @@ def _has_letters(node: Expression) -> bool:
 
 
 def positive_first(terms: Sequence[Expression]) -> list[Expression]:
-    """The terms with one that has no minus first; of a sum of letters all that follow it.
+    """The terms with one that has no minus first; of a sum at rest all that follow it.
 
-    x y' − y x' + c, but m2 + m3 − m1.
+    x y' − y x' + c, but m2 + m3 − m1, k/m + k/M − W²; b² + 3 a b − a², not 3 a b − a² + b².
     """
     minus = [isinstance(term, Negative) for term in terms]
     if all(minus) or not minus[0]:
         return [*terms]
+    rest = not any(map(_moves, terms))
+    if rest and len(terms) >= _SEVERAL and not minus[-1] and _are_in_powers(terms):
+        return [*terms[::-1]]
     begin = minus.index(False)
     end = begin + 1
-    while all(map(is_letter, terms)) and end < len(terms) and not minus[end]:
+    together = rest or all(map(is_letter, terms))
+    while together and end < len(terms) and not minus[end]:
         end += 1
     return [*terms[begin:end], *terms[:begin], *terms[end:]]
+
+
+def _moves(term: Expression) -> bool:
+    """Whether a velocity, a momentum, a root or another function is in it."""
+    return any(
+        isinstance(part, (Call, PartialCall))
+        or (isinstance(part, Name) and (part.primes > 0 or part.name.startswith("p_")))
+        for part in walk(term)
+    )
+
+
+def _are_in_powers(terms: Sequence[Expression]) -> bool:
+    """Whether the powers of a letter rise or fall from each term to the next."""
+    names = (part.name for part in walk(terms[-1]) if isinstance(part, Name) and not part.primes)
+    found = (_powers(terms, name) for name in names)
+    return any(powers is not None and _is_monotone(powers) for powers in found)
+
+
+def _is_monotone(powers: Sequence[int]) -> bool:
+    rises, falls = (all(x < y for x, y in pairwise(p)) for p in (powers, powers[::-1]))
+    return rises or falls
+
+
+def _powers(terms: Sequence[Expression], name: str) -> list[int] | None:
+    """The exponents of a letter in the terms; None where it stands anywhere but in powers."""
+    found = [_power(term, name) for term in terms]
+    return None if None in found else [power for power in found if power is not None]
+
+
+def _power(term: Expression, name: str) -> int | None:
+    match term:
+        case Name(name=other):
+            return int(name == other and not term.primes)
+        case Number():
+            return 0
+        case Negative(operand=inner):
+            return _power(inner, name)
+        case Quotient(numerator=above, denominator=Number()):
+            return _power(above, name)
+        case Power(base=Name() as base, exponent=Number(value=value)) if value.denominator == 1:
+            within = _power(base, name)
+            return None if within is None else within * value.numerator
+        case Product(factors=factors):
+            powers = [_power(factor, name) for factor in factors]
+            return None if None in powers else sum(p for p in powers if p is not None)
+        case _:
+            return None
 
 
 def negative_of(node: Sum) -> Sum:

@@ -38,7 +38,7 @@ WRITTEN = [
     ("m*r*phi'^2 + 2*m*r*w*phi' + m*r*w^2 - B", "m*r*(phi' + w)^2 - B"),
     (
         "q*x - q*l*x/sqrt(x^2 + y^2)",
-        "q*x*(sqrt(x^2 + y^2) - l)/sqrt(x^2 + y^2)",
+        "q*x*(1 - l/sqrt(x^2 + y^2))",
     ),
     (
         "m*l^2 + m*r*(r - 2*l*cos(phi)) + q",

@@ -358,3 +358,20 @@ def test_a_potential_of_one_term_is_no_sum(V: str) -> None:
     account = explain(derive(read.problem), ("equilibria", "reduction", "steady_motions"))
     trees = [tree for step in account.steps for tree in expressions_in(step.blocks)]
     assert not [n for t in trees for n in walk(t) if isinstance(n, Sum) and len(n.terms) < 2]
+
+
+@pytest.mark.parametrize("root", ["sqrt(x^2 + y^2)", "sqrt(b^2 + x^2)"])
+def test_a_root_stands_once(root: str) -> None:
+    """The force of a spring: k (1 − l/r) x, not k x (r − l)/r with r written out."""
+    found = text("x, y", "m k b l", f"L: m*(x'^2 + y'^2)/2 - k*({root} - l)^2/2", "accelerations")
+    shown = root.replace("sqrt", "√").replace("^2", "²")
+    assert f"ẍ = −k x (1 − l/{shown})/m" in found
+
+
+@pytest.mark.parametrize("power", [1, 2])
+def test_momenta_are_not_subtracted_in_one_row_of_those_that_have_them_first(power: int) -> None:
+    """A charge in the plane of a dipole (Störmer)."""
+    physics = f"L: m*(r'^2 + r^2*s'^2)/2 + k*s'/r^{power}"
+    found = text("r, s", "m k", physics, "canonical_equations", "reduction", "steady_motions")
+    assert "p_s − k" in found
+    assert "k − r" not in found

@@ -6,6 +6,11 @@ from itertools import permutations
 
 import pytest
 
+from lagcli.formatters import Options
+from lagcli.pipeline import render
+from lagcli.reader import read_problem
+from tests.solved import solve
+
 from .test_one_shape import text
 
 SLOPES = "T: (a1*x1'^2 + a2*x2'^2)/2\nV: -a1*g*x1*sin(u) - a2*g*x2*sin(w)\n"
@@ -59,6 +64,16 @@ def test_the_hamiltonian_has_the_terms_of_the_potential_in_their_order(V: tuple[
          "h = b c²/√(1 − q̇²/c²) + a q²/2"),
         # (2 a q')² is not written out, nor does it come before the mass
         ("T: b*(2*a*q*q')^2/2 + b*q'^2/2\nV: g*q", "energy", "h = b (1 + 4 a² q²) q̇²/2 + g q"),
+        # a polynomial rises or falls in its powers: Landau and Lifshitz, section 28
+        ("T: b*q'^2/2\nV: b*g^2*q^2/2 + b*a*q^3/3 + b*c*q^4/4", "accelerations",
+         "q̈ = −q (g² + a q + c q²)"),
+        # what is not coupled has a fraction of its own
+        ("T: c^2*(a*q'^2 + b*s'^2)/2", "hamiltonian", "p_q²/(2 c² a) + p_s²/(2 c² b)"),
+        # what is subtracted stands behind what is added
+        ("T: a*(q'^2 + g^2*q^2)/2 + b*(s'^2 + g^2*s^2)/2\nV: c*(q - s)^2/2", "modes",
+         "√(c/a + c/b − g²)"),
+        # no number before the root, which twice the integral would cancel
+        ("T: 3*b*q'^2/4\nV: a*q^2/2", "reduction", "T = 2 ∫ √(3 b/(4 (E − a q²/2))) dq"),
     ],
 )  # fmt: skip
 def test_shapes_as_books_have_them(physics: str, section: str, written: str) -> None:
@@ -86,3 +101,24 @@ def test_of_two_equal_coordinates_the_later_one_is_eliminated() -> None:
     physics = "T: m*(z'^2 + a'^2)/2\nV: k*z^4\nconstraints: {c: a = z}"
     assert "z is used" not in (found := text("z, a", "m k", physics, "reduction"))
     assert "eliminate a" in found
+
+
+@pytest.mark.parametrize("inertia", ["m", "a"])
+def test_differences_of_the_file_stay_where_a_body_hangs_between_two(inertia: str) -> None:
+    physics = f"T: {inertia}*(x'^2 + y'^2 + z'^2)/2\nV: k*(y - x)^2/2 + b*(z - y)^2/2"
+    rows = text("x, y, z", "m a k b", physics, "accelerations")
+    assert f"ÿ = (b (z − y) − k (y − x))/{inertia}" in rows
+
+
+@pytest.mark.parametrize("name", ["V", "V_eff", "U_eff"])
+def test_a_potential_without_a_minimum_is_named_by_a_formula(name: str) -> None:
+    physics = {
+        "V": "T: m*x'^2/2\nV: m*g*x",
+        "V_eff": "L: m*x'^2/2 - m*g*x",
+        "U_eff": "T: m*(x'^2 + y'^2)/2\nV: m*g*x",
+    }[name]
+    coordinates = "x, y" if "y" in physics else "x"
+    file = f"coordinates: [{coordinates}]\nparameters: [m, g]\n{physics}"
+    answers = solve(read_problem("t.yaml", file.encode()).checked(), ["reduction"])
+    shown = name.replace("_eff", r"_{\mathrm{eff}}")
+    assert f"${shown}$ has no minimum" in render([answers], "latex", Options())
