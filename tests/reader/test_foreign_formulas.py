@@ -156,7 +156,7 @@ def test_a_line_that_yaml_does_not_read_is_proposed_as_the_reader_accepts_it(lin
 
 SUMS = [
     "sum({}, i=1..{})", "sum({}, i, 1, {})", "Sum({}, (i, 1, {}))", "sum({}, i = 1:{})",
-    "sum({}, i from 1 to {})", "Σ_i {}", "∑_{{i}} {}",
+    "sum({}, i from 1 to {})", "sum({})", "Σ_i {}", "∑_{{i}} {}",
     r"\sum_{{i=1}}^{{{1}}} {0}", r"\sum_i {}",
 ]  # fmt: skip
 

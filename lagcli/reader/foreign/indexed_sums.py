@@ -18,6 +18,8 @@ _SIGN = re.compile(
     r"(?:Σ|∑|\\sum|(?<![\w.])[sS]um(?=_))\s*(?:\\limits)?\s*"
     r"_\{?\s*(?P<index>[^\W\d_])\s*(?:=\s*(?P<first>\d+)\s*\}?\s*\^?\{?\s*(?P<last>\d+))?\s*\}?"
 )
+#: An index of a name: x_i, x[i].
+_INDEXED = re.compile(r"(?<=[^\W_])(?:_\{?|\[)(?P<index>[i-n])(?![\w])(?P<first>)")
 _MOST = 12
 
 
@@ -31,10 +33,11 @@ def written_out(text: str, names: Vocabulary) -> str:
     """
     while called := _CALL.search(text):
         end = _closing(text, called.end())
-        inside = _BEHIND.fullmatch(text[called.end() : end])
-        if inside is None:
+        within = text[called.end() : end]
+        inside = _BEHIND.fullmatch(within) or _INDEXED.search(within)
+        if inside is None or ("term" not in inside.groupdict() and "," in within):
             return text
-        terms = _terms(inside["term"], inside, names)
+        terms = _terms(inside.groupdict().get("term", within), inside, names)
         text = text[: called.start()] + terms + text[end + 1 :]
     while signed := _SIGN.search(text):
         end = _end_of_product(text, signed.end())
