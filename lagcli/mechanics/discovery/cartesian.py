@@ -6,17 +6,20 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, is_zero, simplify
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.slots import SlotEquations
 
+Functions = tuple[tuple[str, Expr], ...]
+
 
 @dataclass(frozen=True, slots=True)
 class Cartesian:
-    """Functions X of the coordinates, with their names, in which T is m (dX/dt)^2/2."""
+    """Functions X of coordinates q, with their names: T is m (dX/dt)^2/2 plus that of others."""
 
+    q: tuple[Symbol, ...]
     names: tuple[str, ...]
     X: tuple[Expr, ...]
     mass: Expr
@@ -27,36 +30,59 @@ class Cartesian:
         length: Expr = simplify(sympy.sqrt(sympy.Add(*(x**2 for x in self.X))))
         return length.replace(sympy.Abs, lambda r: r)
 
-    def moved(self, q: Sequence[Expr], changes: Sequence[Expr]) -> list[Expr]:
+    def moved(self, q: Sequence[Symbol], changes: Sequence[Expr]) -> list[Expr]:
         """The components of a displacement, or of a velocity, that the coordinates have."""
         return [simplify(dot([x.diff(c) for c in q], changes)) for x in self.X]
 
 
 def cartesian(kinds: Kinds, equations: SlotEquations) -> Cartesian | None:
-    """Lengths about their centre; r and phi, with z; r, theta and phi; None for anything else."""
-    q, mass = equations.q, equations.mass
-    others = [x for x in q if x not in (*kinds.radii, *kinds.angles)]
-    found = [(x.name, x - kinds.centre.get(x, 0)) for x in others]
-    if len(kinds.radii) == 1 and len(kinds.angles) == 1:
-        [r], [phi] = kinds.radii, kinds.angles
-        found = [("x", r * sympy.cos(phi)), ("y", r * sympy.sin(phi)), *found]
-    elif len(kinds.radii) == len(kinds.latitudes) == 1 and len(kinds.angles) == 2:
-        [r], [(theta, pole)] = kinds.radii, kinds.latitudes.items()
+    """Lengths about their centre; r and phi, with z; r, theta and phi; None for anything else.
+
+    Beside r and its angles there may be coordinates of another inertia, as of a centre of mass.
+    """
+    curved = _of_radius(kinds)
+    others = {x: (x.name, x - kinds.centre.get(x, 0)) for x in equations.q if x not in curved[0]}
+    whole = tuple(others), tuple(others.values())
+    choices = [(whole[0] + curved[0], curved[1] + whole[1]), *([curved] if curved[0] else [])]
+    made = (_of_one_mass(q, functions, equations) for q, functions in choices)
+    return next((each for each in made if each is not None), None)
+
+
+def _of_radius(kinds: Kinds) -> tuple[tuple[Symbol, ...], Functions]:
+    """r and its angles, with x, y and z of them; nothing where there is no r, or more than one."""
+    if len(kinds.radii) != 1:
+        return (), ()
+    [r] = kinds.radii
+    if len(kinds.angles) == 1:
+        [phi] = kinds.angles
+        return (r, phi), (("x", r * sympy.cos(phi)), ("y", r * sympy.sin(phi)))
+    if len(kinds.latitudes) == 1 and len(kinds.angles) == 2:
+        [(theta, pole)] = kinds.latitudes.items()
         [phi] = [y for y in kinds.angles if y != theta]
         axis = (sympy.sin if pole.func is sympy.cos else sympy.cos)(theta)
-        flat = r * pole
-        found += [("x", flat * sympy.cos(phi)), ("y", flat * sympy.sin(phi)), ("z", r * axis)]
-    if not found or len(found) != len(q):
+        x, y = r * pole * sympy.cos(phi), r * pole * sympy.sin(phi)
+        return (r, theta, phi), (("x", x), ("y", y), ("z", r * axis))
+    return (), ()
+
+
+def _of_one_mass(
+    q: tuple[Symbol, ...], functions: Functions, equations: SlotEquations
+) -> Cartesian | None:
+    places = [equations.q.index(x) for x in q]
+    rest = [k for k in range(len(equations.q)) if k not in places]
+    if not q or len(functions) != len(q):
         return None
-    columns = [[X.diff(x) for _, X in found] for x in q]
-    m = simplify(mass[0][0] / dot(columns[0], columns[0]))
-    if not m.free_symbols.isdisjoint({equations.t, *q, *equations.v}):
+    if any(is_zero(equations.mass[i][k]) is not True for i in places for k in rest):
+        return None
+    names, X = zip(*functions, strict=True)
+    columns = [[function.diff(x) for function in X] for x in q]
+    m = simplify(equations.mass[places[0]][places[0]] / dot(columns[0], columns[0]))
+    if not m.free_symbols.isdisjoint({equations.t, *equations.q, *equations.v}):
         return None
     if not all(
-        is_zero(entry - m * dot(a, b)) is True
-        for a, row in zip(columns, mass, strict=True)
-        for b, entry in zip(columns, row, strict=True)
+        is_zero(equations.mass[i][k] - m * dot(a, b)) is True
+        for i, a in zip(places, columns, strict=True)
+        for k, b in zip(places, columns, strict=True)
     ):
         return None
-    names, X = zip(*found, strict=True)
-    return Cartesian(names, X, m)
+    return Cartesian(q, names, X, m)

@@ -342,7 +342,8 @@ class Discovery(Setting):
     def _with_energies_of_modes(self, named: list[Named]) -> list[Named]:
         """Energies of modes for as many unnamed products of point charges."""
         products = Products(self.noether, self.point_charges, self.allowed)
-        nameless = [each for each in named if not each[0] and products.includes(each[2])]
+        plain = [each for each in named if not each[0] or each[0].startswith("p_")]
+        nameless = [each for each in plain if products.includes(each[2])]
         kept = [each for each in named if each not in nameless]
         known = [*self.fixed_charges, *(charge for _, _, charge in kept)]
         modes = products.modes(known)[: len(nameless)] if nameless else []

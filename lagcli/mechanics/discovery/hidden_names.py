@@ -157,14 +157,14 @@ class HiddenNames:
 
     def _axes(self, kinds: Kinds) -> Sequence[tuple[str, Expr]]:
         """Cartesian coordinates, with their names, where V is a function of r alone."""
-        found, q, V = self._cartesian, self.q, self.V
+        found, V = self._cartesian, self.V
         if found is None or len(found.X) < 2 or is_zero(V) is True:
             return ()
         if kinds.angles:
-            central = V.free_symbols.isdisjoint({*q} - {*kinds.radii})
+            central = V.free_symbols.isdisjoint(kinds.angles)
         else:
             central = all(
-                is_zero(V.diff(q[k]) * found.X[i] - V.diff(q[i]) * found.X[k]) is True
-                for i, k in combinations(range(len(q)), 2)
+                is_zero(V.diff(q) * y - V.diff(p) * x) is True
+                for (p, x), (q, y) in combinations(zip(found.q, found.X, strict=True), 2)
             )
         return list(zip(found.names, found.X, strict=True)) if central else ()

@@ -51,6 +51,8 @@ class Naming:
         """The Cartesian components of what moves all places alike, where angles hide that."""
         if self.cartesian is None or not self.kinds.angles:
             return {}
+        if any(e != 0 for x, e in zip(self.q, xi, strict=True) if x not in self.cartesian.q):
+            return {}
         components = self.cartesian.moved(self.q, xi)
         if not sympy.Tuple(*components).free_symbols.isdisjoint(self.q):
             return {}
