@@ -13,6 +13,7 @@ from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.slots import SlotEquations
 
 Functions = tuple[tuple[str, Expr], ...]
+_PLANES = ("xy", "yz", "zx")  # across the axis of a cylinder, right-handed
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +41,7 @@ def cartesian(kinds: Kinds, equations: SlotEquations) -> Cartesian | None:
 
     Beside r and its angles there may be coordinates of another inertia, as of a centre of mass.
     """
-    curved = _of_radius(kinds)
+    curved = _of_radius(kinds, equations)
     others = {x: (x.name, x - kinds.centre.get(x, 0)) for x in equations.q if x not in curved[0]}
     whole = tuple(others), tuple(others.values())
     choices = [(whole[0] + curved[0], curved[1] + whole[1]), *([curved] if curved[0] else [])]
@@ -48,15 +49,21 @@ def cartesian(kinds: Kinds, equations: SlotEquations) -> Cartesian | None:
     return next((each for each in made if each is not None), None)
 
 
-def _of_radius(kinds: Kinds) -> tuple[tuple[Symbol, ...], Functions]:
-    """r and its angles, with x, y and z of them; nothing where there is no r, or more than one."""
+def _of_radius(kinds: Kinds, equations: SlotEquations) -> tuple[tuple[Symbol, ...], Functions]:
+    """r and its angles, with x, y and z of them; nothing where there is no r, or more than one.
+
+    Names of other coordinates are not taken again: about x they are y and z.
+    """
     if len(kinds.radii) != 1:
         return (), ()
+    taken = {x.name for x in equations.q if x not in (*kinds.radii, *kinds.angles)}
     [r] = kinds.radii
     if len(kinds.angles) == 1:
         [phi] = kinds.angles
-        return (r, phi), (("x", r * sympy.cos(phi)), ("y", r * sympy.sin(phi)))
-    if len(kinds.latitudes) == 1 and len(kinds.angles) == 2:
+        plane = next((axes for axes in _PLANES if taken.isdisjoint(axes)), "")
+        circle = r * sympy.cos(phi), r * sympy.sin(phi)
+        return ((r, phi), tuple(zip(plane, circle, strict=True))) if plane else ((), ())
+    if taken.isdisjoint("xyz") and len(kinds.latitudes) == 1 and len(kinds.angles) == 2:
         [(theta, pole)] = kinds.latitudes.items()
         [phi] = [y for y in kinds.angles if y != theta]
         axis = (sympy.sin if pole.func is sympy.cos else sympy.cos)(theta)

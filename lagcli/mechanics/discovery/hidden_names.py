@@ -87,8 +87,9 @@ class HiddenNames:
         n, v = range(len(X)), self._cartesian.moved(self.q, self.v)
         L = {(i, k): X[i] * v[k] - X[k] * v[i] for i in n for k in n}
         for i, k in combinations(n, 2):
-            yield f"L_{AXES[''.join(sorted(names[i] + names[k]))]}_squared", L[i, k] ** 2
-            mixed = f"fradkin_{names[i]}{names[k]}" if elastic else f"p_{names[i]}_p_{names[k]}"
+            x, y = sorted((names[i], names[k]))
+            yield f"L_{AXES[x + y]}_squared", L[i, k] ** 2
+            mixed = f"fradkin_{x}{y}" if elastic else f"p_{x}_p_{y}"
             yield mixed, v[i] * v[k]
         if len(X) == 3:
             yield "L_squared", sympy.Add(*(L[pair] ** 2 for pair in combinations(n, 2)))

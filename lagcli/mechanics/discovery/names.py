@@ -36,6 +36,8 @@ class Naming:
         if along := self._carried(xi):
             timed = self.t in sympy.Tuple(*along.values()).free_symbols
             return self._translation_in_time(along) if timed else self._translation(along)
+        if turned := self._turned(xi):
+            return f"L_{turned[0]}"
         if all(not (e.free_symbols & {self.t, *self.q}) for e in moved.values()):
             return self._translation(moved)
         if not any(e.free_symbols & set(self.q) for e in moved.values()):
@@ -58,6 +60,22 @@ class Naming:
             return {}
         named = zip(self.cartesian.names, components, strict=True)
         return {Symbol(name, real=True): change for name, change in named if change != 0}
+
+    def _turned(self, xi: Sequence[Expr]) -> tuple[str, int] | None:
+        """The axis of a rotation about the origin, with its sign, where angles hide that."""
+        found, hidden = self.cartesian, bool(self.kinds.angles) and sum(e != 0 for e in xi) > 1
+        if found is None or not hidden or set(found.names) != set(AXES.values()):
+            return None
+        if any(e != 0 for x, e in zip(self.q, xi, strict=True) if x not in found.q):
+            return None
+        X = dict(zip(found.names, found.X, strict=True))
+        moved = dict(zip(found.names, found.moved(self.q, xi), strict=True))
+        for axis, y, z in ("xyz", "yzx", "zxy"):
+            for sign in (1, -1) if moved[axis] == 0 else ():
+                apart = moved[y] + sign * X[z], moved[z] - sign * X[y]
+                if all(is_zero(e) is True for e in apart):
+                    return axis, sign
+        return None
 
     def _drift(self, change: Expr) -> Expr:
         """The part of a displacement that is the same at all places."""
@@ -256,13 +274,14 @@ class Naming:
         """Whether its angle is that of the rotation about the body's own axis.
 
         That one occurs in T, or its inertia is constant; of a sphere, whose T has both angles
-        alike, it is the later one.
+        alike, it is the one that is not called phi, or the later one.
         """
         [angle] = tilt.free_symbols
         if angle not in self.kinds.cyclic:
             return True
         alike = [x for x in self.q if x in self.kinds.cyclic and x in moved]
-        precessing = next((x for x in alike if x in self.kinds.tilted), alike[0])
+        named = next((x for x in alike if x.name == "phi"), alike[0])
+        precessing = next((x for x in alike if x in self.kinds.tilted), named)
         return bool(precessing != angle)
 
     def orientation(self, name: str, charge: NoetherCharge) -> Expr:
@@ -282,7 +301,9 @@ class Naming:
         name = name.removesuffix(MOVING)
         if name not in ("L_x", "L_y", "L_z", "L_1", "L_2"):
             return sympy.S.One
-        if tilt := self._tilt(moved):
+        if turned := self._turned(xi):
+            right = turned[1] > 0
+        elif tilt := self._tilt(moved):
             right = bool(tilt.could_extract_minus_sign()) == (name == "L_2")
         elif sphere := self._sphere(moved):
             at = dict.fromkeys(sphere, sympy.pi / 4)  # -cot(theta), or -tan of a latitude

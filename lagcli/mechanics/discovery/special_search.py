@@ -16,8 +16,9 @@ from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unkno
 from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
+from lagcli.mechanics.discovery.listing import times
 from lagcli.mechanics.discovery.modular import NoPoint
-from lagcli.mechanics.discovery.names import distinct
+from lagcli.mechanics.discovery.names import Naming, distinct
 from lagcli.mechanics.discovery.pivots import Pivots
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import point_slots
@@ -94,7 +95,7 @@ def special_cases(
             charges = _beyond_products(
                 known, new_charges(known, there.charges, there.dynamics, allowed), there, allowed
             )
-            charges = _named_apart(charges, [c.name for c in discovery.charges])
+            charges = _named_apart(charges, discovery)
             if charges:
                 number, given = len(there.charges), tuple(choice[1:])
                 found.append(SpecialCase(*choice[0], number, charges, given))
@@ -118,13 +119,25 @@ def _beyond_products(
     return tuple(c for c in new if c in there.point_charges or c in beyond)
 
 
-def _named_apart(
-    charges: Sequence[NoetherCharge], taken: Sequence[str]
-) -> tuple[NoetherCharge, ...]:
-    """None has the name of another one that is conserved for all values."""
+def _named_apart(charges: Sequence[NoetherCharge], here: Discovery) -> tuple[NoetherCharge, ...]:
+    """None has the name of another one that is conserved for all values.
+
+    Which angle of a top turns it about its own axis shows in T for all values, and not at C = A.
+    """
+    taken = [c.name for c in here.charges]
+    charges = [_named_as(c, here.listing.naming) if c.name in taken else c for c in charges]
     own = ["" if c.name.startswith("charge_") else c.name for c in charges]
     names = distinct([*taken, *own])[len(taken) :]
     return tuple(replace(c, name=name) for c, name in zip(charges, names, strict=True))
+
+
+def _named_as(charge: NoetherCharge, naming: Naming) -> NoetherCharge:
+    """With the name and the sign that it has among others, if any."""
+    given = charge.transformation
+    name = naming.of_point(given.changes, given.time)
+    if not name or name == charge.name:
+        return charge
+    return replace(times(charge, naming.orientation(name, charge)), name=name)
 
 
 def _has_more(there: Discovery, here: Discovery) -> bool:
