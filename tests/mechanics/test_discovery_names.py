@@ -261,6 +261,16 @@ def test_a_cylinder_about_any_axis_has_the_charges_of_cartesian_coordinates(axis
         assert abs(own - value) < 1e-12, name
 
 
+@pytest.mark.parametrize("constant", ["0", "c", "-m*c^2/2"])
+def test_a_constant_in_the_potential_changes_no_name(constant):
+    """L = T - V + m v²/2, as in a frame that moves along the axis."""
+    found = names_of(
+        f"{{coordinates: [r, u], parameters: {{m: {POS}, k: {POS}, c: {POS}}}, "
+        f"T: \"m*(r'^2 + r^2*u'^2)/2\", V: k*r^2/2 + {constant}}}"
+    )
+    assert {"fradkin_xy", "energy_x"} <= set(found)
+
+
 def test_an_axis_of_angles_may_be_the_name_of_another_coordinate():
     """x and y of r and u are none of the file's x: no name is given twice."""
     found = names_of(

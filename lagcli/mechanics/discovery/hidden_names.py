@@ -40,7 +40,7 @@ class HiddenNames:
         self.mass = equations.mass
         rest = dict.fromkeys(equations.v, sympy.S.Zero)
         self._rest = rest
-        self.V = -system.L.xreplace(rest)
+        _, self.V = (-system.L.xreplace(rest)).as_independent(*self.q, as_Add=True)
         self._cartesian = cartesian(kinds, equations)
         self.axes = self._axes(kinds)
         self._tensors = list(self._known_tensors())
