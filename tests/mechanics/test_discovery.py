@@ -53,7 +53,7 @@ KNOWN = {
     "driven/caldirola-kanai-oscillator": (5, "conformal_sin", "sch(1)", True),
     "discovery/bateman-oscillator": (8, "energy", "Heisenberg h(2)", True),
     "particles/anisotropic-oscillator": (5, "energy energy_x", None, True),
-    "discovery/oscillator-equal-frequencies": (8, "energy L_z fradkin_xy", "sch(2)", True),
+    "discovery/oscillator-equal-frequencies": (8, "energy rotation_x_y fradkin_xy", "sch(2)", True),
     "discovery/smorodinsky-winternitz": (
         3,
         "energy conformal_cos energy_x L_z_squared conformal_x_cos conformal_x_sin",

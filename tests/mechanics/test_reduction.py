@@ -350,7 +350,10 @@ V: a*(x^2/2 + E*x^4)
 
 @pytest.mark.long
 def test_what_the_assumptions_rule_out_is_not_listed():
-    """A charge about a field line: one radius for each sign of q B p, no negative ones."""
+    """A charge about a field line: one radius for either sign of q B p, no negative ones.
+
+    U = (p^2/r^2 - b p + b^2 r^2/4)/(2 m) has its minimum at r^2 = 2 |p/b|, with U'' = b^2/m.
+    """
     section, missing = reduced("""
 coordinates: {r: POSITIVE, phi: {}}
 parameters: {m: POSITIVE, b: {assume: nonzero}}
@@ -359,10 +362,10 @@ L: m*(r'^2 + r^2*phi'^2)/2 + b*r^2*phi'/2
     assert not missing
     motion = section.one_freedom
     assert motion is not None
-    assert [[str(to_grammar(w.left)) for w in p.where] for p in motion.periods] == [
-        ["b*p_phi"],
-        ["0"],
-    ]
+    [period] = motion.periods
+    assert [to_grammar(w.left) for w in period.where] == ["p_phi^2"]
+    assert to_grammar(period.at["r"]) == "sqrt(2*abs(p_phi/b))"
+    assert to_grammar(period.period) == "2*pi*m/abs(b)"
     assert len(motion.turning_points or ()) == 2
     assert all(not to_grammar(x).startswith("-") for x in motion.turning_points or ())
 
