@@ -367,6 +367,7 @@ TOGETHER = {  # what the quartic and the cubic of Henon and Heiles need of two p
 }
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("L", TOGETHER)
 def test_two_parameters_may_have_to_have_their_values_together(L):
     """Ramani, Grammaticos, Bountis, Phys. Rep. 180 (1989) 159, sections 3.3 and 3.4: separable."""

@@ -298,6 +298,7 @@ def test_a_relativistic_period_is_the_integral():
     assert 50 < errors[0] / errors[1] < 80  # a^6
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("rest", "expected"),
     [

@@ -161,6 +161,7 @@ def test_what_a_frame_that_moves_along_leaves_the_same(text, frame):
     assert frame is None or f"any constant {frame}:" in told
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", mostly_long(SEEDS, 3))
 def test_a_frame_that_moves_along_may_have_constraints(seed):
     """A bob on a rod whose support slides: with u - n x alone in all, u' = n x' is any constant."""

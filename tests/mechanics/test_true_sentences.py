@@ -119,6 +119,7 @@ def test_at_a_critical_value_the_next_derivative_decides(seed):
     assert state.verdict.critical == (order if order % 2 == 0 and factor > 0 else -order)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("order", "factor", "stable"), [(4, 1, True), (6, 2, True), (4, -1, False), (3, 1, False)]
 )
@@ -655,6 +656,7 @@ def test_special_values_are_said_where_there_is_no_symmetry_for_others(drive):
     assert "For w = … the same search finds 1 symmetry:" in told
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("offset", ["l", "2*l"])
 def test_the_name_of_an_algebra_has_the_condition_under_which_its_charges_are_real(offset):
     """Of r'' = (w² − k/m) r + …: the other sign has the hyperbolic oscillator algebra.
