@@ -340,7 +340,7 @@ class Discovery(Setting):
         self.listing.add_hidden((name, times(charge, factor)) for name, factor, charge in named)
 
     def _with_energies_of_modes(self, named: list[Named]) -> list[Named]:
-        """Energies of modes for as many unnamed products of point charges."""
+        """Energies of modes for as many products of point charges, unnamed or as p_x p_y."""
         products = Products(self.noether, self.point_charges, self.allowed)
         plain = [each for each in named if not each[0] or each[0].startswith("p_")]
         nameless = [each for each in plain if products.includes(each[2])]

@@ -69,13 +69,10 @@ class HiddenNames:
         pairs = combinations_with_replacement(self.v, 2)
         leading = sympy.Add(*(Q.diff(u, w) * u * w / (2 if u == w else 1) for u, w in pairs))
         for name, known in self._tensors:
-            u = next(w for w in self.v if known.has(w))
-            slope = leading.diff(u) * known - leading * known.diff(u)
-            if is_zero(slope) is True:
-                ratio = simplify(leading / known)
-                if ratio.free_symbols.isdisjoint({*self.q, *self.v}):
-                    m = self._cartesian.mass
-                    return name, (m / 2 if name.startswith("energy") else m**2) / ratio
+            ratio = self._constant_ratio(leading, known)
+            if ratio is not None:
+                m = self._cartesian.mass
+                return name, (m / 2 if name.startswith("energy") else m**2) / ratio
         return "", sympy.S.One
 
     def _known_tensors(self) -> Iterator[tuple[str, Expr]]:
@@ -149,12 +146,13 @@ class HiddenNames:
         """above/below where that is constant and not 0."""
         if above == 0 or below == 0:
             return None
-        x = next((x for x in self.q if x in below.free_symbols), None)
+        state = (*self.v, *self.q)
+        x = next((x for x in state if x in below.free_symbols), None)
         slope = above.diff(x) * below - above * below.diff(x) if x is not None else above
         if is_zero(slope) is not True:
             return None
         ratio = simplify(above / below)
-        return None if ratio.free_symbols & set(self.q) or ratio == 0 else ratio
+        return None if ratio.free_symbols & set(state) or ratio == 0 else ratio
 
     def _axes(self, kinds: Kinds) -> Sequence[tuple[str, Expr]]:
         """Cartesian coordinates, with their names, where V is a function of r alone."""

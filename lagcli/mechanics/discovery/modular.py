@@ -25,6 +25,7 @@ from lagcli.platform.effort import EFFORT
 PRIME = 2305843009213561919
 
 _TRIES = 400  # measured: at most 18
+_LARGEST = 4096  # numerator or denominator
 #: Coefficients with the powers of the generators.
 Terms = list[tuple[int, tuple[tuple[int, int], ...]]]
 
@@ -179,13 +180,13 @@ def square_root(value: int) -> int | None:
     return root if (root * root - value) % PRIME == 0 else None
 
 
-def small_fraction(value: int, most: int = 4096) -> Fraction | None:
-    """The fraction with numerator and denominator up to `most` that is `value` modulo p."""
+def small_fraction(value: int) -> Fraction | None:
+    """The fraction with numerator and denominator up to 4096 that is `value` modulo p."""
     a, b, x, y = PRIME, value % PRIME, 0, 1
-    while b > most:
+    while b > _LARGEST:
         quotient = a // b
         a, b, x, y = b, a - quotient * b, y, x - quotient * y
-    return Fraction(b, y) if y and abs(y) <= most else None
+    return Fraction(b, y) if y and abs(y) <= _LARGEST else None
 
 
 def kernel_modulo(

@@ -33,10 +33,11 @@ class Naming:
         moved = {x: e for x, e in zip(self.q, xi, strict=True) if e != 0}
         if tau != 0:
             return self._of_time(tau, moved)
-        if along := self._carried(xi):
+        components = self._displacement(xi)
+        if along := self._carried(components):
             timed = self.t in sympy.Tuple(*along.values()).free_symbols
             return self._translation_in_time(along) if timed else self._translation(along)
-        if turned := self._turned(xi):
+        if turned := self._turned(components, xi):
             return f"L_{turned[0]}"
         if all(not (e.free_symbols & {self.t, *self.q}) for e in moved.values()):
             return self._translation(moved)
@@ -49,30 +50,32 @@ class Naming:
         name = self._rotation({x: e for x, e in centred.items() if e != 0}) if drifts else ""
         return name and f"{name}{MOVING}"  # about a point that moves, as in crossed fields
 
-    def _carried(self, xi: Sequence[Expr]) -> dict[Symbol, Expr]:
-        """The Cartesian components of what moves all places alike, where angles hide that."""
-        if self.cartesian is None or not self.kinds.angles:
+    def _displacement(self, xi: Sequence[Expr]) -> dict[str, Expr]:
+        """The Cartesian components, where angles hide them and nothing else moves."""
+        found = self.cartesian
+        if found is None or not self.kinds.angles:
             return {}
-        if any(e != 0 for x, e in zip(self.q, xi, strict=True) if x not in self.cartesian.q):
+        if any(e != 0 for x, e in zip(self.q, xi, strict=True) if x not in found.q):
             return {}
-        components = self.cartesian.moved(self.q, xi)
-        if not sympy.Tuple(*components).free_symbols.isdisjoint(self.q):
+        return dict(zip(found.names, found.moved(self.q, xi), strict=True))
+
+    def _carried(self, components: Mapping[str, Expr]) -> dict[Symbol, Expr]:
+        """Those of what moves all places alike, without the ones that are 0; else none."""
+        if not sympy.Tuple(*components.values()).free_symbols.isdisjoint(self.q):
             return {}
-        named = zip(self.cartesian.names, components, strict=True)
+        named = components.items()
         return {Symbol(name, real=True): change for name, change in named if change != 0}
 
-    def _turned(self, xi: Sequence[Expr]) -> tuple[str, int] | None:
-        """The axis of a rotation about the origin, with its sign, where angles hide that."""
-        found, hidden = self.cartesian, bool(self.kinds.angles) and sum(e != 0 for e in xi) > 1
-        if found is None or not hidden or set(found.names) != set(AXES.values()):
+    def _turned(self, components: Mapping[str, Expr], xi: Sequence[Expr]) -> tuple[str, int] | None:
+        """The axis of a rotation about the origin, with its sign, unless it moves one angle."""
+        if self.cartesian is None or set(components) != set(AXES.values()):
             return None
-        if any(e != 0 for x, e in zip(self.q, xi, strict=True) if x not in found.q):
+        if sum(e != 0 for e in xi) < 2:
             return None
-        X = dict(zip(found.names, found.X, strict=True))
-        moved = dict(zip(found.names, found.moved(self.q, xi), strict=True))
+        X = dict(zip(self.cartesian.names, self.cartesian.X, strict=True))
         for axis, y, z in ("xyz", "yzx", "zxy"):
-            for sign in (1, -1) if moved[axis] == 0 else ():
-                apart = moved[y] + sign * X[z], moved[z] - sign * X[y]
+            for sign in (1, -1) if components[axis] == 0 else ():
+                apart = components[y] + sign * X[z], components[z] - sign * X[y]
                 if all(is_zero(e) is True for e in apart):
                     return axis, sign
         return None
@@ -288,7 +291,8 @@ class Naming:
         """The sign that turns a charge into the textbook's: L_y = z p_x - x p_z."""
         xi = charge.transformation.changes
         moved = {x: change for x, change in zip(self.q, xi, strict=True) if change != 0}
-        if charge.transformation.time == 0 and (along := self._carried(xi)):
+        components = self._displacement(xi)
+        if charge.transformation.time == 0 and (along := self._carried(components)):
             backward = next(iter(along.values())).could_extract_minus_sign()
             return sympy.S.NegativeOne if backward else sympy.S.One
         if name.startswith("L_") and name.endswith("_relative"):
@@ -301,7 +305,7 @@ class Naming:
         name = name.removesuffix(MOVING)
         if name not in ("L_x", "L_y", "L_z", "L_1", "L_2"):
             return sympy.S.One
-        if turned := self._turned(xi):
+        if turned := self._turned(components, xi):
             right = turned[1] > 0
         elif tilt := self._tilt(moved):
             right = bool(tilt.could_extract_minus_sign()) == (name == "L_2")
