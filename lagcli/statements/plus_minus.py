@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Protocol, TypeVar
 
 from lagcli.expression import (
@@ -26,6 +26,7 @@ from lagcli.statements.answers import ModesOfFrequency
 from lagcli.statements.motions import SteadyMotion
 
 Rest = TypeVar("Rest")
+Value = TypeVar("Value")
 State = Mapping[str, Expression]
 
 
@@ -37,20 +38,32 @@ class _At(Protocol):
 Item = TypeVar("Item", bound=_At)
 
 
-def pairs(states: Iterable[tuple[State, Rest]]) -> list[tuple[State, Rest]]:
-    """The states, those that differ in a sign and have the same rest as one."""
-    found: list[tuple[State, Rest]] = []
-    for at, rest in states:
-        for place, (other, its_rest) in enumerate(found):
-            if its_rest != rest or list(other) != list(at):
-                continue
-            both = joined(tuple(other.values()), tuple(at.values()))
-            if both is not None:
-                found[place] = (dict(zip(at, both, strict=True)), rest)
+def put_together(
+    items: Iterable[Value], both: Callable[[Value, Value], Value | None]
+) -> list[Value]:
+    """The items, each as one with the first before it with which `both` makes one."""
+    found: list[Value] = []
+    for item in items:
+        for place, other in enumerate(found):
+            if (one := both(other, item)) is not None:
+                found[place] = one
                 break
         else:
-            found.append((at, rest))
+            found.append(item)
     return found
+
+
+def pairs(states: Iterable[tuple[State, Rest]]) -> list[tuple[State, Rest]]:
+    """The states, those that differ in a sign and have the same rest as one."""
+    return put_together(states, _one_state)
+
+
+def _one_state(one: tuple[State, Rest], other: tuple[State, Rest]) -> tuple[State, Rest] | None:
+    (at, rest), (there, its_rest) = one, other
+    if its_rest != rest or list(there) != list(at):
+        return None
+    both = joined(tuple(at.values()), tuple(there.values()))
+    return None if both is None else (dict(zip(at, both, strict=True)), rest)
 
 
 def once(items: Iterable[Item]) -> list[Item]:
@@ -83,15 +96,7 @@ def _has_both(node: Expression) -> bool:
 
 def steady_in_pairs(motions: Iterable[SteadyMotion]) -> list[SteadyMotion]:
     """The steady motions, two that differ in the sign of a root as one with ±."""
-    found: list[SteadyMotion] = []
-    for motion in motions:
-        for place, other in enumerate(found):
-            if (both := _one_motion(other, motion)) is not None:
-                found[place] = both
-                break
-        else:
-            found.append(motion)
-    return found
+    return put_together(motions, _one_motion)
 
 
 def _one_motion(one: SteadyMotion, other: SteadyMotion) -> SteadyMotion | None:
@@ -110,15 +115,7 @@ def _one_motion(one: SteadyMotion, other: SteadyMotion) -> SteadyMotion | None:
 
 def modes_in_pairs(modes: Iterable[ModesOfFrequency]) -> list[ModesOfFrequency]:
     """The modes about one equilibrium, two that differ in the sign of a root as one with ±."""
-    found: list[ModesOfFrequency] = []
-    for mode in modes:
-        for place, other in enumerate(found):
-            if (both := _one_mode(other, mode)) is not None:
-                found[place] = both
-                break
-        else:
-            found.append(mode)
-    return found
+    return put_together(modes, _one_mode)
 
 
 def _one_mode(one: ModesOfFrequency, other: ModesOfFrequency) -> ModesOfFrequency | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 
 from lagcli.expression import ZERO, Name, Sum
+from lagcli.problem_data import Problem
 from lagcli.reader import read_problem
 from lagcli.record import replace
 from tests.solved import solve
@@ -107,6 +108,16 @@ def test_a_minimum_is_not_called_stable_to_first_order_only(section: str) -> Non
 WITHOUT_A_SIGN = "m: {assume: positive}, g: {}, a: {}, b: {}, c: {assume: nonnegative}"
 
 
+def in_the_plane(V: str) -> Problem:
+    text = f"""title: t
+coordinates: [x, y]
+parameters: {{{WITHOUT_A_SIGN}}}
+T: m*(x'^2 + y'^2)/2
+V: {V}
+"""
+    return read_problem("t.yaml", text.encode()).checked()
+
+
 @pytest.mark.parametrize(
     "V",
     ["m*g*y + a*x^2", "exp(x)*(a + b*c)", "b*x + c*y + (x - y)^2", "a*b*x + y^2", "(a^2 - c)*exp(x)",
@@ -115,13 +126,7 @@ WITHOUT_A_SIGN = "m: {assume: positive}, g: {}, a: {}, b: {}, c: {assume: nonneg
 @pytest.mark.parametrize("name", ["equilibria", "steady_motions"])
 def test_special_values_of_parameters_are_not_left_out(name: str, V: str) -> None:
     """ "There is none unless a = 0" without the "unless", or with another condition."""
-    text = f"""title: t
-coordinates: [x, y]
-parameters: {{{WITHOUT_A_SIGN}}}
-T: m*(x'^2 + y'^2)/2
-V: {V}
-"""
-    problem = read_problem("t.yaml", text.encode()).checked()
+    problem = in_the_plane(V)
     answers = solve(problem, [name])
     section = answers.sections[name]
     assert section.unless
@@ -133,13 +138,7 @@ V: {V}
 
 @pytest.mark.parametrize("V", ["exp(x) + y", "m*exp(x)*(c + 1) + (y - a)^2", "(a - b)*exp(x) + y"])
 def test_where_no_values_of_parameters_are_special_none_are_missed(V: str) -> None:
-    text = f"""title: t
-coordinates: [x, y]
-parameters: {{{WITHOUT_A_SIGN}}}
-T: m*(x'^2 + y'^2)/2
-V: {V}
-"""
-    problem = read_problem("t.yaml", text.encode()).checked()
+    problem = in_the_plane(V)
     for name in ("equilibria", "steady_motions"):
         answers = solve(problem, [name])
         assert answers.sections[name].unless == ()

@@ -46,6 +46,7 @@ from lagcli.mechanics.reduction.one_freedom import ReducedFreedom
 from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.rest.rest_conditions import RestPoint
 from lagcli.record import record, replace
+from lagcli.statements.plus_minus import put_together
 
 #: T/T0 is given to this order in the amplitude.
 ORDER = 4
@@ -75,20 +76,8 @@ class AmplitudeSeries:
     isochronous: bool = False
 
 
-def _of_either_sign(found: Sequence[AmplitudeSeries]) -> list[AmplitudeSeries]:
+def _of_either_sign(one: AmplitudeSeries, other: AmplitudeSeries) -> AmplitudeSeries | None:
     """sqrt(|p|) for sqrt(p) where p > 0 and sqrt(-p) where p < 0, of one period."""
-    merged: list[AmplitudeSeries] = []
-    for each in found:
-        for k, other in enumerate(merged):
-            if (both := _merged(other, each)) is not None:
-                merged[k] = both
-                break
-        else:
-            merged.append(each)
-    return merged
-
-
-def _merged(one: AmplitudeSeries, other: AmplitudeSeries) -> AmplitudeSeries | None:
     if one.point is None or other.point is None or one.coefficients != other.coefficients:
         return None
     [(q, place)], [there] = one.point.values.items(), other.point.values.values()
@@ -188,7 +177,7 @@ class Periods:
         elif not found and not self.reason:
             turn = "within one turn " if rest.is_of_one_turn else ""
             self.reason = f"U_eff has no minimum {turn}at which its second derivative is positive"
-        return tuple(_of_either_sign(found))
+        return tuple(put_together(found, _of_either_sign))
 
     def _anywhere(self) -> tuple[AmplitudeSeries, ...]:
         """2 pi sqrt(M/U'') at a place that is given by U' = 0 only."""
