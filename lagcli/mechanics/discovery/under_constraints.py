@@ -142,7 +142,7 @@ class UnderConstraints:
         return found
 
     def _timed_terms(self, number: int) -> list[IntegralTerm]:
-        """Those of the first degree along so many displacements, with functions of the time."""
+        """Those of the first degree along the given number of displacements, timed."""
         one = sympy.S.One
         plain = [one, *self.kinds.lengths]
         times = [T for T in self.times.translations if T != 1]

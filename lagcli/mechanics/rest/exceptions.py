@@ -65,7 +65,7 @@ def _at_zero(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Ex
     """The product of the parameters without each of which the conditions can hold.
 
     That of a rate w, where they hold at all times: g sin(q) = a w² cos(q - w t).  Those that must
-    vanish together; None where it is not known that there is no other exception.
+    vanish together; None where there may be other exceptions.
     """
     known = {p for e in conditions for p in e.free_symbols} - {*unknowns}
     open_ = sorted(filter(_can_vanish, known), key=str)
