@@ -2,22 +2,25 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 
+import mpmath
 import sympy
+from mpmath import mpf
 from sympy import Expr, S, Symbol
 
 from lagcli.algebra.build import CIRCULAR, without_jumps
 from lagcli.algebra.decimals import rounded
 from lagcli.algebra.entry import Field
-from lagcli.algebra.numeric import vanishes_at_random
+from lagcli.algebra.numeric import Evaluator, vanishes_at_random, with_assumed_sign
 from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import is_zero, simplify
 
 #: What stands in a formula that has no value somewhere.
 NO_VALUE = S.NaN, S.ComplexInfinity
-_LAST_DIGITS = sympy.Float("1e-13")
+_LAST_DIGITS = mpf("1e-13")
 
 
 def at(expression: Expr, values: Mapping[Symbol, Expr]) -> Expr:
@@ -65,16 +68,26 @@ def where_positive(expression: Expr, positive: Sequence[Expr]) -> Expr:
 
 
 def nearly_vanishes(force: Expr, values: Mapping[Symbol, Expr], rounded: list[Symbol]) -> bool:
-    """Whether the force changes its sign, or vanishes, within the last digits of the values."""
+    """Whether the force changes its sign, or vanishes, within the last digits of the values.
+
+    Letters that remain in it have random values, of the sign they are assumed to have.
+    """
     put_in = list(values.items())
-    numbers = [
-        x.subs(put_in, simultaneous=True).evalf(40)
-        for x in (force, *(force.diff(q) * values[q] for q in rounded))
-    ]
-    if not all(x.is_Float or x.is_zero for x in numbers):
-        return False
-    residual, *slopes = numbers
-    return bool(abs(residual) <= _LAST_DIGITS * sum(map(abs, slopes), sympy.Float("1e-25")))
+    slopes = [force.diff(q) * values[q] for q in rounded]
+    there = [x.subs(put_in, simultaneous=True) for x in (force, *slopes)]
+    letters = sorted({s for x in there for s in x.free_symbols}, key=lambda s: s.name)
+    source, evaluator = random.Random("letters"), Evaluator(there)
+    for _ in range(2 if letters else 1):
+        drawn = {s: mpf(source.randint(100, 3000)) / 1009 for s in letters}
+        found = evaluator.where_defined(
+            {s: with_assumed_sign(source, s, size) for s, size in drawn.items()}
+        )
+        if found is None or not all(isinstance(x, mpf) and mpmath.isfinite(x) for x in found):
+            return False
+        residual, *moved = found
+        if abs(residual) > _LAST_DIGITS * sum(map(abs, moved), mpf("1e-25")):
+            return False
+    return True
 
 
 def vanishes(expression: Expr) -> bool:

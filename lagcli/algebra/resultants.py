@@ -17,6 +17,7 @@ import sympy
 from sympy import Expr, Symbol
 from sympy.functions.elementary.trigonometric import InverseTrigonometricFunction
 
+from lagcli.algebra.decimals import DIGITS, GUARD, decimal
 from lagcli.algebra.entry import Field
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.half_angles import degree_in_angle, from_half_angle, to_half_angle
@@ -26,6 +27,7 @@ from lagcli.algebra.simplification import simplify
 
 _MOST_TERMS = 120  # measured: at most 3
 _HIGHEST = 16  # measured: at most 4
+_LONGEST = 40  # operations of a number; measured: at 95 the linear motion there took 40 s
 
 
 def pairs_of_values(
@@ -64,8 +66,21 @@ def pairs_of_values(
             ]
             if root.has(sympy.sign) and not found:
                 return None  # each may hold for one sign alone
-            pairs += [pair for k, pair in enumerate(found) if pair not in found[:k]]
+            pairs += [_readable(pair) for k, pair in enumerate(found) if pair not in found[:k]]
     return pairs
+
+
+def _readable(pair: dict[Symbol, Expr]) -> dict[Symbol, Expr]:
+    """Decimals where a number would take more radicals than one reads."""
+    numbers = [value for value in pair.values() if value.is_number]
+    if all(value.count_ops() <= _LONGEST for value in numbers):
+        return pair
+    return {
+        unknown: decimal(value.evalf(DIGITS + GUARD))
+        if value in numbers and not (value / sympy.pi).is_Rational
+        else value
+        for unknown, value in pair.items()
+    }
 
 
 def _at(expression: Expr, pair: Mapping[Symbol, Expr]) -> Expr:

@@ -187,3 +187,31 @@ V: k*(x^2 + y^2)/2
 """)
     assert found["at"] == {"x": "0", "y": "0"}
     assert found["stable"] is True
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("a", "b", "coupling"),
+    [(1, 3, "4*sin(x - y)"), (2, -1, "3*sin(x + y)"), (1, 2, "4*sin(x - y)")],
+)
+def test_places_on_a_torus_are_all_there(a, b, coupling):
+    """Morse: on a torus the minima and maxima of V are as many as its saddles."""
+    V = f"{a}*cos(x) + {b}*cos(y) - {coupling}"
+    found = equilibria(f"""
+coordinates: [x, y]
+parameters: {{m: {{assume: positive}}, g: {{assume: positive}}}}
+T: m*(x'^2 + y'^2)/2
+V: g*({V})
+""")
+    x, y = sympy.symbols("x y")
+    formula = sympy.sympify(V)
+    signs = []
+    for each in found:
+        at = {s: sympy.sympify(each["at"][str(s)]).evalf(30) for s in (x, y)}
+        assert all(abs(formula.diff(s).evalf(subs=at)) < 1e-12 for s in (x, y))
+        definite = sympy.hessian(formula, (x, y)).det().evalf(subs=at) > 0
+        lowest = formula.diff(x, 2).evalf(subs=at) > 0
+        signs.append(1 if definite else -1)
+        assert each["stable"] is bool(definite and lowest)
+    assert len(signs) >= 4
+    assert sum(signs) == 0
