@@ -1,7 +1,8 @@
 """A line that YAML does not read, as it reads it: what a hint may propose.
 
 One change of one line is made after another, and the file is read again.  The first that the
-reader accepts is proposed, or the first after which YAML reads further.
+reader accepts is proposed, or the first after which YAML reads further.  The mistakes in the rest
+of the file are those of the file with the line as proposed.
 """
 
 from __future__ import annotations
@@ -9,12 +10,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic, Source, Span
-from lagcli.reader.habits import colon_advice, habits
+from lagcli.reader.habits import SIGNS, colon_advice, habits
 
-#: Longer files are not tried.
-_LONGEST = 20_000
+#: Longer files are not tried, nor more lines of a file.
+_LONGEST, _MOST = 20_000, 8
+#: Of the lines in one hint.
+_SHOWN = 5
 #: A key with its value.
 _ENTRY = re.compile(r"(?P<key>\s*(?:- )?[^\W\d][\w ']*:\s+)(?P<value>\S.*)")
 #: What other languages put before a formula: `@(x)`, `lambda x:`, and marks that YAML keeps.
@@ -53,6 +57,12 @@ def _paired(line: str) -> str:
     return line if found is None else f"{found[1]}{found[2]}{found[3]}{_PAIRS[found[2]]}"
 
 
+def _with_blanks(line: str) -> str:
+    """`parameters: {m: 1}` for `parameters:{m:1}`."""
+    begun = re.sub(r"^(\s*[^\W\d]\w*):(?=[^\s:])", r"\1: ", line)
+    return re.sub(r"(?<=[{,\s])(\w+):(?=[\w.-])", r"\1: ", begun) if begun != line else line
+
+
 def _separated(line: str) -> str:
     """`{m: 1, k: 2}` for `{m: 1 k: 2}`."""
     return re.sub(r"([\w.)\]'\"])\s+(?=[\"']?[^\W\d]\w*[\"']?:\s)", r"\1, ", line)
@@ -61,7 +71,7 @@ def _separated(line: str) -> str:
 def _listed(line: str) -> str:
     """`[x, y]` for `{x[t], y[t]}`."""
     names = re.sub(r"[\[(]t[\])]", "", line)
-    return re.sub(r"(:\s+)\{([^{}:]*,[^{}:]*)\}", r"\1[\2]", names)
+    return re.sub(r"(:\s+)\{([^{}:]*,[^{}:]*)\}", r"\1[\2]", names) if names != line else line
 
 
 def _formula(line: str) -> str:
@@ -88,11 +98,19 @@ def _quoted(line: str) -> str:
     return f'{found["key"]}"{value}"'
 
 
+def _assumed(line: str) -> str:
+    """`k: {assume: positive}` for `k: > 0`."""
+    found = re.fullmatch(r"(\s*\w+:\s+)(?:\w+\s*)?([<>]=?|!=)\s*0\s*", line)
+    return line if found is None else f"{found[1]}{{assume: {SIGNS[found[2]]}}}"
+
+
 #: In the order in which they are tried.
 _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"\s+//\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
+    _assumed,
     lambda line: re.sub(r"^(\s*\"?[^\W\d]\w*\"?)\s*(?:<-|←|:=|->|→|=>|=)\s*", r"\1: ", line),
+    _with_blanks,
     _formula,
     lambda line: re.sub(r"^(\s*[\w ]+:\s+)-\s+(?=\S)", r"\1-", line),
     _grouped,
@@ -111,26 +129,64 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     _closed,
     _separated,
     lambda line: line.rstrip() + "," if re.match(r"\s+[\w\"']+:.*[^:,]$", line) else line,
-    lambda line: re.sub(r"([\]}\"'])\s*[;,.]\s*$", r"\1", line),
+    lambda line: re.sub(r"(?<=[\w)\]}\"'])\s*[;,.]\s*$", "", line),
     _quoted,
     lambda line: re.sub(r"([\]}])\s*=\s*[^\s,\]}]+", r"\1", line),
 )
 
 
-def repaired_line(
-    text: str, mistake: Diagnostic, read: Callable[[Source], tuple[bool, tuple[Diagnostic, ...]]]
-) -> Diagnostic:
-    """The mistake, with the line as it should be where one was found.
+Reading = Callable[[Source], tuple[bool, tuple[Diagnostic, ...]]]
+_Change = Callable[[str], str]
+
+
+class _Repair(NamedTuple):
+    """A mistake with the line as it should be, the file with that line, and how it changed."""
+
+    mistake: Diagnostic
+    text: str
+    change: _Change
+
+
+def all_mistakes(
+    text: str, mistakes: tuple[Diagnostic, ...], read: Reading
+) -> tuple[Diagnostic, ...]:
+    """The mistakes of a file that is not YAML: of its lines, and of the rest.
 
     Parameters
     ----------
     text
         The file.
-    mistake
+    mistakes
         What YAML complains about.
     read
         Whether YAML reads a text, and the mistakes in it.
     """
+    found: list[Diagnostic] = []
+    moved = 0  # lines that the proposals have more than the file
+    is_read = False
+    while not is_read and len(found) < _MOST:
+        repair = _repaired(text, mistakes[0], read)
+        if repair is None:
+            break
+        repair = _everywhere(text, repair, read)
+        found.append(_at(repair.mistake, moved))
+        moved += repair.text.count("\n") - text.count("\n")
+        text = repair.text
+        is_read, mistakes = read(Source("", text))
+    rest = mistakes if is_read or not found else mistakes[:1]
+    whole = (*found, *(_at(each, moved) for each in rest if each.is_error))
+    return tuple(sorted(whole, key=lambda each: each.span))
+
+
+def _at(mistake: Diagnostic, moved: int) -> Diagnostic:
+    """The mistake some lines further above."""
+    span = mistake.span
+    line, end = max(1, span.line - moved), max(1, span.end_line - moved)
+    return replace(mistake, span=replace(span, line=line, end_line=end)) if moved else mistake
+
+
+def _repaired(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
+    """The mistake with the line as it should be; None where none was found."""
     lines = text.split("\n")
     first = mistake.span.line - 1
     shown = lines[first].strip() if first < len(lines) else ""
@@ -140,36 +196,74 @@ def repaired_line(
     other = mistake.hint == "indent with spaces" or "U+" in mistake.message
     other |= mistake.hint.startswith("write parameters: ")
     if len(text) > _LONGEST or other or not (mistake.hint in general or re.match(r"-\w", shown)):
-        return mistake
-    for number, line in _tried(lines, first):
-        changed = "\n".join([*lines[:number], line, *lines[number + 1 :]])
-        is_read, found = read(Source("", changed))
+        return None
+    for number, tried, change in _tried(lines, first):
+        is_read, found, changed, line = _with_line(lines, number, tried, read)
         is_moved = line.strip() == lines[number].strip()
         near = {number + 1, number + 1 - is_moved}
         here = [each for each in found if each.span.line in near and each.is_error]
-        proposed = _PROPOSED.fullmatch(here[0].hint) if is_read and here else None
-        entry = _ENTRY.fullmatch(line)
-        if proposed and entry:
-            line = entry["key"] + proposed[1]
-            changed = "\n".join([*lines[:number], line, *lines[number + 1 :]])
-            is_read, found = read(Source("", changed))
-            here = [each for each in found if each.span.line == number + 1 and each.is_error]
-        further = found and found[0].span.line > max(first, number) + 1 and not proposed
+        further = found and found[0].span.line > max(first, number) + 1 and line == tried
         if not here and (is_read or further):
             span = mistake.span
             if number != first:
                 begin = len(line) - len(line.lstrip()) + 1
                 span = Span(number + 1, begin, number + 1, len(lines[number]) + 1)
-            if line.strip() == lines[number].strip():
-                return replace(mistake, hint=_indented(lines[:number], line))
+            if is_moved:
+                moved = replace(mistake, hint=_indented(lines[:number], line))
+                return _Repair(moved, changed, change)
             _, cut, key = line.partition("\n")
             hint = (
                 f"begin a new line with '{key.partition(':')[0]}:'"
                 if cut
                 else f"write {line.strip()}"
             )
-            return replace(mistake, span=span, hint=hint)
-    return mistake
+            return _Repair(replace(mistake, span=span, hint=hint), changed, change)
+    return None
+
+
+def _with_line(
+    lines: list[str], number: int, line: str, read: Reading
+) -> tuple[bool, tuple[Diagnostic, ...], str, str]:
+    """Whether a file is read with another line, its mistakes, its text, and the line.
+
+    What the first mistake in the line proposes is followed.
+    """
+    for _ in range(2):
+        changed = "\n".join([*lines[:number], line, *lines[number + 1 :]])
+        is_read, found = read(Source("", changed))
+        here = [each for each in found if each.span.line == number + 1 and each.is_error]
+        proposed = _PROPOSED.fullmatch(here[0].hint) if is_read and here else None
+        entry = _ENTRY.fullmatch(line)
+        if proposed is None or entry is None:
+            break
+        key = entry["key"].lstrip()
+        own = proposed[1].partition("; ")[0] if proposed[1].startswith(key) else proposed[1]
+        line = entry["key"] + own.removeprefix(key)
+    return is_read, found, changed, line
+
+
+def _everywhere(text: str, repair: _Repair, read: Reading) -> _Repair:
+    """The repair of all lines with the same mistake, where the file is read then."""
+    before, first = text.split("\n"), repair.mistake.span.line - 1
+    if not repair.mistake.hint.startswith("write "):
+        return repair
+    lines = [*before]
+    for number, line in enumerate(before):
+        entry = _ENTRY.fullmatch(line)
+        is_text = entry is not None and entry["key"].strip(" :") in _TEXTS
+        lines[number] = line if is_text and number != first else repair.change(line)
+    others = [k for k, line in enumerate(before) if lines[k] != line and k != first]
+    if not others or len(others) > _MOST or any("\n" in line for line in lines):
+        return repair
+    for number in (first, *others):
+        is_read, found, whole, lines[number] = _with_line(lines, number, lines[number], read)
+    places = {first + 1, *(number + 1 for number in others)}
+    if not is_read or any(each.is_error and each.span.line in places for each in found):
+        return repair
+    parts = [f"in line {number + 1} write {lines[number].strip()}" for number in others]
+    hint = "; ".join([f"write {lines[first].strip()}", *parts[: _SHOWN - 1]])
+    hint += "; and so on" * (len(parts) >= _SHOWN)
+    return repair._replace(mistake=replace(repair.mistake, hint=hint), text=whole)
 
 
 def _indented(above: list[str], line: str) -> str:
@@ -181,15 +275,15 @@ def _indented(above: list[str], line: str) -> str:
     return f"begin the line where '{before.strip().partition(':')[0]}' begins"
 
 
-def _tried(lines: list[str], first: int) -> Iterator[tuple[int, str]]:
+def _tried(lines: list[str], first: int) -> Iterator[tuple[int, str, _Change]]:
     """The places of the lines near the mistake, each with what may have been meant."""
     above = [k for k in range(min(first, len(lines) - 1), -1, -1) if lines[k].strip()][:4]
     for number in above[1:]:
         indent = re.match(r"\s*", lines[number])
-        yield above[0], f"{indent[0] if indent else ''}{lines[above[0]].lstrip()}"
+        yield above[0], f"{indent[0] if indent else ''}{lines[above[0]].lstrip()}", str
     if above[1:] and re.fullmatch(r"(title|source|description):\s*", lines[above[1]]):
-        yield above[0], f"  {lines[above[0]]}"
+        yield above[0], f"  {lines[above[0]]}", str
     for change in _CHANGES:
         for number in above:
             if (line := change(lines[number])) != lines[number]:
-                yield number, line
+                yield number, line, change

@@ -98,10 +98,10 @@ def read_problem(source_name: str, data: bytes) -> ProblemReading:
     try:
         return _read_source(source)
     except Mistake as error:
-        from lagcli.reader.line_repair import repaired_line
+        from lagcli.reader.line_repair import all_mistakes
 
-        found = repaired_line(source.text, error.diagnostics[0], _mistakes)
-        return ProblemReading(source, None, (found, *error.diagnostics[1:]))
+        found = all_mistakes(source.text, error.diagnostics, _mistakes)
+        return ProblemReading(source, None, found)
 
 
 def _mistakes(source: Source) -> tuple[bool, tuple[Diagnostic, ...]]:
@@ -173,12 +173,12 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
     if kind(root) == "nothing" or (isinstance(root, Mapping) and not root.entries):
         file.error("the problem is empty", span, "write coordinates: [x]")
         return None
+    message = f"a problem must be a map of keys, not {kind(root)}"
+    if isinstance(root, Scalar):
+        line = root.text.source.text.lstrip().split("\n")[0]
+        raise Mistake(Diagnostic(message, span, colon_advice(line)))
     if not isinstance(root, Mapping):
-        line = root.text.source.text.lstrip().split("\n")[0] if isinstance(root, Scalar) else ""
-        message = f"a problem must be a map of keys, not {kind(root)}"
-        is_text = isinstance(root, Scalar)
-        hint = colon_advice(line) if is_text else "leave out the '-' before each key"
-        file.error(message, span, hint)
+        file.error(message, span, "leave out the '-' before each key")
         return None
     inner = [value for _, value in root.entries]
     if all(isinstance(each, Mapping) and _is_problem(each) for each in inner):
