@@ -27,7 +27,7 @@ from sympy import Expr
 from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.impacts import between_impacts
+from lagcli.mechanics.impacts import when_constant
 from lagcli.record import record
 from lagcli.statements.answers import Verification
 from lagcli.statements.wording import CONSERVED, constraints_named, enumerated
@@ -206,10 +206,10 @@ class EnergyFunction:
         return f"{self._why_conserved}; {self._why_total}"
 
     @cached_property
-    def between_impacts(self) -> str:
+    def when_constant(self) -> str:
         """When h is constant, where the file has contacts; empty without."""
         system = self.dynamics.system
-        return between_impacts(system, [sympy.S.Zero] * len(system.q), sympy.S.One)
+        return when_constant(system, [sympy.S.Zero] * len(system.q), sympy.S.One)
 
     @property
     def _why_conserved(self) -> str:
@@ -218,7 +218,7 @@ class EnergyFunction:
         if not self.conserved:
             deeds = (f"L {p.deed}" if p.of_lagrangian else p.deed for p in self.powers)
             return f"not conserved: {enumerated(list(deeds))}"
-        when = self.between_impacts
+        when = self.when_constant
         conserved = f"conserved {when}" if when else "conserved"
         if not self.powers:
             return f"{conserved}: {CONSERVED}"

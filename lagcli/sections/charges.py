@@ -61,7 +61,7 @@ def derive(statements: Statements) -> ChargesSection:
 
 def stated_charge(statements: Statements, charge: NoetherCharge) -> Charge:
     """One symmetry with its conserved quantity, in the shape in which it is read."""
-    from lagcli.mechanics.impacts import between_impacts
+    from lagcli.mechanics.impacts import when_constant
 
     if charge.conserved is None:
         why = charge.broken_by or "its rate needs the solved motion"
@@ -86,7 +86,7 @@ def stated_charge(statements: Statements, charge: NoetherCharge) -> Charge:
         rate=None if charge.rate is None else statements.on_surface(charge.rate),
         verified=charge.verified,
         broken_by=charge.broken_by,
-        when=between_impacts(system, change.changes, change.time, charge.gauge)
+        when=when_constant(system, change.changes, change.time, charge.gauge)
         if charge.conserved
         else "",
         trivial=trivial,

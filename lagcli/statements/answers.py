@@ -167,7 +167,7 @@ class Charge:
     rate: Expression | None
     verified: Verification | None = None
     broken_by: str = ""
-    when: str = ""  # of a conserved one, where the file has contacts: "between impacts"
+    when: str = ""  # of a conserved one, where the file has contacts
     where: tuple[Above, ...] = ()
     trivial: bool = False
 

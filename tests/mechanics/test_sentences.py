@@ -21,7 +21,7 @@ from lagcli.formatters.options import Options
 from lagcli.mechanics.averaged import averaged
 from lagcli.mechanics.conditions import conditions, opposites
 from lagcli.mechanics.explaining.recurring import recurrences
-from lagcli.mechanics.impacts import between_impacts
+from lagcli.mechanics.impacts import when_constant
 from lagcli.mechanics.reduction.statement import reduction
 from lagcli.mechanics.statements import Statements
 from lagcli.pipeline import explain
@@ -100,8 +100,8 @@ def test_a_magnetic_potential_drops_out_of_h(seed):
 # -- contacts -------------------------------------------------------------------------------------
 
 
-def struck(system, gap, e, at):
-    """Velocities after an impact: M (v+ - v-) = P dg/dq with dg/dt+ = -e dg/dt-."""
+def pushed(system, gap, e, at):
+    """Velocities after an impact, M (v+ - v-) = P dg/dq with dg/dt+ = -e dg/dt-, and M^-1 dg/dq."""
     mass = [[m.diff(v) for v in system.qdot] for m in (system.L.diff(v) for v in system.qdot)]
     n = len(system.q)
     M = [[number(entry, at) for entry in row] for row in mass]
@@ -111,7 +111,7 @@ def struck(system, gap, e, at):
     push = [(M[1][1] * g[0] - M[0][1] * g[1]) / det, (M[0][0] * g[1] - M[1][0] * g[0]) / det]
     impulse = -(1 + e) * rate / sum(g[i] * push[i] for i in range(n))
     after = {system.qdot[i].name: at[system.qdot[i].name] + impulse * push[i] for i in range(n)}
-    return {**at, **after}
+    return {**at, **after}, {system.qdot[i].name: push[i] for i in range(n)}
 
 
 GAPS = ("y", "x + 2*y", "1 - x^2 - y^2", "y - sin(t)", "x - y + t")
@@ -120,8 +120,8 @@ CHANGES = ("x: 1", "x: -2, y: 1", "x: -y, y: x", "t: 1", "x: 1, y: 1", "t: 1, x:
 
 @pytest.mark.parametrize("gap", GAPS)
 @pytest.mark.parametrize("e", ["1/2", "1", "e"])
-def test_what_an_impact_changes_is_constant_between_impacts(gap, e):
-    """Each charge before and after an impact, computed with the impulse itself."""
+def test_what_a_contact_changes_is_constant_without_it(gap, e):
+    """Each charge before and after an impact, and its rate while the contact is closed."""
     listed = "".join(f"  s{k}: {{{change}}}\n" for k, change in enumerate(CHANGES))
     derivation = derive(
         "coordinates: [x, y]\nparameters: {m: {assume: positive}, e: {assume: positive}}\n"
@@ -135,11 +135,16 @@ def test_what_an_impact_changes_is_constant_between_impacts(gap, e):
         wall = system.build(system.problem.contacts[0].equation.left)
         wall -= system.build(system.problem.contacts[0].equation.right)
         restitution = {"1/2": 0.5, "1": 1.0, "e": at["e"]}[e]
-        after = struck(system, wall, restitution, at)
+        after, push = pushed(system, wall, restitution, at)
         same = abs(number(charge.charge, after) - number(charge.charge, at)) < 1e-9
+        closed, _ = pushed(system, wall, 0, at)  # dg/dt = 0
+        faster = {name: v + 1e-3 * push.get(name, 0) for name, v in closed.items()}
+        slower = {name: v - 1e-3 * push.get(name, 0) for name, v in closed.items()}
+        kept = abs(number(charge.charge, faster) - number(charge.charge, slower)) < 1e-9
         change = charge.transformation
-        when = between_impacts(system, change.changes, change.time, charge.gauge)
-        assert when == ("" if same else "between impacts"), charge.name
+        when = when_constant(system, change.changes, change.time, charge.gauge)
+        apart = "between impacts" if kept else "while the gap is open"
+        assert when == ("" if same and kept else apart), charge.name
 
 
 def test_contacts_are_named_and_what_follows_is_limited_to_between_impacts():
@@ -154,6 +159,8 @@ def test_contacts_are_named_and_what_follows_is_limited_to_between_impacts():
     assert "h is conserved between impacts." in said(text, "The energy")
     assert derive(text).energy.reason.startswith("conserved between impacts: ")
     assert "impacts" not in said(text, "Conserved quantities")  # p_x
+    shaken = text.replace("y >= 0", "y >= sin(t)")  # it carries what lies on it
+    assert "h is conserved while the gap is open." in said(shaken, "The energy")
 
 
 # -- cyclic coordinates that are kept ---------------------------------------------------------------

@@ -12,7 +12,7 @@ from lagcli.document import Block, Equations, Heading, Label, Row
 from lagcli.expression import Diff, Name, Negative, Product, Rate, Sum, sum_of
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, listed, says, shows
-from lagcli.mechanics.impacts import between_impacts
+from lagcli.mechanics.impacts import when_constant
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.statements.wording import TRIVIAL, capitalized, enumerated
 
@@ -121,7 +121,7 @@ def _unchanged(explainer: Explainer) -> list[Part]:
 def _conserved(explainer: Explainer) -> list[Part]:
     function = explainer.derivation.energy
     named = "" if function.is_total_energy else ", Jacobi's integral,"
-    when = f" {function.between_impacts}" if function.between_impacts else ""
+    when = f" {function.when_constant}" if function.when_constant else ""
     return [f"{named} is conserved{when}"]
 
 
@@ -222,7 +222,7 @@ def _work(explainer: Explainer, charge: NoetherCharge, *, with_gauge: bool) -> I
 
 def _struck(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
     change = charge.transformation
-    when = between_impacts(explainer.system, change.changes, change.time, charge.gauge)
+    when = when_constant(explainer.system, change.changes, change.time, charge.gauge)
     if when:
         yield says(f"This holds {when}.")
 

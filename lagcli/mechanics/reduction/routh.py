@@ -29,7 +29,7 @@ from lagcli.algebra.place import at
 from lagcli.expression import ZERO, Equation
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.impacts import between_impacts
+from lagcli.mechanics.impacts import when_constant
 from lagcli.mechanics.legendre import Inverse, LegendreTransform
 from lagcli.mechanics.minimal import minimal, with_lagrangian
 from lagcli.mechanics.system import System
@@ -73,14 +73,14 @@ class Routh:
         )
 
     @property
-    def between_impacts(self) -> dict[str, str]:
+    def when_constant(self) -> dict[str, str]:
         """When the momenta, by coordinate, and E ("") are constant; only what an impact changes."""
         system, q = self.given.system, self.given.system.q
-        found = {"": between_impacts(system, [S.Zero] * len(q), S.One)}
+        found = {"": when_constant(system, [S.Zero] * len(q), S.One)}
         for j in self.cyclic:
             along = [S.One if x == self.system.q[j] else S.Zero for x in q]
             whole = self.full is self.given  # else it moves what was eliminated along with it
-            when = between_impacts(system, along, S.Zero) if whole else found[""]
+            when = when_constant(system, along, S.Zero) if whole else found[""]
             found[self.system.names[j]] = when
         return {name: when for name, when in found.items() if when}
 

@@ -128,7 +128,7 @@ class _Statement:
                 one_freedom=self._one_freedom(potential),
                 eliminated=self.eliminated,
                 irreducible=self.irreducible,
-                when=routh.between_impacts,
+                when=routh.when_constant,
             ),
             self.missing,
         )
@@ -252,7 +252,7 @@ class _Statement:
             signed=motion.contacts.signed,
             regular=motion.pace is not None or sign(motion.mass) == 1,
             oscillates=not periods.excluded,
-            when=self.routh.between_impacts.get("", ""),
+            when=self.routh.when_constant.get("", ""),
             reason=periods.reason.replace("U_eff", self.routh.potential_name),
         )
 
