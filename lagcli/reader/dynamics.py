@@ -248,6 +248,15 @@ def _force(file: FileReader, node: DocumentNode, name: str, length: int) -> tupl
     return tuple(file.expression(item, what, STATE) for item in items)
 
 
+def _is_name_of(label: str, file: FileReader) -> bool:
+    """Whether a word is the name of a force, and not of a coordinate in another spelling."""
+    coordinates = list(file.scope.of_kind("coordinate"))
+    is_known = (
+        label in coordinates or coordinate_meant(label.rstrip("'"), file.scope) in coordinates
+    )
+    return not (is_known or did_you_mean(label, coordinates) or file.scope.refused)
+
+
 def _shown(text: str) -> str:
     return text if len(text) <= 40 else "…"
 
@@ -268,6 +277,12 @@ def read_by_coordinate(
         [heading, *_] = [key for key, value in entries if isinstance(value, Mapping)]
         message = f"'{heading.label}' in {section} is not a coordinate"
         file.error(message, heading.span, whole)
+        return {}
+    named = [key for key, _ in entries if len(key.label) > 2 and _is_name_of(key.label, file)]
+    if section == "forces" and len(coordinates) == 1 and named and len(entries) > 1:
+        total = " + ".join(source_of(value) for _, value in entries).replace("+ -", "- ")
+        message = f"'{named[0].label}' in forces is not a coordinate"
+        file.error(message, named[0].span, f"write {coordinates[0]}: {total}")
         return {}
     for key, value in entries:
         if file.scope.kinds.get(key.label) != "coordinate":

@@ -58,6 +58,11 @@ _WORDS = frozenset({"none", "null", *YES_OR_NO})
 _FREQUENCIES = "write [sqrt(g/l)]"
 _RELATION = re.compile("[=<>≤≥]")
 _OF_RELATIONS = frozenset({"holds_while", "where", "always", "reaches"})
+#: An entry of a map that has no colon, and the sections in which it is no equation.
+_ASSIGNED = re.compile(
+    r"(?P<key>[^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]?>|:?=|→)\s*(?P<value>[^=<>]+?)\s*"
+)
+_ASSIGNABLE = frozenset({"initial", "forces", "definitions", "simulation"})
 _NO_EQUATION = Equation(ZERO, ZERO)
 
 
@@ -127,7 +132,7 @@ class FileReader:
     ) -> Iterator[tuple[Scalar, DocumentNode]]:
         """The entries of a map; a mistake when it is none."""
         if isinstance(node, Mapping):
-            yield from self._with_decimals(node)
+            yield from self._with_decimals(node, what)
         else:
             is_word = isinstance(node, Scalar) and node.value.casefold() in _WORDS
             if is_word and not what.startswith("the symmetry"):
@@ -147,8 +152,18 @@ class FileReader:
             if what in MAPS:
                 self.scope.refused.append("")  # whatever was to be declared
 
-    def _with_decimals(self, node: Mapping) -> Iterator[tuple[Scalar, DocumentNode]]:
-        """The entries of a map; a mistake at `{g: 9,81}`, and at the quotes of `{'x: 1, x': 0}`."""
+    def _with_decimals(self, node: Mapping, what: str) -> Iterator[tuple[Scalar, DocumentNode]]:
+        """The entries of a map; a mistake at `{g: 9,81}`, and at the quotes of `{'x: 1, x': 0}`.
+
+        Another one is a map without colons, `{x = 1, x' = 0}`.
+        """
+        pairs = [_ASSIGNED.fullmatch(key.label) for key, value in node.entries if value.is_empty]
+        given = [f"{each['key']}: {each['value']}" for each in pairs if each]
+        if what in _ASSIGNABLE and given and len(given) == len(node.entries):
+            first = node.entries[0][0]
+            message = f"': ' is missing behind '{given[0].partition(':')[0]}'"
+            self.error(message, first.span, f"write {{{', '.join(given)}}}")
+            return
         before = ""
         text = node.text.source.text
         written = text[node.start : node.end]

@@ -12,7 +12,12 @@ from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 
 #: Longer maps are not repeated in a hint.
 _LONGEST = 120
-_RATE = re.compile(r"veloc|speed|rate|dot|geschw|vitesse|veloci|^v$", re.IGNORECASE)
+#: Words for velocities and for places.
+RATE = re.compile(r"veloc|speed|rate|dot|geschw|vitesse|prędk|скорост|^v$", re.IGNORECASE)
+PLACE = re.compile(
+    r"(?:initial_?|start_?|anfangs|init_?)?(?:pos|posi[cçtz]|place|displ|angle|angul|ángul|winkel|auslenk|ort$|lage$|полож|угол)",
+    re.IGNORECASE,
+)
 #: What a system of coordinates is called, and its coordinates.
 SYSTEMS = {
     "polar": "[r, phi]",
@@ -107,7 +112,7 @@ def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:
     """`{x: 1, x': 0}` for `{positions: {x: 1}, velocities: {x: 0}}`, `{x: {value: 1, rate: 0}}`."""
     parts = []
     for heading, value in node.entries if isinstance(node, Mapping) else []:
-        rate = "'" if _RATE.search(heading.label) else ""
+        rate = "'" if RATE.search(heading.label) else ""
         if isinstance(value, Scalar):
             parts.append(f"{heading.label}: {source_of(value)}")
         elif heading.label in coordinates and isinstance(value, Sequence):
@@ -119,7 +124,7 @@ def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:
             for key, each in value.entries:
                 name, prime = key.label.rstrip("'"), rate or "'" * key.label.endswith("'")
                 if name not in coordinates:
-                    name, prime = heading.label, "'" if _RATE.search(key.label) else ""
+                    name, prime = heading.label, "'" if RATE.search(key.label) else ""
                 parts.append(f"{name}{prime}: {source_of(each)}")
     names = {part.partition(":")[0].rstrip("'") for part in parts}
     return f"write {{{', '.join(parts)}}}" if names and names <= {*coordinates} else ""

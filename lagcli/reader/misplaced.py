@@ -6,7 +6,7 @@ import re
 from dataclasses import replace
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.reader.habits import KEYS, MAPS
+from lagcli.reader.habits import KEYS, MAPS, key_meant
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 
@@ -43,7 +43,12 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
     mistakes = []
     for key, node in root.entries:
         whole = node.entries if isinstance(node, Mapping) and key.label not in KEYS else []
-        if whole and all(each.label in {*KEYS} - given for each, _ in whole):
+        meant = [key_meant(each.label, KEYS) for each, _ in whole]
+        if whole and all(each in {*KEYS} - given for each in meant):
+            whole = [
+                (replace(each, value=f"{other}"), value)
+                for (each, value), other in zip(whole, meant, strict=True)
+            ]
             message = f"unknown key '{key.label}' in the problem"
             lines = ", ".join(f"{each.label}: {source_of(value)}" for each, value in whole)
             hint = f"leave it out, and begin lines with {lines}"

@@ -206,7 +206,7 @@ def as_text(node: DocumentNode) -> str:
     first = (*inner, *(key for key, _ in entries))[:1]
     if not (first and isinstance(first[0], Scalar)):
         return ""
-    written = [(key.label, source_of(value)) for key, value in entries]
+    written = [(_attribute(key.label), source_of(value)) for key, value in entries]
     if len(entries) < 2:
         return f"write {first[0].value}"
     name, value = written[0]
@@ -216,6 +216,12 @@ def as_text(node: DocumentNode) -> str:
     elif value:
         said = [f"value: {value}", *said]
     return f"write {name}: {{{', '.join(said)}}}, without '-'"
+
+
+def _attribute(word: str) -> str:
+    """`unit` for units and Einheit, `mass` for m; other words as they are."""
+    known = ("value", "unit", "symbol", "description", "assume", "position", "mass", "force")
+    return key_meant(word, known) or key_meant(word.removesuffix("s"), known) or word
 
 
 def by_its_name(node: Sequence) -> str:

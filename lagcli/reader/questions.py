@@ -16,8 +16,8 @@ from lagcli.problem_data import (
     Where,
 )
 from lagcli.reader.by_coordinate import by_name, state_meant
-from lagcli.reader.habits import advised, key_meant, name_meant
-from lagcli.reader.headings import state_without_headings
+from lagcli.reader.habits import advised, is_angle, key_meant, name_meant
+from lagcli.reader.headings import PLACE, RATE, state_without_headings
 from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end, source_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar
@@ -85,9 +85,12 @@ def _state_name(
         if meant.endswith("'") and not re.search(r"[0\s]", key.label):
             hint = f"the velocity of {meant[:-1]} is {meant}"
         hint = hint or f"known are {', '.join(coordinates)} and velocities: {coordinates[0]}'"
-        order = {"position": "", "angle": "", "velocity": "'", "speed": "'"}.get(key.label)
-        if order is not None:
-            hint = re.sub(r"(\w+)(?=:)", rf"\1{order}", by_name(value, file.scope))
+        rate = RATE.search(key.label)
+        if not meant and (rate or PLACE.match(key.label)):
+            turns = re.search(r"ang|áng|wink|угл|угол", key.label, re.IGNORECASE) is not None
+            along = [x for x in coordinates if is_angle(x) == turns] or coordinates
+            number = source_of(value) if len(along) == 1 else "…"
+            hint = f"write {along[0]}{chr(39) * bool(rate)}: {number or '…'}"
         if re.search(r"[=→>]", key.label):
             hint = f"write {name_meant(key.label)}"
         if letters.startswith("p_") and letters[2:] in coordinates:

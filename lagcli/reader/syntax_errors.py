@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, Span
@@ -200,7 +201,10 @@ def _unexpected(
         if previous is not None and previous.type == "EQUAL":
             return "'==' has no meaning", "an equation is written with one '='"
         if start == "equation" and inside is None and previous is not None:
-            return "an equation has one '='", "write an equation of its own for each"
+            sides = [each.strip() for each in written.split("=")]
+            each_ = " and ".join(map(" = ".join, pairwise(sides)))
+            hint = "an equation of its own for each"
+            return "an equation has one '='", f"{hint}: {each_}" if all(sides) else f"write {hint}"
         if name := _called(before):
             return "an argument of a function has no name", instead(name) or "write the value alone"
         if start == "equation" and inside is not None:

@@ -45,6 +45,7 @@ _TOGETHER = (
         "forces stand by coordinate: write forces: {{{}}}",
     ),
 )
+_OTHER_KEY = re.compile(r"unknown keys? (?P<key>'\w+') in .*: the key is (?P<meant>\w+)")
 _NAME = re.compile(r"unknown name '(\w+)' in (.*)")
 
 
@@ -169,6 +170,11 @@ def _unquoted(message: str) -> str:
 
 def _joined(group: list[Diagnostic]) -> Diagnostic:
     """The first, with the advice of each, of three where there are more."""
+    keys = [_OTHER_KEY.fullmatch(f"{each.message}: {each.hint}") for each in group]
+    if len(pairs := {each["key"]: each["meant"] for each in keys if each}) > 1 and all(keys):
+        place = _KEY.sub(r"\g<place>", group[0].message)
+        message = f"unknown keys {', '.join(pairs)} in {place}"
+        return replace(group[0], message=message, hint=f"the keys are {', '.join(pairs.values())}")
     hints = {group[0].hint: group[0].hint}
     for before, each in pairwise(group):
         at = each.span.line

@@ -22,7 +22,7 @@ from lagcli.reader.habits import (
     number_and_unit,
 )
 from lagcli.reader.misplaced import names_in
-from lagcli.reader.misshapen import as_rayleigh, key_by_shape, source_of
+from lagcli.reader.misshapen import as_rayleigh, key_by_shape, range_end, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.text import Mistake
@@ -103,7 +103,10 @@ def unknown_key(
     if "parameters" in names and is_constant(word, written):
         scope.refused.append(word)
     if isinstance(value, Mapping | Sequence):
-        hint = hint.replace(": …}", f": {source_of(value)}}}")
+        given_there = source_of(value)
+        if "until: …" in hint:
+            given_there = range_end(given_there) or given_there
+        hint = hint.replace(": …}", f": {given_there}}}")
     if hint.startswith("did you mean"):
         meant = meant or closest(word, names, _NEAR)
     known = f"known are {', '.join(names)}" if names != KEYS else _MANUAL
@@ -230,6 +233,10 @@ def _advice_in_problem(word: str, value: str) -> str:
         return said
     key = meanings("keys").get(word.replace("-", "_"), word)
     part = meanings("parts").get(key)
+    if key == "until":
+        value = range_end(value) or value
+    if len(word) > 1 and (advice := advice_in("simulation").get(word)):
+        return advice
     if part == "expect" and value in _WISHES:
         return f"an option, not a key: lagcli solve FILE --show {key}"
     if part:

@@ -129,7 +129,8 @@ class Functions(Sums):
         form = habits()["written_out"].get(word, "")
         if len(set(re.findall(r"{\d}", form))) != len(arguments):
             raise UnclearText
-        text = form.format(*(grouped if re.search(r"}[*^]|[/^]{", form) else arguments))
+        text = form.format(*(grouped if re.search(r"}[*^]|[/^]{|- {", form) else arguments))
+        text = re.sub(r"(?<=abs\()0 - |(?<=\()0 \+ | [-+] 0(?=[ )])", "", text)
         if form == "{0}" and re.fullmatch(r"[\w.]+", text):
             return Part(text, 3)
         is_sum = (

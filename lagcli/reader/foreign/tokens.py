@@ -10,7 +10,7 @@ from typing import NamedTuple
 from lagcli.notation.greek import BY_LETTER, BY_NAME
 from lagcli.reader.foreign.indexed_sums import written_out
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, parts_of
-from lagcli.reader.habits import REMARK, is_angle, unit_behind
+from lagcli.reader.habits import REMARK, foreign_function, is_angle, unit_behind
 
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻½⅓⅔¼¾⅛"
 _LETTER = rf"[^\W\d{RAISED}]"
@@ -248,7 +248,8 @@ def tokens(text: str, names: Vocabulary) -> list[Token]:
         at = match.end()
         kind = match.lastgroup or ""
         if kind == "name":
-            first, *others = parts_of(match[0], names)
+            is_called = foreign_function(match[0]) and re.match(r"\s*[(\[]", text[at:])
+            first, *others = [match[0]] if is_called else parts_of(match[0], names)
             found += [Token(kind, first, apart), *(Token(kind, each, False) for each in others)]
         elif kind != "skip":
             found.append(Token(kind, match[0], apart))
