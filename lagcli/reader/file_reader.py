@@ -162,7 +162,8 @@ class FileReader:
         if what in _ASSIGNABLE and given and len(given) == len(node.entries):
             first = node.entries[0][0]
             message = f"': ' is missing behind '{given[0].partition(':')[0]}'"
-            self.error(message, first.span, f"write {{{', '.join(given)}}}")
+            whole = f"{{{', '.join(given)}}}" if given[1:] else given[0]
+            self.error(message, first.span, f"write {whole}")
             return
         before = ""
         text = node.text.source.text
