@@ -86,6 +86,23 @@ def test_the_brackets_of_the_charges_of_kepler():
     assert "Nothing outside of the ansatz was searched." in words(told, DISCOVERED)
 
 
+def test_a_bracket_that_is_a_sum_of_charges_is_shown_as_one():
+    """{h, D} is the derivative of a constant D by t at constant x and p.  By hand, with
+    D = 2 m x p + 3 F t^2 p - 2 t p^2 - 2 m F t x - F^2 t^3:  -2 p^2 - 2 m F x + 6 F t p - 3 F^2 t^2.
+    """
+    text = "{coordinates: [x], parameters: {m: {assume: positive}, F: {}}, L: m*x'^2/2 + F*x}"
+    told = explain(derive(text), ("discovered", "algebra"))
+    found = {
+        (row.left.left.name, row.left.right.name): normal(row.right)
+        for row in rows(told, ALGEBRA)
+        if isinstance(row.left, Bracket)
+    }
+    assert found["energy", "dilation"] == formula("-4*energy*m + 6*F*boost_x")
+    assert "combination of them" not in words(told, ALGEBRA)
+    told = also("particles/oscillator-one-to-two", "algebra")
+    assert "5 other brackets are neither 0 nor a combination of them." in words(told, ALGEBRA)
+
+
 @pytest.mark.long
 def test_a_momentum_equation_is_told_with_its_rate():
     told = also("nonholonomic/chaplygin-sleigh", "discovered")

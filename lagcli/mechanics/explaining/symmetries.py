@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Iterator, Mapping
 from itertools import combinations
 from typing import cast
 
-from sympy import Expr, Symbol
+from sympy import Expr, Matrix, Rational, S, Symbol
 
-from lagcli.algebra import is_zero, shape, simplify
+from lagcli.algebra import dot, is_zero, shape, simplify
 from lagcli.algebra.build import free_of
 from lagcli.document import Block, Bracket, Equations, Heading, Label, Row, equations_of
 from lagcli.expression import ZERO, Expression, Name, walk
@@ -245,6 +246,8 @@ def _brackets(explainer: Explainer, *, closed: bool) -> Iterator[Block]:
             continue
         try:
             multiple = _multiple(explainer, value, known)
+            if multiple is None and closed:
+                multiple = _combination(explainer, value, known)
         except TooMuchWork:
             multiple = None
         if multiple is None:
@@ -262,7 +265,7 @@ def _brackets(explainer: Explainer, *, closed: bool) -> Iterator[Block]:
         yield Equations(tuple(rows))
     if other:
         yield says(f"{other} other {'brackets are' if other > 1 else 'bracket is'} neither 0 nor a "
-                   "multiple of one of them.")  # fmt: skip
+                   "combination of them.")  # fmt: skip
     if commuting:
         yield says("All others are 0.")
 
@@ -283,4 +286,27 @@ def _multiple(explainer: Explainer, value: Expr, known: Mapping[str, Expr]) -> E
             if free_of(ratio, moving):
                 product = ratio * Symbol(name, real=True)
                 return product * Symbol("energy", real=True) if scaled else product
+    return None
+
+
+def _combination(explainer: Explainer, value: Expr, known: Mapping[str, Expr]) -> Expr | None:
+    """The bracket as the sum of two charges or one with constant factors, and a constant.
+
+    Constants of the motion that depend linearly on each other at t = 0 do so always.
+    """
+    system = explainer.system
+    source = random.Random("combination")
+    variables = (*system.q, *system.momenta)
+    states = [
+        {system.t: S.Zero, **{x: Rational(source.randint(10, 99), 31) for x in variables}}
+        for _ in range(3)
+    ]
+    for names in combinations(known, 2):
+        rows = Matrix([[*(known[name].subs(at) for name in names), 1] for at in states])
+        if is_zero(rows.det()) is not False:
+            continue
+        factors = [simplify(c) for c in rows.LUsolve(Matrix([value.subs(at) for at in states]))]
+        left = value - dot(factors, [*(known[name] for name in names), S.One])
+        if is_zero(left) is True:
+            return dot(factors, [*(Symbol(name, real=True) for name in names), S.One])
     return None
