@@ -98,9 +98,9 @@ def test_a_bracket_that_is_a_sum_of_charges_is_shown_as_one():
         if isinstance(row.left, Bracket)
     }
     assert found["energy", "dilation"] == formula("-4*energy*m + 6*F*boost_x")
-    assert "combination of them" not in words(told, ALGEBRA)
+    assert "multiple of one of them" not in words(told, ALGEBRA)
     told = also("particles/oscillator-one-to-two", "algebra")
-    assert "5 other brackets are neither 0 nor a combination of them." in words(told, ALGEBRA)
+    assert "5 other brackets are neither 0 nor a multiple of one of them." in words(told, ALGEBRA)
 
 
 @pytest.mark.long

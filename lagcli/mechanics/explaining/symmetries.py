@@ -265,7 +265,7 @@ def _brackets(explainer: Explainer, *, closed: bool) -> Iterator[Block]:
         yield Equations(tuple(rows))
     if other:
         yield says(f"{other} other {'brackets are' if other > 1 else 'bracket is'} neither 0 nor a "
-                   "combination of them.")  # fmt: skip
+                   "multiple of one of them.")  # fmt: skip
     if commuting:
         yield says("All others are 0.")
 
