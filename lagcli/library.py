@@ -104,7 +104,8 @@ def find_problem(name: str) -> Path:
         return (exact or named)[0].path
     if named:
         raise NotInLibrary(name, "give " + " or ".join(one.name for one in named))
-    raise NotInLibrary(name, _near(wanted, every))
+    here = [name + suffix for suffix in SUFFIXES if Path(name + suffix).is_file()]
+    raise NotInLibrary(name, f"did you mean '{here[0]}'?" if here else _near(wanted, every))
 
 
 def files_named(name: str) -> list[str]:
@@ -135,6 +136,8 @@ def _near_file(wanted: Path) -> str:
 def _near(wanted: str, every: tuple[LibraryEntry, ...]) -> str:
     from difflib import get_close_matches
 
+    if re.fullmatch(r"[^\W\d]\w*'*=\S+", wanted):
+        return f"a value is set by an option of its own: --set {wanted}"
     short = [one.name.rpartition("/")[2] for one in every]
     close = get_close_matches(wanted.rpartition("/")[2], short, n=1)
     return f"did you mean '{close[0]}'?" if close else "lagcli list names them"

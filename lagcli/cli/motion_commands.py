@@ -101,11 +101,28 @@ def option_reader(problem: Problem) -> OptionReader:
     return OptionReader(problem, COMMAND_LINE, rejected)
 
 
+#: Names by what other programs call them.
+_OTHER_NAMES = {
+    "python": "py numpy scipy jax python3 jupyter",
+    "c": "c++ cpp cxx",
+    "julia": "jl",
+    "fortran": "f90 f77 for",
+    "matlab": "m octave simulink",
+    "modelica": "mo openmodelica",
+    "mathematica": "wolfram wl nb mma",
+}
+
+
 def is_known(option: str, name: str, names: tuple[str, ...]) -> bool:
     """Whether a name is a known one; a message where it is not."""
     if name in names:
         return True
-    advice = did_you_mean(name, names) or f"there are {', '.join(names)}"
+    meant = [x for x, words in _OTHER_NAMES.items() if x in names and name in words.split()]
+    advice = (
+        f"did you mean '{meant[0]}'?"
+        if meant
+        else did_you_mean(name, names) or f"there are {', '.join(names)}"
+    )
     report_line(f"lagcli: error: {option}: unknown name '{name}': {advice}")
     return False
 

@@ -52,6 +52,10 @@ def run(arguments: Sequence[str]) -> int:
         from lagcli.cli.app import application
 
         try:
+            if {"--set", "--at", "--vary"} & {*arguments}:
+                from lagcli.cli.usage import refuse_values_apart
+
+                refuse_values_apart(arguments)
             outcome = application().main(
                 args=list(arguments), prog_name="lagcli", standalone_mode=False
             )

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
+from itertools import takewhile
 from pathlib import Path
 
-from click import BadOptionUsage, ClickException, NoSuchOption, UsageError
+from click import BadOptionUsage, ClickException, Context, NoSuchOption, UsageError
 
 from lagcli.cli.error_output import within_a_terminal
 
@@ -24,6 +26,26 @@ _MEANT = {
     "--version": "-v -V",
 }
 
+
+#: Commands by what other programs call them.
+_COMMANDS_MEANT = {
+    "solve": "derive compute calculate equations eom lagrange euler-lagrange analyze analyse",
+    "explain": "steps derivation why",
+    "export": "code codegen generate compile convert translate to",
+    "simulate": "run sim integrate evolve start go play",
+    "plot": "draw graph figure chart view visualize visualise",
+    "animate": "animation movie video render gif",
+    "sweep": "scan vary grid ensemble batch",
+    "check": "test verify validate lint",
+    "diff": "compare",
+    "new": "init create template",
+    "list": "ls problems examples library",
+    "show": "cat print open",
+    "help": "man manual doc docs info",
+}
+#: An option with a value behind a blank, in place of `name=value`.
+_NAMED_VALUE = re.compile(r"[^\W\d]\w*['’′]*")
+_NUMBER = re.compile(r"[-+]?\d[\d.]*(?:[eE][-+]?\d+)?")
 
 #: What stands behind options that lack it.
 _FOR_EXAMPLE = {
@@ -45,14 +67,68 @@ def report_mistake(mistake: ClickException, arguments: Sequence[str]) -> None:
     if isinstance(mistake, NoSuchOption) and context is not None:
         known = {name for each in context.command.get_params(context) for name in each.opts}
         meant = _option_meant(mistake.option_name, known, arguments)
+        one = meant or "Did you mean '" in said
+        elsewhere = "" if one else _command_with(mistake.option_name)
         said = f"{mistake.message} Did you mean {meant}?" if meant else said
+        said = f"{mistake.message} It is an option of lagcli {elsewhere}." if elsewhere else said
     elif isinstance(mistake, BadOptionUsage) and mistake.option_name in _FOR_EXAMPLE:
         said = f"{said} Write {_FOR_EXAMPLE[mistake.option_name]}."
     elif context is not None and context.parent is None and "No such command" in said:
         named = next((each for each in arguments if not each.startswith("-")), "")
+        other = [name for name, words in _COMMANDS_MEANT.items() if named in words.split()]
         if Path(named).suffix in {".yaml", ".yml"} or Path(named).exists():
             said = f"A command comes first: lagcli solve {named}"
+        elif other:
+            said = f"No such command '{named}'. Did you mean '{other[0]}'?"
+    elif context is not None and "unexpected extra argument" in said and _columns(context, said):
+        said = f"{said}. Columns stand behind --show, as in --show {_columns(context, said)}."
     UsageError(within_a_terminal(f"Error: {said}").removeprefix("Error: "), context).show()
+
+
+def refuse_values_apart(arguments: Sequence[str]) -> None:
+    """Refuse `--set k 2` and `--vary k 1 4`, whose numbers would be read as files.
+
+    Raises
+    ------
+    UsageError
+        With the option as it is written.
+    """
+    for option, name, *rest in (arguments[place:] for place in range(len(arguments) - 2)):
+        if option not in {"--set", "--at", "--vary"} or not _NAMED_VALUE.fullmatch(name):
+            continue
+        behind = rest[1:] if rest[0] == "=" else rest
+        numbers = [*takewhile(_NUMBER.fullmatch, behind)]
+        if not numbers:
+            continue
+        value = numbers[0] if option != "--vary" else ",".join(numbers)
+        whole = f"{name}={value}"
+        whole = f'"{whole}"' if "'" in name else whole
+        said = f"{option} {name}: an '=' is missing: write {option} {whole}"
+        if option == "--vary" and len(numbers) == 2:
+            said += (
+                f", or for 10 values from {numbers[0]} on {option} {name}={':'.join(numbers)}:10"
+            )
+        raise UsageError(said)
+
+
+def _columns(context: Context, said: str) -> str:
+    """`x,y` for the extra arguments x and y of a command with columns; nothing for others."""
+    has_columns = any("--show" in each.opts for each in context.command.get_params(context))
+    words = said.partition("(")[2].rstrip(")").split()
+    names = [each for each in words if each.isidentifier() and each not in {"vs", "over", "and"}]
+    return ",".join(each for each in names if each != "t") if has_columns else ""
+
+
+def _command_with(option: str) -> str:
+    """The first command that has an option, with it; nothing where none has."""
+    from lagcli.cli.app import COMMANDS, load_command
+
+    for name in COMMANDS:
+        for each in load_command(name).params:
+            if option in each.opts:
+                value = "" if getattr(each, "is_flag", False) else f" {each.metavar or 'VALUE'}"
+                return f"{name}: lagcli {name} FILE {option}{value}"
+    return ""
 
 
 def _option_meant(written: str, known: set[str], arguments: Sequence[str]) -> str:

@@ -96,11 +96,22 @@ def _listed(name: str, origin: str, found: Formatter | UnknownFormatter) -> List
     return ListedFormatter(name, origin, description)
 
 
+#: Formats by what they are called elsewhere.
+_OTHER_NAMES = {
+    "latex": "tex amsmath mathjax",
+    "text": "txt plain ascii unicode pretty console",
+    "markdown": "md github",
+    "html": "htm web mathml xhtml",
+    "json": "js",
+}
+
+
 def _unknown(name: str) -> UnknownFormatter:
     known = [*built_in(), *(point.name for point in plug_ins(GROUP))]
     from difflib import get_close_matches
 
-    close = get_close_matches(name.lower(), known, n=1)
+    close = [x for x, words in _OTHER_NAMES.items() if name.lower() in words.split()]
+    close = close or get_close_matches(name.lower(), known, n=1)
     message = f"unknown format {name!r}"
     if close:
         return UnknownFormatter(name, f"{message}: did you mean {close[0]!r}?")
