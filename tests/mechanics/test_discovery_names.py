@@ -378,3 +378,23 @@ def test_in_polar_coordinates_the_charges_are_those_of_cartesian_ones(V, all_nam
             [charge_at(charges[each], *state) for state in states] for charges in (named, known)
         )
         assert abs((own[0] - own[1]) - (others[0] - others[1])) < 1e-12, each
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_what_is_named_as_a_momentum_is_the_canonical_one(seed):
+    """Landau, Lifshitz, *Quantum Mechanics*, section 112: p_x is conserved in one gauge, not p_y.
+
+    In any gauge a translation conserves m v + q B × r, which is another quantity than ∂L/∂v.
+    """
+    random = Random(seed)
+    c, fall = sympy.Rational(random.randint(-3, 4), 4), random.choice(["", " - m*g*z"])
+    text = (
+        f"{{coordinates: [x, y, z], parameters: {{m: {POS}, B: {POS}, g: {POS}}}, "
+        f"L: \"m*(x'^2 + y'^2 + z'^2)/2 + B*({c}*x*y' - {1 - c}*y*x'){fall}\"}}"
+    )
+    system, found = derive(text).system, names_of(text)
+    momenta = {f"p_{q.name}": system.L.diff(v) for q, v in zip(system.q, system.qdot, strict=True)}
+    cyclic = {f"p_{q.name}" for q in system.q if q not in system.L.free_symbols}
+    assert found.keys() & momenta == cyclic
+    assert all(is_zero(found[n].charge - momenta[n]) is True for n in cyclic)
+    assert found.keys() >= {f"translation_{n.removeprefix('p_')}" for n in momenta.keys() - cyclic}

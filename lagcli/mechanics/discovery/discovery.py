@@ -265,7 +265,7 @@ class Discovery(Setting):
                 self._degree = 2
                 functions = "with the same functions of time in the coefficients"
                 still = self.system.t not in self.equations_symbols
-                self.words.append(f"and such {functions}" if still else f"{_SECOND} {functions}")
+                self.words.append(f"also {functions}" if still else f"{_SECOND} {functions}")
                 self._keep(timed.found(self.charges))
 
     def _of_higher_degree(self) -> None:

@@ -47,7 +47,7 @@ class Listing:
         """Name charges of point symmetries, and sort all of them anew."""
         self._found += [self._named(charge) for charge in filter(self._lasts, charges)]
         self._found.sort(key=lambda pair: rank_of(pair[0]))
-        names = distinct([name for name, _ in self._found])
+        names = distinct([shown(name, charge) for name, charge in self._found])
         self.points = tuple(
             replace(times(charge, self.naming.orientation(name, charge)), name=name)
             for name, (_, charge) in zip(names, self._found, strict=True)
@@ -90,6 +90,13 @@ class Listing:
         if name or not self._constrained:
             return name, charge
         return led_momentum(charge, self._system)
+
+
+def shown(name: str, charge: NoetherCharge) -> str:
+    """p_x stands for ∂L/∂x' alone, from which a translation with a gauge G differs by -G."""
+    if name.startswith("p_") and charge.gauge is not None and charge.gauge != 0:
+        return f"translation_{name.removeprefix('p_')}"
+    return name
 
 
 def rank_of(name: str) -> tuple[int, str]:

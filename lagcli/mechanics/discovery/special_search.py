@@ -16,7 +16,7 @@ from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unkno
 from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
-from lagcli.mechanics.discovery.listing import times
+from lagcli.mechanics.discovery.listing import shown, times
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.names import Naming, distinct
 from lagcli.mechanics.discovery.pivots import Pivots
@@ -134,7 +134,7 @@ def _named_apart(charges: Sequence[NoetherCharge], here: Discovery) -> tuple[Noe
 def _named_as(charge: NoetherCharge, naming: Naming) -> NoetherCharge:
     """With the name and the sign that it has among others, if any."""
     given = charge.transformation
-    name = naming.of_point(given.changes, given.time)
+    name = shown(naming.of_point(given.changes, given.time), charge)
     if not name or name == charge.name:
         return charge
     return replace(times(charge, naming.orientation(name, charge)), name=name)

@@ -199,7 +199,7 @@ class LastingAnswer:
         if line.rate is not None and start.target is not None:
             if line.rate != 1:
                 raise Undecided(f"{u} stands in sines and cosines and is no angle")
-            self.notes.append("the angle may reach this value after whole turns")
+            self.notes.append("values of the angle that differ by whole turns count as one")
         wall = 1 if u.is_nonnegative else -1 if u.is_nonpositive else 0
         walk = Walk(line, start, strict=strict, wall=wall)
         events = self._events(line, start, wall)
