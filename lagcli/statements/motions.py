@@ -58,7 +58,8 @@ class PeriodSeries:
 
     `amplitude` is the name in `period` of half the distance of the turning points, empty
     where the period is that of small oscillations alone; `order` is its highest power.
-    Where the motion is `isochronous`, it is the same at every amplitude.
+    Where the motion is `isochronous`, it is the same at every amplitude: the arc, or its square
+    where that is `squared`, is that of a harmonic oscillator.
     A minimum that is not solved for is where `root_of` vanishes, `at` is empty then.
     """
 
@@ -67,6 +68,7 @@ class PeriodSeries:
     period: Expression
     order: int = 0
     isochronous: bool = False
+    squared: bool = False
     root_of: Expression | None = None
     where: tuple[Above, ...] = ()
 

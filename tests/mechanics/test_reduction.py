@@ -536,7 +536,6 @@ L: -sqrt(1 - r'^2 - r^2*phi'^2) + {b}*r^2*phi'
         ("cosh(x)^2", "k*sinh(x)^2/2", True),  # s = sinh x
         ("(1 + cos(x))", "-k*cos(x)", True),  # a cycloid
         ("exp(2*x)", "k*(exp(x) - 3)^2", True),
-        ("1", "k*(x^2 + 1/x^2)/2", False),  # isochronous, and no harmonic oscillator
         ("1", "-k*cos(x)", False),
         ("(1 + x^2)", "k*x^2/2", False),
     ],
@@ -550,6 +549,28 @@ V: {V}
 """)
     assert section.one_freedom.periods
     assert all(each.isochronous == alike for each in section.one_freedom.periods)
+
+
+@pytest.mark.parametrize(
+    ("inertia", "V", "alike"),
+    [
+        ("1", "k*(x^2 + B/x^2)", True),
+        ("cosh(x)^2", "k*(sinh(x)^2 + B/sinh(x)^2)", True),
+        ("x^2", "k*(x^4 + B/x^4)", True),  # s = x^2/2
+        ("1", "k*(x^4 + B/x^4)", False),
+        ("1", "k*(x^2 + B/x^4)", False),
+    ],
+)
+def test_where_the_square_of_the_arc_is_harmonic_the_period_is_the_same(inertia, V, alike):
+    """Of A s^2 + B/s^2, as for the distance of an isotropic oscillator: (s^2)'' + 8 A s^2 = 4 E."""
+    section, _ = reduced(f"""
+coordinates: [x]
+parameters: {{m: POSITIVE, k: POSITIVE, B: POSITIVE}}
+T: m*{inertia}*x'^2/2
+V: {V}
+""")
+    assert section.one_freedom.periods
+    assert all(each.squared == each.isochronous == alike for each in section.one_freedom.periods)
 
 
 @pytest.mark.parametrize(

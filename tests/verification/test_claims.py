@@ -561,8 +561,9 @@ def test_a_period_is_kept_where_letters_may_have_any_sign(wave: str) -> None:
     assert len(found.one_freedom.periods) == len(answers.sections["reduction"].one_freedom.periods)
 
 
-@pytest.mark.parametrize("V", ["-k*cos(x)", "k*(x^2 + x^4)", "k*cosh(x)"])
-def test_a_period_that_grows_is_not_kept_as_isochronous(V: str) -> None:
+@pytest.mark.parametrize("squared", [False, True])
+@pytest.mark.parametrize("V", ["-k*cos(x - 1)", "k*((x - 1)^2 + (x - 1)^4)", "k*cosh(x - 1)"])
+def test_a_period_that_grows_is_not_kept_as_isochronous(V: str, squared: bool) -> None:
     text = (
         "coordinates: [x]\nparameters: {m: {assume: positive}, k: {assume: positive}}\n"
         f"T: m*x'^2/2\nV: {V}\n"
@@ -570,7 +571,9 @@ def test_a_period_that_grows_is_not_kept_as_isochronous(V: str) -> None:
     problem = read_problem("wells", text.encode()).problem
     answers = state(derive(problem), Request(sections=("reduction",)))
     section = answers.sections["reduction"]
-    periods = tuple(replace(each, isochronous=True) for each in section.one_freedom.periods)
+    periods = tuple(
+        replace(each, isochronous=True, squared=squared) for each in section.one_freedom.periods
+    )
     false = replace(section, one_freedom=replace(section.one_freedom, periods=periods))
     found = verified(problem, replace(answers, sections={"reduction": false}))
     assert found.sections["reduction"].one_freedom is None

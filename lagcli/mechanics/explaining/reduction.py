@@ -180,8 +180,10 @@ def _period(each: PeriodSeries, potential: Part) -> Iterator[Block]:
         yield says(f"{_TWICE} With ", a, " half their distance it is, to the order ",
                    Power(a, order), ",")  # fmt: skip
     elif each.isochronous:
-        yield says(f"{_TWICE} The motion is that of a harmonic oscillator in the arc, so it is",
-                   " the same at every amplitude:")  # fmt: skip
+        why = "The motion is that of a harmonic oscillator in the arc"
+        if each.squared:
+            why = "The square of the arc from a fixed point oscillates harmonically"
+        yield says(f"{_TWICE} {why}, so it is the same at every amplitude:")
     elif each.order:
         yield says(f"{_TWICE} To the order {each.order} in half their distance it is constant:")
     else:

@@ -16,9 +16,16 @@ oscillator at every amplitude.  As U' = w^2 s sqrt(M), this is so where
 
     U'^2 = 2 w^2 M (U - U0).
 
+So it is where U = A s^2 + B/s^2 + C, with w^2 = 8 A: there s^2 is that of a harmonic oscillator.
+As with D = d/ds then 3 DU = (w^2 - D^2 U) s, this is so where h = s^2 = (3 DU/(w^2 - D^2 U))^2
+obeys
+
+    h' = 6 U'/(w^2 - D^2 U).
+
 References
 ----------
 Landau, Lifshitz, *Mechanics*, 3rd ed., section 11 (problem 1 for the pendulum) and 28.
+Chalykh, Veselov, J. Nonlinear Math. Phys. 12 Suppl. 1 (2005) 179 (which potentials those are).
 """
 
 from __future__ import annotations
@@ -66,7 +73,8 @@ class AmplitudeSeries:
     """T = 2 pi root (1 + sum of coefficients[k] a^(k + 1)) about one equilibrium.
 
     `point` None: about every place at which the derivative of U_eff vanishes.  Where the motion is
-    `isochronous` the period is 2 pi root at every amplitude.
+    `isochronous` the period is 2 pi root at every amplitude: the arc, or its square where that is
+    `squared`, is that of a harmonic oscillator.
     """
 
     point: RestPoint | None
@@ -74,6 +82,7 @@ class AmplitudeSeries:
     coefficients: tuple[Expr, ...]
     where: tuple[Expr, ...]
     isochronous: bool = False
+    squared: bool = False
 
 
 def _of_either_sign(one: AmplitudeSeries, other: AmplitudeSeries) -> AmplitudeSeries | None:
@@ -229,8 +238,11 @@ class Periods:
         coefficients = [_on_branch(c, point.positive) for c in _readable(alpha, beta)]
         root = _on_branch(_root(lowest, curvature), point.positive)
         where = (*point.positive, *(() if known == 1 else (curvature,)))
-        alike = not any(coefficients) and self._is_isochronous(place, curvature / lowest)
-        series = AmplitudeSeries(point, root, tuple(coefficients), where, alike)
+        constant, w2 = not any(coefficients), curvature / lowest
+        harmonic = constant and self._is_harmonic(place, w2)
+        squared = constant and not harmonic and self._is_harmonic_squared(w2)
+        alike = harmonic or squared
+        series = AmplitudeSeries(point, root, tuple(coefficients), where, alike, squared)
         agrees = self._agrees(series)
         if agrees:
             return series
@@ -240,11 +252,17 @@ class Periods:
         self.reason, self.failed = "a series did not agree with its integral", True
         return None
 
-    def _is_isochronous(self, place: Expr, squared: Expr) -> bool:
+    def _is_harmonic(self, place: Expr, w2: Expr) -> bool:
         motion = self.motion
         U, q = motion.potential, motion.q
         rise = U - at(U, {q: place})
-        return is_zero(U.diff(q) ** 2 - 2 * squared * self._mass * rise) is True
+        return is_zero(U.diff(q) ** 2 - 2 * w2 * self._mass * rise) is True
+
+    def _is_harmonic_squared(self, w2: Expr) -> bool:
+        U, q, M = self.motion.potential, self.motion.q, self._mass
+        left = simplify(w2 - U.diff(q, 2) / M + U.diff(q) * M.diff(q) / (2 * M**2))
+        square = (3 * U.diff(q) / left) ** 2 / M
+        return is_zero(square.diff(q) - 6 * U.diff(q) / left) is True
 
     # -- the integral itself ----------------------------------------------------------------------
 

@@ -304,6 +304,7 @@ class _Statement:
             amplitude=name if corrections else "",
             order=len(found.coefficients),
             isochronous=found.isochronous,
+            squared=found.squared,
             period=period,
             where=conditions(found.where, self.order),
         )

@@ -96,7 +96,8 @@ class Well:
             if not self._is_minimum(known, q0):
                 x.refute(what, "there is no minimum of the effective potential")
                 return False
-            if series.isochronous and not self._is_harmonic(known, q0.mid()):
+            alike = self._is_constant if series.squared else self._is_harmonic
+            if series.isochronous and not alike(known, q0.mid()):
                 x.refute(what, "it depends on the amplitude")
                 return False
             if not self._agrees(known, series, places[0], q0.mid()):
@@ -141,6 +142,19 @@ class Well:
             if size(terms[0] - terms[1]) > 1e-30 * size(terms[0]):
                 return False
         return True
+
+    def _is_constant(self, known: Environment, q0: arb) -> bool:
+        """Whether the period of small oscillations is that at an amplitude near |q0|/4."""
+        M0, k = (self._value(known, p, q0) for p in (self.M, self.curvature))
+        high = q0 + abs(q0) / 4
+        energy = self._value(known, self.U, high)
+        low = self._turning(known, q0 - abs(q0) / 5, energy)
+        if low is None:
+            return False
+        a, middle = (high - low) / 2, (high + low) / 2
+        true = self._integral(known, middle.mid(), a.mid(), energy)
+        small = 2 * arb.pi() * (M0 / k).sqrt()
+        return size(true - small) < _SAME * size(small)
 
     def _agrees(self, known: Environment, series: PeriodSeries, place: int, q0: arb) -> bool:
         """The printed period at a small amplitude; without one that of small oscillations."""
