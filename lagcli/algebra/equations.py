@@ -17,6 +17,7 @@ from lagcli.algebra.decimals import rounded
 from lagcli.algebra.entry import Field
 from lagcli.algebra.opening import common_multiple, phases, without_phases
 from lagcli.algebra.polynomial_roots import MAX_DEGREE, polynomial_roots
+from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.signs import sign
 
 _INVERSES = {
@@ -63,7 +64,7 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
         return Roots((), angle=False)
     first = field.generators[used[0]]
     if any(field.generators[g].kind == "power" for g in used):
-        return _between_two_powers(field.polynomial_to_sympy(poly), unknown)
+        return _with_powers(field, poly, unknown)
     if used == [field.number_of(unknown)]:
         found = polynomial_roots(field, poly, used[0])
         return None if found is None else Roots(tuple(found), angle=False)
@@ -118,6 +119,25 @@ def _under_inverse(node: Expr, values: list[Expr] | None, unknown: Symbol) -> Ro
     return None if values is None else Roots(tuple(dict.fromkeys(found)), angle=False)
 
 
+def _with_powers(field: Field, poly: Poly, unknown: Symbol) -> Roots | None:
+    """With open exponents: of each factor; a power alone has no root, its base being positive."""
+    parts: list[Roots | None] = []
+    for factor, _ in factorization(field.ring.lift(poly))[1]:
+        used = [field.generators[g] for g in field.ring.used(factor)]
+        within = [g for g in used if unknown in g.expression.free_symbols]
+        powers = [g for g in within if g.kind == "power"]
+        plain = field.polynomial_to_sympy(factor)
+        if powers and len(factor) > 1:
+            parts.append(_between_two_powers(plain, unknown))
+        elif within and not powers:
+            parts.append(solve_for(plain, unknown))
+    found = [part for part in parts if part is not None]
+    if len(found) < len(parts):
+        return None
+    roots = [root for part in found for root in part.values]
+    return Roots(tuple(dict.fromkeys(roots)), angle=any(part.angle for part in found))
+
+
 def _between_two_powers(expression: Expr, unknown: Symbol) -> Roots | None:
     """Of A u^m = B u^n with open exponents, where u > 0: u = (B/A)^(1/(m - n))."""
     terms = sympy.Add.make_args(sympy.expand(expression))
@@ -128,7 +148,7 @@ def _between_two_powers(expression: Expr, unknown: Symbol) -> Roots | None:
     side, (base, exponent) = sign(constant), power.as_base_exp()
     if side is None or free_of(base, [unknown]) or not free_of(exponent, [unknown]):
         return None
-    if exponent.is_nonzero is not True:
+    if exponent.is_nonzero is not True or exponent.is_integer:
         return None
     if exponent.could_extract_minus_sign():
         constant, exponent = 1 / constant, -exponent

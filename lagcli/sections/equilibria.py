@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
 from lagcli.document import Block, Formula, Paragraph, vanishing
-from lagcli.expression import Name
+from lagcli.expression import Expression, Name
 from lagcli.formatters.json_values import Object, list_or_null, place, plain
 from lagcli.problem_data import ExpectEquilibrium
 from lagcli.reader.shapes import PLACE, STABILITY, by_coordinate, equation, list_of, record_of
@@ -24,6 +24,7 @@ from lagcli.statements.wording import (
     conditions,
     listed,
     none_found,
+    repeating,
 )
 
 if TYPE_CHECKING:
@@ -68,6 +69,8 @@ def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
         states = [(each.at, each.on) for each in alike]
         yield from alike_blocks(states)
         yield Paragraph(_stability(equilibrium, states))
+    if section.periods:
+        yield Paragraph(tuple(repeating(section.periods)))
     if section.equilibria and not section.complete:
         yield Paragraph(("There may be others" + (", which solve" if section.open else "."),))
     if section.open and section.equilibria != ():
@@ -98,12 +101,18 @@ def _stability(equilibrium: Equilibrium, states: Sequence[State]) -> tuple[str |
 
 def json(section: EquilibriaSection) -> Object:
     """The list; null where they were not found."""
-    return {"equilibria": list_or_null(section.equilibria, _equilibrium)}
+    return {
+        "equilibria": list_or_null(
+            section.equilibria, lambda each: _equilibrium(each, section.periods)
+        )
+    }
 
 
-def _equilibrium(equilibrium: Equilibrium) -> Object:
+def _equilibrium(equilibrium: Equilibrium, periods: Mapping[str, Expression]) -> Object:
     verdict = equilibrium.verdict
     result = place(equilibrium.at, equilibrium.on) | {"stable": verdict.stable}
+    if repeated := {name: periods[name] for name in equilibrium.at if name in periods}:
+        result["period"] = plain(repeated)
     if equilibrium.where:
         result["condition"] = " and ".join(plain(equilibrium.where))
     if verdict.asymptotic:

@@ -269,9 +269,11 @@ class EquilibriaSection:
     may be some for values of the parameters for which each of `unless` vanishes; None: for special
     values that are not known; and at the `edge` 0 of coordinates that are assumed positive.
     `where` restricts what was sought, in words.  They are not listed where they are `everywhere`.
+    They repeat in coordinates with `periods`, of which one is listed.
     """
 
     equilibria: tuple[Equilibrium, ...] | None
+    periods: Mapping[str, Expression] = field(default_factory=dict)
     reason: str = ""
     complete: bool = True
     at_all_times: bool = False

@@ -113,7 +113,9 @@ def _critical(verdict: Verdict) -> list[Part]:
     sides = sorted((condition.left, condition.right), key=_is_number)
     equality: list[Part] = ["For ", sides[0], " = ", sides[1]]
     if verdict.critical == 0:
-        return [*equality, " every position is an equilibrium: ", potential, " is constant then. "]
+        steady = verdict.potential == "U_eff"
+        rest = "a steady motion with the same momenta" if steady else "an equilibrium"
+        return [*equality, f" every position is {rest}: ", potential, " is constant then. "]
     equality.append(" it is ")
     if verdict.critical < 0:
         there = f"has a maximum of order {-verdict.critical}"

@@ -97,6 +97,20 @@ def listed(names: Iterable[str], primes: int = 0) -> list[Part]:
     return parts[1:]
 
 
+def repeating(periods: Mapping[str, Expression]) -> list[Part]:
+    """In which coordinates what is listed repeats."""
+    parts: list[Part] = []
+    for name, period in periods.items():
+        parts += [
+            " and" if parts else "They repeat",
+            " in ",
+            Name(name),
+            " with the period ",
+            period,
+        ]
+    return [*parts, "."]
+
+
 def substituted(level: Verification | None, symbols: Iterable[str] = ()) -> Iterator[Paragraph]:
     """How the solution was verified, for some symbols or for all."""
     if level is not None:

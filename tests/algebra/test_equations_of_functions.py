@@ -9,6 +9,7 @@ import pytest
 import sympy
 
 from lagcli.algebra import simplify
+from lagcli.algebra.equations import solve_for
 from lagcli.algebra.numeric import Evaluator
 from lagcli.algebra.place import at
 from lagcli.algebra.systems import solve_system
@@ -89,3 +90,12 @@ def test_a_function_of_a_multiple_of_an_inverse_one(function, inverse):
         for shown in (simplify(formula), at(formula.subs(b, x), {x: b})):
             difference = (shown - formula).subs(b, sympy.Rational(-3, 7)).evalf(30)
             assert abs(difference) < 1e-20
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_power_beside_a_polynomial_has_no_root_of_its_own(seed):
+    source = random.Random(seed)
+    roots = source.sample([-3, -1, 0, 2, 5], source.randint(1, 2))
+    power = a ** (source.choice([1, 2]) * x + source.choice([-2, 0, 1]))
+    found = solve_for(sympy.expand(power * sympy.prod(x - root for root in roots)), x)
+    assert set(found.values) == set(roots)

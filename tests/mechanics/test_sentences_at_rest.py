@@ -439,6 +439,35 @@ def test_a_kink_of_the_kinetic_energy_leaves_those_of_the_potential(inertia):
     assert all(each.verdict.stable for each in found)
 
 
+@pytest.mark.parametrize(
+    ("V", "period"),
+    [
+        ("cos(k*x)", "2*pi/k"),
+        ("cos(3*k*x) + cos(2*k*x - 1)*0", "2*pi/(3*k)"),
+        ("cos(k*x/2)^2 + sin(3*k*x)", "2*pi/k"),
+        ("sin(2*pi*x/k)", "k"),
+        ("cos(k*x) + k*x/3", None),  # a tilted washboard: the force repeats, V does not
+        ("cos(k*x) + k^2*x^2", ""),
+        ("cos(3*x)", ""),  # all in (-pi, pi] are listed
+    ],
+)
+def test_places_of_rest_in_a_wave_repeat(V, period):
+    """Of the shortest period of the force, as that of dV/dx in numbers."""
+    text = f"{{coordinates: [x], parameters: {{k: {{assume: positive}}}}, T: x'^2/2, V: '{V}'}}"
+    period = "2*pi/k" if period is None else period
+    said = equilibria(derive(text).dynamics).periods
+    assert {name: to_grammar(each) for name, each in said.items()} == (
+        {"x": period} if period else {}
+    )
+    if period:
+        k, place = sympy.symbols("k x")
+        force = sympy.sympify(V.replace("^", "**")).diff(place).subs(k, sympy.Rational(7, 5))
+        step = sympy.sympify(period).subs(k, sympy.Rational(7, 5))
+        for here in (0.3, 1.7):
+            moved = force.subs(place, here + step)
+            assert abs(complex(moved - force.subs(place, here))) < 1e-9
+
+
 # -- forces that are 0/0 at rest ------------------------------------------------------------------
 
 

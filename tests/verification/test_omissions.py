@@ -48,15 +48,37 @@ def test_conditions_of_steady_motions_hold_for_those_listed(name: str) -> None:
         assert refuted(problem, answers, "steady_motions", other)
 
 
-def test_a_frequency_that_is_left_out_is_missed() -> None:
-    problem, answers = derived("steady/bead-on-rotating-hoop", ["steady_motions"])
+@pytest.mark.parametrize("name", ["steady/bead-on-rotating-hoop", "classics/spherical-pendulum"])
+def test_a_frequency_that_is_left_out_is_missed(name: str) -> None:
+    problem, answers = derived(name, ["steady_motions"])
     section = answers.sections["steady_motions"]
     assert section.motions
+    without = {"frequencies_squared": ()}
     for place, motion in enumerate(section.motions):
-        motions = [*section.motions]
-        motions[place] = replace(motion, frequencies_squared=())
-        other = replace(section, motions=tuple(motions))
-        assert refuted(problem, answers, "steady_motions", other)
+        for gone in (without, {**without, "mass": (), "velocity": (), "stiffness": ()}):
+            motions = [*section.motions]
+            motions[place] = replace(motion, **gone)
+            other = replace(section, motions=tuple(motions))
+            assert refuted(problem, answers, "steady_motions", other)
+
+
+def test_the_one_degree_of_freedom_that_is_left_is_missed() -> None:
+    problem, answers = derived("steady/bead-on-rotating-hoop", ["reduction"])
+    section = answers.sections["reduction"]
+    assert not refuted(problem, answers, "reduction", section)
+    assert refuted(problem, answers, "reduction", replace(section, one_freedom=None))
+
+
+def test_a_coordinate_without_a_part_of_the_principal_function_is_missed() -> None:
+    problem, answers = derived("hamilton-jacobi/kepler-polar", ["hamilton_jacobi"])
+    section = answers.sections["hamilton_jacobi"]
+    assert not refuted(problem, answers, "hamilton_jacobi", section)
+    only = {name: W for name, W in section.derivatives.items() if name != "r"}
+    constants = tuple(c for c in section.constants if c != section.energy)
+    other = replace(
+        section, derivatives=only, equations={}, functions={}, cases={}, constants=constants
+    )
+    assert refuted(problem, answers, "hamilton_jacobi", other)
 
 
 def test_what_nothing_damps_is_not_called_damped() -> None:

@@ -23,7 +23,7 @@ from lagcli.statements.plus_minus import once, unlike
 from lagcli.statements.registry import find_section
 from lagcli.statements.stability import at_the_limit, holding, stability
 from lagcli.statements.wording import conditions as inequalities
-from lagcli.statements.wording import constraints_named, place_rows, unless
+from lagcli.statements.wording import constraints_named, place_rows, repeating, unless
 
 if TYPE_CHECKING:
     from lagcli.mechanics.rest.equilibria import RestPoints
@@ -130,6 +130,8 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         firm = holding(each)
         limit = at_the_limit(each.where, sticking=each.sticking)
         yield says(firm, *stability(each.verdict, each.free, each.on, each.at), limit)
+    if states.periods:
+        yield says(*repeating(states.periods))
     if found and not states.complete:
         yield says("There may be others.")
     if found:

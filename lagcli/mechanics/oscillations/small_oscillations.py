@@ -110,6 +110,11 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     unless = several[0] if len(several) == 1 else None if any(x != () for x in several) else ()
     return EquilibriaSection(
         equilibria=tuple(map(oscillations.equilibrium, places)),
+        periods={
+            q.name: written(period, order)
+            for q, period in rest.periods.items()
+            if any(q in place.point.values for place in places)
+        },
         complete=oscillations.complete,
         reason=TIMED if rest.depends_on_time else "",
         at_all_times=rest.depends_on_time,

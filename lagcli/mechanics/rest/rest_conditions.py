@@ -25,6 +25,7 @@ from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.decimals import is_decimal
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.field import common_denominator
+from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.place import NO_VALUE, at, nearly_vanishes, vanishes, where_positive
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
@@ -311,6 +312,33 @@ class RestConditions:
         outside = [e.xreplace(dict.fromkeys(e.atoms(*CIRCULAR), sympy.Dummy())) for e in entries]
         angles = (q for q in self.system.q if self.is_angle(q) and not self._is_fixed(q))
         return any(not all(free_of(e, [q]) for e in outside) for q in angles)
+
+    @cached_property
+    def periods(self) -> dict[Symbol, Expr]:
+        """2 π/k of coordinates q of which all that acts has sines and cosines of k q alone.
+
+        k is the least common factor of all multiples; where it is a number, whole turns are listed.
+        """
+        constraints, found = self.dynamics.constraints.equations, dict[Symbol, Expr]()
+        if self.system.problem.contacts:
+            return found
+        acting = [*chain(*self.mass_matrix), *self.forcing, *chain(*(e.row for e in constraints))]
+        acting += [e.f for e in constraints if e.f is not None]
+        for q in self.system.q:
+            waves = {f for e in acting for f in e.atoms(*CIRCULAR) if f.has(q)}
+            outside = (e.xreplace(dict.fromkeys(waves, sympy.Dummy())) for e in acting)
+            rates = [simplify(f.args[0].diff(q)) for f in sorted(waves, key=str)]
+            ratios = [simplify(rate / rates[0]) for rate in rates]
+            if not rates or rates[0].is_Rational or not all(r.is_Rational for r in ratios):
+                continue
+            moving = [*self.system.q, *self.system.qdot, self.system.t]
+            if free_of(rates[0], moving) and all(free_of(e, [q]) for e in outside):
+                period = simplify(2 * sympy.pi / (rates[0] * sympy.gcd_list(ratios)))
+                shorter = period / 2  # of products such as sin(k q/2) cos(k q/2)
+                if all(vanishes_at_random(e.subs(q, q + shorter) - e) for e in acting):
+                    period = shorter
+                found[q] = -period if period.could_extract_minus_sign() else period
+        return found
 
     def _is_fixed(self, q: Symbol) -> bool:
         """Whether conditions without sines give the coordinate."""

@@ -12,10 +12,10 @@ Merkin, *Introduction to the Theory of Stability*, section 3.3.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import sympy
-from sympy import Expr, S
+from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
@@ -31,12 +31,13 @@ HIGHEST = 6
 def potential_derivatives(linear: Linearization) -> list[Expr]:
     """V'', V''', … there, of a system with one coordinate and no constraints; empty of others.
 
-    Empty at a corner of V as well, and at one of its derivatives: |x|³ has one at 0.
+    Empty at a corner of V as well, and at one of its derivatives: |x|³ has one at 0.  Where any
+    place is one of rest at some momenta, these are put in after the derivatives.
     """
-    if len(linear.system.q) != 1 or linear.dynamics.constraints.equations or linear.point.free:
+    if len(linear.system.q) != 1 or linear.dynamics.constraints.equations:
         return []
-    [q], [force] = linear.system.q, linear.forces_at_rest
-    if bent_there(linear):
+    [q], [force], point = linear.system.q, linear.forces_at_rest, linear.point
+    if bent_there(linear) or (point.free and not any(p.has(q) for p in point.values.values())):
         return []
     found = []
     for _ in range(2, HIGHEST + 1):
@@ -70,12 +71,12 @@ def order_of_minimum(derivatives: Sequence[Expr], positive: Sequence[Expr]) -> i
 def order_at_critical_values(
     derivatives: Sequence[Expr],
     positive: Sequence[Expr],
-    force: Expr | None = None,
+    is_free: Callable[[Mapping[Symbol, Expr]], bool] = lambda _: False,
     mass: Expr = S.One,
 ) -> int | None:
     """The same where a condition makes the second derivative vanish: one symbol is solved for.
 
-    0 where the `force` vanishes everywhere then, unless the `mass` does.
+    0 where no force acts anywhere then (`is_free`), unless the `mass` vanishes.
     """
     curvature = derivatives[0] if derivatives else None
     for symbol in sorted(curvature.free_symbols, key=str) if curvature is not None else ():
@@ -87,7 +88,7 @@ def order_at_critical_values(
             continue
         if is_zero(mass.xreplace({symbol: root})) is not False:
             continue
-        if force is not None and is_zero(force.xreplace({symbol: root})) is True:
+        if is_free({symbol: root}):
             return 0
         others = [simplify(each.xreplace({symbol: root})) for each in derivatives]
         return order_of_minimum(others, [p.xreplace({symbol: root}) for p in positive])

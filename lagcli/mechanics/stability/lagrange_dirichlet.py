@@ -15,12 +15,17 @@ Merkin, *Introduction to the Theory of Stability*, sections 3.1 to 3.5.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from functools import partial
 
-from sympy import Expr, count_ops
+from sympy import Expr, Symbol, count_ops
 
+from lagcli.algebra import is_zero
+from lagcli.algebra.build import free_of
+from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of, weak_sign
 from lagcli.mechanics.inequalities import contradictory
+from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.mechanics.stability.higher import (
     order_at_critical_values,
     order_of_minimum,
@@ -70,15 +75,24 @@ def by_minimum(near: Near) -> Stability | None:
         return by_lowest_form(near) if near.zeros > 2 * near.dimension_released else None
     shortest = min(open_, key=lambda left: sum(int(count_ops(e)) for e in left))
     derivatives = potential_derivatives(near.linear) if len(shortest) == 1 else []
-    force = near.linear.forces_at_rest[0] if derivatives else None
     return Stability(
         by=_theorem(near),
         asymptotic=near.decays,
         minimum=shortest,
         reverses=near.potential_decides,
         across=near.dimension_released > 0,
-        critical=order_at_critical_values(derivatives, near.positive, force, near.linear.M[0][0]),
+        critical=order_at_critical_values(
+            derivatives, near.positive, partial(_is_free, near.linear), near.linear.M[0][0]
+        ),
     )
+
+
+def _is_free(linear: Linearization, values: Mapping[Symbol, Expr]) -> bool:
+    """Whether no force acts anywhere, at the momenta of the point, with these values put in."""
+    q = linear.system.q
+    momenta = {s: at(p, values) for s, p in linear.point.values.items() if s not in q}
+    force = linear.forces_at_rest[0].xreplace(values).xreplace(momenta)
+    return all(free_of(p, q) for p in momenta.values()) and is_zero(force) is True
 
 
 def _even_dimension(near: Near) -> int:

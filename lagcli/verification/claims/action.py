@@ -52,6 +52,12 @@ class Action:
         self.constants = [(name, 0) for name in section.constants]
         self.energy = (section.energy, 0)
 
+    @property
+    def lacks_a_coordinate(self) -> bool:
+        """Whether H depends on a coordinate, or its momentum, by which S has no derivative."""
+        used = {name.removeprefix("p_") for name, _ in self.x.reference.program.symbols([self.H])}
+        return not used & {*self.x.reference.names} <= {*self.names}
+
     # -- H -------------------------------------------------------------------------------------
 
     def momenta(self, s: State) -> list[arb] | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import chain, islice
 from math import isqrt
 
@@ -34,6 +34,8 @@ from lagcli.verification.claims.unlisted import (
 )
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import size
+from lagcli.verification.reference import DynamicsAtState
+from lagcli.verification.states import State
 
 #: Relative differences of eigenvalues: those of multiplicity 2 are right to 1e-19.
 _AGREE = 1e-9
@@ -49,9 +51,11 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
     """Each is a state of rest, and its stability that of the linear motion near it."""
     if section.equilibria is None:
         return section
-    found = []
+    listed, found = section.equilibria, []
+    if not _repeat(x, section.periods):
+        section = replace(section, periods={})
     with ctx.workprec(BITS):
-        for each in section.equilibria:
+        for each in listed:
             what = f"the equilibrium {named(each.at, each.on)}"
             if {*each.free, *each.indeterminate} & {*each.at}:
                 x.refute(what, "a coordinate with a value is called free")
@@ -80,6 +84,26 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
         x.refute("completeness of the equilibria", f"there is one at {other}")
         section = replace(section, complete=False)
     return replace(section, equilibria=tuple(found))
+
+
+def _repeat(x: Examination, periods: Mapping[str, Expression]) -> bool:
+    """Whether the laws at places a period apart are the same."""
+    what = "a period of the equilibria"
+    places = x.places(what, [*periods.values()])
+    if places is None:
+        return False
+
+    def both(s: State) -> tuple[list[arb], list[arb]]:
+        here: list[arb] = []
+        there: list[arb] = []
+        for name, place in zip(periods, places, strict=True):
+            shifted = {(name, 0): s.environment[name, 0] + s.at(place)}
+            moved = DynamicsAtState(x.reference, x.reference.values({**s.environment, **shifted}))
+            for laws, values in ((s.laws, here), (moved, there)):
+                values += [*laws.momenta, *laws.drift, *laws.applied]
+        return here, there
+
+    return not periods or x.decide(what, both)
 
 
 def _cyclic(x: Examination) -> int:
@@ -327,11 +351,13 @@ def _with_momenta(x: Examination, what: str, place: RestPlace, motion: SteadyMot
         if known and not occur(near, [near.at(square) for square in squares]):
             x.refute(what, "a frequency is not one of the linear motion near it")
             return False
-        if known and near.still and len(motion.mass) == 1 and not squares:
-            x.refute(what, "its frequency is left out")
-            return False
-        if known and not _same_motion(near, [[near.at(p) for p in m or ()] for m in matrices]):
+        mass, velocity, stiffness = ([near.at(e) for e in m or ()] for m in matrices)
+        if known and not _same_motion(near, [mass, velocity, stiffness]):
             x.refute(what, "the matrices are not those of the linear motion near it")
+            return False
+        swings = len(mass) == 1 and size(velocity[0]) < NOTHING * size(mass[0])
+        if known and not squares and (swings or not mass):
+            x.refute(what, "its frequency is left out")
             return False
     return True
 

@@ -19,6 +19,7 @@ from lagcli.statements.answers import ModelSection, ReductionSection
 from lagcli.statements.motions import OneFreedom
 from lagcli.verification.claims.eliminated import EliminatedFormula
 from lagcli.verification.claims.periods import periods
+from lagcli.verification.comparison import is_zero
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import dot, size
 from lagcli.verification.phase_points import Environment
@@ -51,7 +52,9 @@ def reduction(x: Examination, section: ReductionSection) -> ReductionSection:
     if not holds:
         return ReductionSection(momenta={}, routhian=None, reason=_WHY)
     one = section.one_freedom
-    if one is not None and not _one_freedom(x, one, R):
+    if one is None:
+        _lacks_one_freedom(x, section, R)
+    elif not _one_freedom(x, one, R):
         return replace(section, one_freedom=None)
     return section
 
@@ -119,6 +122,23 @@ def _parts(x: Examination, section: ReductionSection, R: Expression) -> bool:
         list(section.gyroscopic.values()),
         lambda s: column(_at_rest(x, s).gradient(place), symbols),
     )
+
+
+def _lacks_one_freedom(x: Examination, section: ReductionSection, R: Expression) -> None:
+    """Note that nothing is said of one coordinate that is left, with inertia and its energy."""
+    left = [*{*x.reference.names} - {*section.momenta, *section.eliminated}]
+    if len(left) != 1 or section.constraints or section.effective_potential is None:
+        return
+    program, reference, place = x.reference.program, x.reference, x.place(R)
+    velocity = program.symbol(left[0], 1)
+    slope = reference.by(place, velocity)
+    inertia = reference.by(slope, velocity)
+    energy = program.sum(program.product(velocity, slope), program.negative(place))
+    if not x.states() or not x.regular:
+        return
+    at_each = [(s.at(inertia), s.laws.rate(energy)) for s in x.states()]
+    if all(not is_zero(M) and is_zero(rate) for M, rate in at_each):
+        x.refute("the motion of the one degree of freedom", "its energy is conserved")
 
 
 def _one_freedom(x: Examination, one: OneFreedom, R: Expression) -> bool:

@@ -32,6 +32,9 @@ def hamilton_jacobi(x: Examination, section: HamiltonJacobiSection) -> HamiltonJ
         return _nothing(section)
     if section.derivatives is None:
         return section
+    if action.lacks_a_coordinate:
+        x.refute("Hamilton's principal function", "a coordinate of H has no part in it")
+        return _nothing(section)
     if not action.independent():
         x.refute("the separated equations", "their constants are not independent")
         return _nothing(section)
