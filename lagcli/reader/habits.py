@@ -183,9 +183,19 @@ def unit_behind(text: str) -> str:
 
 def _named_unit(text: str) -> tuple[str, str] | None:
     """`10` and `kg` of `10 Kilogramm`; None for units by their symbols."""
-    found = re.fullmatch(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*([^\W\d_]{4,})", text.strip())
-    unit = meanings("units").get(found[2].casefold()) if found else None
-    return (found[1], unit) if found and unit else None
+    found = re.fullmatch(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*([^\W\d_].*)", text.strip())
+    words = found[2] if found else ""
+    unit = spoken_unit(words)
+    is_spoken = unit != words and _is_unit(unit)
+    return (found[1], unit) if found and is_spoken else None
+
+
+def spoken_unit(text: str) -> str:
+    """`kg*m/s^2` for `Kilogramm Meter pro Sekunde quadrat`; other words as they are."""
+    words = [meanings("units").get(each.casefold(), each) for each in text.split()]
+    spoken = re.sub(r"\s*\b(?:per|pro|par|por|al|na)\b\s*", "/", " ".join(words))
+    squared = re.sub(r"\s+(?:squared|quadrat|hoch 2|au carré|al cuadrado)\b", "^2", spoken)
+    return re.sub(r"(?<=\w)\s+(?=\w)", "*", squared) if squared != text else text
 
 
 def number_and_unit(text: str) -> tuple[str, str]:

@@ -7,11 +7,16 @@ from __future__ import annotations
 
 import re
 
+from lagcli.diagnostics import Source
 from lagcli.expression import Expression, Name, Number, Power, Product, Quotient, Sum, walk
-from lagcli.reader.text import SourceText
+from lagcli.reader.expressions import read_expression
+from lagcli.reader.positions import Excerpt
+from lagcli.reader.text import Mistake, SourceText
 
 #: Factors above and below of the square of a velocity.
 _Factors = tuple[list[str], list[str]]
+#: `p_r^2/(2*m)`, a kinetic energy by a momentum.
+_SQUARE = re.compile(r"p_(?P<name>\w+)\^2/\(?(?P<below>(?:\w+(?:\^\d)?\*)*\w+(?:\^\d)?)\)?")
 _HALF = re.compile(r"0\.5|\(\w+/2\)")
 
 
@@ -45,6 +50,32 @@ def with_momenta(text: str, kinetic: Expression, source: SourceText) -> str:
         return f"(p_{found[1]}/{grouped})" if divisor != "1" else f"p_{found[1]}"
 
     return re.sub(r"([^\W\d]\w*)'", momentum, text)
+
+
+def with_velocities(text: str) -> str:
+    """`m*x'^2/2` for `p_x^2/(2*m)`; nothing where a term has no single square of a momentum.
+
+    T = p^2/(2 a) with p = a q' is a q'^2/2; terms without momenta stay as they are.
+    """
+    source = SourceText.of(Source("", text))
+    try:
+        formula = read_expression(Excerpt.whole(source.source))
+    except Mistake:
+        return ""
+    terms = formula.terms if isinstance(formula, Sum) else (formula,)
+    changed = text
+    for term in reversed(terms):
+        start, end = source.offsets(term.span)
+        if not re.search(r"(?<!\w)p_", text[start:end]):
+            continue
+        found = _SQUARE.fullmatch(text[start:end])
+        divisors = [] if found is None else found["below"].split("*")
+        if found is None or "2" not in divisors:
+            return ""
+        divisors.remove("2")
+        whole = "*".join([*divisors, f"{found['name']}'^2/2"])
+        changed = changed[:start] + whole + changed[end:]
+    return changed if changed != text else ""
 
 
 def _inertia(factors: _Factors) -> str:

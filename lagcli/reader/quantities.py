@@ -11,9 +11,9 @@ from lagcli.problem_data import Assumption, Coordinate, Parameter
 from lagcli.reader.habits import (
     SIGNS,
     is_constant,
-    meanings,
     names_among,
     number_and_unit,
+    spoken_unit,
     unit_behind,
 )
 from lagcli.reader.headings import system_meant, without_headings
@@ -53,6 +53,11 @@ _WORDS = re.compile(r"[^\W\d_]{4,}(?: [^\W\d_]+)*")
 _VALUES = re.compile(
     r"(\w+)(?:\s*[=:]\s*|\s+(?=[\d.]))"
     r"((?:[^\s,;()}]|\([^()]*\))+(?: [A-Za-z][\w/^]*(?=\s*(?:[,;]|$)))?)"
+)
+#: `Real x(start=1);`, `parameter Real m = 2 "mass";` of Modelica, `double m = 2;`.
+_DECLARATION = re.compile(
+    r"(?:\b(?:parameter|constant|const|final|var|let)\s+)*\b(?:Real|real|float|double|int|Integer)\s+"
+    r"(\w+)(?:\([^()]*\))?\s*(?:=\s*([^;\"]+))?"
 )
 _ONE_NAME = re.compile(r"write (\w+)(?:, without .*)?")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
@@ -326,6 +331,10 @@ def _with_unit(key: Scalar, value: DocumentNode | None) -> str:
 
 def _list_advice(text: str) -> str:
     """`[x, y]` for `x, y` and for `symbols("x y")`, and `m: 1` for `m = 1`."""
+    if declared := _DECLARATION.findall(text):
+        pairs = [f"{name}: {value.strip()}" for name, value in declared if value.strip()]
+        listed = ", ".join(pairs or [name for name, _ in declared])
+        return f"write {{{listed}}}" if pairs else f"write [{listed}]"
     text = re.sub(r"^(?:.*=)?\s*(?:\w+\.)?\w+\(\s*(['\"])(.*)\1.*\)\s*$", r"\2", text)
     if given := _VALUES.findall(text):
         parts = ((name, *number_and_unit(value)) for name, value in given)
@@ -425,8 +434,7 @@ def _check_unit(file: FileReader, text: Scalar) -> None:
     try:
         read_unit(text.value)
     except UnitMistake as wrong:
-        words = (meanings("units").get(each.casefold(), each) for each in text.value.split())
-        spoken = re.sub(r"\s*\b(?:per|pro|par|por)\b\s*", "/", " ".join(words))
+        spoken = spoken_unit(text.value)
         hint = f"write {spoken}" if unit_behind(f"1 {spoken}") == spoken else wrong.hint
         file.error(wrong.message, text.excerpt().span(wrong.start, wrong.end), hint)
 

@@ -15,6 +15,7 @@ from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary
 from lagcli.reader.habits import name_meant
 from lagcli.reader.misshapen import behind_words, is_sentence
+from lagcli.reader.momenta_meant import with_velocities
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.text import Mistake
@@ -56,6 +57,8 @@ def with_whole(
     read
         Reads an expression, an equation or a comparison.
     """
+    if what in {"T", "L"} and (energy := _energy_meant(found, node, what, scope, role)):
+        return [energy]
     stated = what == "dissipation" and "=" in node.value  # as a force: -c*x'
     too_large = "the limit is" in found[0].hint
     if stated or too_large or all(each.hint.startswith("did you mean '") for each in found):
@@ -100,6 +103,45 @@ def with_whole(
         return [replace(first, message=message, hint=hint), *rest]
     exchanged = _exchanged(node.value, scope, role, what, read)
     return [replace(found[0], hint=f"did you mean {exchanged}?")] if exchanged else found
+
+
+def _energy_meant(
+    found: list[Diagnostic], node: Scalar, what: str, scope: Scope, role: Role
+) -> Diagnostic | None:
+    """An energy by momenta, or with accelerations, as one by velocities; None for others."""
+    names = _vocabulary(scope, role)
+    accelerated = [each for each in found if each.message.startswith("the acceleration ")]
+    try:
+        whole = translated(node.value, names._replace(momenta=not accelerated))
+    except UnclearText:
+        return None
+    if accelerated:
+        alone = {*re.findall(r"(\w+)''(?!\^)", whole)}
+        if any(re.search(rf"(?<!\w){x}(?![\w'])", whole) for x in alone):
+            return None  # x''*x
+        better = re.sub(r"(\w+)''(?:\^2)?(?!\^)", r"\1'^2", whole)
+        hint = f"write {better}: {what} has velocities"
+        return replace(accelerated[0], hint=hint) if _is_read(better, scope, role, what) else None
+    momenta = [f"p_{x}" for x in names.coordinates if re.search(rf"(?<!\w)p_{x}(?!\w)", whole)]
+    if not momenta or "'" in whole or momenta[0] in scope.kinds:
+        return None
+    better = with_velocities(whole)
+    by_momenta = f"H: {whole} + V in place of T and V, with V written out"
+    hint = f"give H in place of L: momenta such as {momenta[0]} stand there"
+    if better and _is_read(better, scope, role, what):
+        hint = f"write {better}" + f", or give {by_momenta}" * (what == "T")
+    elif what == "T":
+        hint = f"give {by_momenta}"
+    return Diagnostic(f"the momentum '{momenta[0]}' cannot stand in {what}", node.span, hint)
+
+
+def _is_read(text: str, scope: Scope, role: Role, what: str) -> bool:
+    """Whether a text is a formula whose names are all known."""
+    try:
+        formula = read_expression(Excerpt.whole(Source("", text)))
+    except Mistake:
+        return False
+    return not any(True for _ in name_mistakes(formula, scope, role, what))
 
 
 def _exchanged(

@@ -509,7 +509,7 @@ def test_a_finite_change_is_told_its_small_one(function, name):
 
 
 FURTHER = [
-    (text(T="p²/2m"), "give H, or write velocities x'"),
+    (text(T="p²/2m"), "write m*x'^2/2, or give H: p_x^2/(2*m) + V"),
     (text(V="|\n  k*x\n  k*x^2"), "begin the second line with its sign"),
     (text(initial="[[0, 1], [0, 2]]"), "write {x: …, x': …}"),
     (text(coordinates="[x, y]", T="m*(x'^2 + y'^2)", initial="{x: 1, y: x}"), "leave out what follows"),
