@@ -41,7 +41,7 @@ def stability(
     if verdict.stable is not None:
         words: list[Part] = [stable if verdict.stable else "Unstable"]
         if verdict.stable:
-            words += along
+            words += _along(verdict) if verdict.exact else along
         return [*words, *([": ", *reason] if reason else []), "."]
     parts = [*_by_minimum(verdict, [stable, *along]), *_by_roots(verdict, stable, along)]
     if not parts and verdict.unstable:

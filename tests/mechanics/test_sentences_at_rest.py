@@ -135,6 +135,19 @@ def test_a_slope_on_the_surfaces_beside_it_moves_away(q, constraint, height, n):
     assert "nstable" not in free.replace("Stable", "")
 
 
+@pytest.mark.parametrize("field", ["B", "-B", "2*B*k"])
+def test_where_all_solutions_are_bounded_it_is_stable_without_a_reservation(field):
+    """A charge in a uniform field is bound to a circle, Jackson, 3rd ed., section 12.2; a free one
+    drifts away."""
+    text = (
+        "{coordinates: [x, y], parameters: {m: {assume: positive}, B: {assume: positive}, "
+        "k: {assume: positive}}, "
+        "L: \"m*(x'^2 + y'^2)/2 + (%s)*x*y'\"}"
+    )
+    assert "Stable: the equations" in said(text % field, "Equilibria", "equilibria")
+    assert "Stable up to displacements of" in said(text % "0", "Equilibria", "equilibria")
+
+
 @pytest.mark.parametrize("inertia", random.Random(17).sample(range(1, 9), 2))
 @pytest.mark.parametrize(
     ("F", "where"), [("sin(b)", "where … ≠ 0"), ("g*b", "where b ≠ 0"), ("g + b^2", "")]
