@@ -186,3 +186,37 @@ constraints: {{plane: z' = ({slope})*x'}}
     found = [m.verdict for m in section.motions or ()]
     assert any("0 in all of it" in each.reason for each in found) is drifts
     assert all(each.stable and each.across for each in found) or not drifts
+
+
+SLOPE = "parameters: {m: {assume: positive}, g: {assume: positive}, al: {}}\nV: -m*g*x*sin(al)\n"
+SKATE = """
+coordinates: [x, y, phi]
+T: m*(x'^2 + y'^2)/2 + phi'^2/2
+constraints: {blade: x'*sin(phi) = y'*cos(phi)}
+"""
+CART = """
+coordinates: [x, y, phi, a, b]
+T: m*(x'^2 + y'^2)/2 + phi'^2/2 + (a'^2 + b'^2)/2
+constraints:
+  skid: y'*cos(phi) = x'*sin(phi)
+  right: x'*cos(phi) + y'*sin(phi) + phi' = a'
+  left: x'*cos(phi) + y'*sin(phi) - phi' = b'
+"""
+BEAD = """
+coordinates: [z, y, x]
+T: m*(x'^2 + y'^2 + z'^2)/2
+constraints: {contact: x' = y*z', level: y' = 0}
+"""
+
+
+@pytest.mark.parametrize(
+    ("text", "held", "moving"), [(SKATE, "phi", "y"), (CART, "phi", "b"), (BEAD, "y", "z")]
+)
+def test_what_moves_across_the_slope_keeps_its_velocity(text, held, moving):
+    """With the heading at a right angle to the slope nothing accelerates, at any speed."""
+    section, _ = steady_motions(derive(text + SLOPE))
+    assert section.motions
+    for motion in section.motions:
+        assert motion.free == (f"{moving}'",)
+        assert abs(value(motion.at[held])) == pytest.approx(0 if held == "y" else pi / 2)
+        assert motion.verdict.stable is not True

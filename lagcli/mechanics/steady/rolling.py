@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import cached_property
-from itertools import combinations
+from itertools import combinations, islice
 
 import sympy
 from sympy import Expr, S, Symbol
@@ -47,7 +47,12 @@ from lagcli.record import record
 _UNIFORM = "these velocities are constant in every motion"
 _DRIFTING = "the velocities that are 0 in all of it are constant in every motion"
 _MOST_CHOICES = 40  # three of six coordinates have 20, of seven 35
+_MOST_TRIED = 6  # measured: the second or the fourth
 _MOST_DEPTH = 6  # measured: at most 2 conditions one after the other
+
+
+#: The coordinates whose velocities are the u, and the other velocities by these.
+Chart = tuple[tuple[int, ...], dict[Expr, Expr]]
 
 
 @record
@@ -66,6 +71,13 @@ class RollingMotion:
 class RollingMotions:
     """The steady motions of a system with velocity constraints.
 
+    Parameters
+    ----------
+    derivation
+        Of a system with velocity constraints, or with a force along what L does not contain.
+    choice
+        Which of the possible u is taken, the best one first.
+
     Attributes
     ----------
     reason
@@ -74,8 +86,9 @@ class RollingMotions:
         Whether there can be no other with these r and u.
     """
 
-    def __init__(self, derivation: Derivation) -> None:
+    def __init__(self, derivation: Derivation, choice: int = 0) -> None:
         self.derivation = minimal(derivation, rolling=True)
+        self.choice = choice
         self.dynamics = self.derivation.dynamics
         self.system = self.dynamics.system
         self.reason = ""
@@ -90,7 +103,11 @@ class RollingMotions:
     # -- the equations u' = F(r, u) ---------------------------------------------------------------
 
     @cached_property
-    def _chart(self) -> tuple[tuple[int, ...], dict[Expr, Expr]] | None:
+    def chart(self) -> Chart | None:
+        """The one that is chosen."""
+        return next(islice(self._charts(), self.choice, None), None)
+
+    def _charts(self) -> Iterator[Chart]:
         """The coordinates with u for velocity, and the other velocities by these.
 
         Those whose matrix in the constraints has a constant determinant are eliminated, so that
@@ -112,8 +129,7 @@ class RollingMotions:
             solution = solve_linear(blocks[gone], right)
             if solution is not None and all(x is not None for x in solution.values):
                 found = zip(gone, solution.values, strict=True)
-                return kept, {system.qdot[j]: x for j, x in found if x is not None}
-        return None
+                yield kept, {system.qdot[j]: x for j, x in found if x is not None}
 
     def _turns(self, columns: Sequence[int]) -> bool:
         """Whether the factors of these velocities in the constraints change on the motion."""
@@ -126,7 +142,7 @@ class RollingMotions:
     @cached_property
     def _equations(self) -> tuple[Expr, ...] | None:
         """F(r, u); None with a reason."""
-        motion, chart = self.dynamics.motion, self._chart
+        motion, chart = self.dynamics.motion, self.chart
         if motion is None:
             self.reason = "the accelerations were not found"
             return None
@@ -155,8 +171,8 @@ class RollingMotions:
     @cached_property
     def velocities(self) -> tuple[int, ...]:
         """u, by its coordinates."""
-        assert self._chart is not None
-        return self._chart[0]
+        assert self.chart is not None
+        return self.chart[0]
 
     @cached_property
     def turning(self) -> tuple[int, ...]:
@@ -174,10 +190,10 @@ class RollingMotions:
 
         d'Alembert's principle with u' = 0: B^T (M B' u - forcing), where q' = B u.
         """
-        if self._chart is None or self._equations is None:
+        if self.chart is None or self._equations is None:
             return {}
         system, lagrange = self.system, self.dynamics.lagrange
-        kept, others = self._chart
+        kept, others = self.chart
         along = [others.get(v, v).xreplace(self._still) for v in system.qdot]
         bent = [dot((v.diff(q) for q in system.q), along) for v in along]
         left = [
@@ -202,7 +218,10 @@ class RollingMotions:
         """All that were found, each by substitution; None with a reason."""
         if self._equations is None:
             return None
-        if not set(self.coordinates) <= set(self.velocities):
+        assert self.chart is not None
+        _, others = self.chart
+        still = {j for j, v in enumerate(self.system.qdot) if others.get(v) == 0}
+        if not set(self.coordinates) <= {*self.velocities, *still}:
             self.reason = "the equations depend on coordinates whose velocities are eliminated"
             return None
         found: list[RollingMotion] = []
@@ -383,6 +402,19 @@ class RollingMotions:
             there = [[at(slope, values) for slope in row] for row in slopes]
             return None if any(s.has(*NO_VALUE) for row in there for s in row) else there
         return None
+
+
+def rolling_motions(derivation: Derivation) -> RollingMotions:
+    """With the first u by which steady motions are found, else with the best one."""
+    best = RollingMotions(derivation)
+    if best.motions is None and best.chart is not None:
+        for choice in range(1, _MOST_TRIED):
+            other = RollingMotions(derivation, choice)
+            if other.chart is None:
+                break
+            if other.motions is not None:
+                return other
+    return best
 
 
 def _characteristic(jacobian: Sequence[Sequence[Expr]]) -> list[Expr] | None:

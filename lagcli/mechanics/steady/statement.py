@@ -40,7 +40,7 @@ from lagcli.mechanics.stability.lagrange_dirichlet import by_routh
 from lagcli.mechanics.stability.statement import held_by_gyroscopic_terms, potential_of, stated
 from lagcli.mechanics.stability.verdict import Stability, undecided
 from lagcli.mechanics.steady.moving_frames import moving_frames, plane_of_rotation
-from lagcli.mechanics.steady.rolling import RollingMotions
+from lagcli.mechanics.steady.rolling import rolling_motions
 from lagcli.mechanics.steady.rolling_statement import applies, rolling_section
 from lagcli.mechanics.steady.two_rates import Turning, with_roots_alike
 from lagcli.notation.manner import Manner
@@ -55,7 +55,7 @@ _OPEN = " while the contacts are open"
 def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:
     """The steady motions with their stability, and what was not found."""
     if applies(derivation):
-        rolling = RollingMotions(derivation)
+        rolling = rolling_motions(derivation)
         if rolling.motions is not None:
             return rolling_section(rolling), []
         if rolling.drives:  # what a motor turns does not rest
@@ -65,7 +65,7 @@ def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:
         return _not_found(routh.reason)
     section, missing = _SteadyStatement(SteadyMotions(routh), derivation.given).section()
     if section.motions == () and not derivation.problem.contacts:
-        drifting = RollingMotions(derivation)  # along what the equations of motion do not contain
+        drifting = rolling_motions(derivation)  # along what the equations of motion do not contain
         if drifting.motions and drifting.turning:
             return rolling_section(drifting), []
     return section, missing
