@@ -394,3 +394,17 @@ def test_what_holds_at_one_value_is_not_listed_for_two():
     cases = derive(text).special_cases
     assert [str(c.value) for c in cases if not c.given] == ["6"]
     assert len(cases) == 2
+
+
+@pytest.mark.long
+def test_a_list_of_special_values_is_not_called_whole_without_those_of_quartic_integrals():
+    """Grammaticos, Dorizzi, Padjen, Phys. Lett. A 89 (1982) 111: c = 16 and b = 16 a, of degree 4."""
+    L = "(x'^2 + y'^2 - a*x^2 - b*y^2)/2 - x^2*y - c*y^3/3"
+    at = L.replace("b*", "16*a*").replace("c*", "16*")
+    known = derive(f"coordinates: [x, y]\nparameters: {{a: {POS}}}\nL: {at}\n")
+    assert len(known.discovery.charges) == 2
+    derivation = derive(
+        f"coordinates: [x, y]\nparameters: {{a: {POS}, b: {POS}, c: {{}}}}\nL: {L}\n"
+    )
+    assert "16" not in {str(value) for c in derivation.special_cases for _, value in c.given}
+    assert "not all special values of the parameters were sought" in derivation.discovery.ansatz

@@ -80,7 +80,8 @@ class Discovery(Setting):
         self.cartesian_lead = ""
         self.unproved = ""
         self._of_lagrangian: list[Transformation] = []
-        self._degree = 1  # of the integrals that were sought, in the velocities
+        #: of the integrals that were sought, in the velocities
+        self.degree = 1
         if self.unsearched:
             self.words.append("nothing")
             self.stopped.append(self.unusable)
@@ -128,8 +129,8 @@ class Discovery(Setting):
                     f"{what}: a formula has no value there, so the search is incomplete"
                 )
         if len(self.system.q) > 1 and not self.dynamics.constraints.equations:
-            what = "those" if self._degree > 1 else "first integrals"
-            self.words.append(f"{what} of degree {self._degree + 1} or higher were not sought")
+            what = "those" if self.degree > 1 else "first integrals"
+            self.words.append(f"{what} of degree {self.degree + 1} or higher were not sought")
 
     def _of_unconstrained(self) -> bool:
         """What is found without the coordinates that constraints give; whether it was sought."""
@@ -245,7 +246,7 @@ class Discovery(Setting):
         if len(self.system.q) > _MOST_FOR_TENSORS or self._by_killing_vectors():
             return
         if self.system.t not in self.equations_symbols:
-            self._degree = 2
+            self.degree = 2
             self.words.append(
                 f"{_SECOND} without explicit time, coefficients up to second degree in the "
                 "coordinates"
@@ -262,7 +263,7 @@ class Discovery(Setting):
                 self.noether, self.equations, self.centred_kinds, self.time_functions, self.allowed
             )
             if timed.functions:
-                self._degree = 2
+                self.degree = 2
                 functions = "with the same functions of time in the coefficients"
                 still = self.system.t not in self.equations_symbols
                 self.words.append(f"also {functions}" if still else f"{_SECOND} {functions}")
@@ -284,7 +285,7 @@ class Discovery(Setting):
         for degree in frame.degrees if frame else ():
             if frame is None or (degree > 3 and len(self.fixed_charges) >= n):
                 return
-            self._degree = degree
+            self.degree = degree
             made = " made of Killing vectors of T" if frame.accelerations else ""
             self.words.append(
                 f"of degree {degree}{made}, with the terms of V and of its gradient times "
@@ -310,7 +311,7 @@ class Discovery(Setting):
                 self.words.append(f"{what} from Killing vectors of T without a common factor")
                 self._keep(((), charge) for charge in self._of_frame(frame, 2))
             return False
-        self._degree = 2
+        self.degree = 2
         self.words.append(f"all {what} without explicit time")
         whole = KillingFrame.of(equations, self.isometries)
         assert whole is not None

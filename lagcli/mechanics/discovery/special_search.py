@@ -101,6 +101,8 @@ def special_cases(
                 found.append(SpecialCase(*choice[0], number, charges, given))
     except TooMuchWork:
         discovery.words.append(_NOT_TRIED)
+    if found and searched.degree > 2:  # the values come from the searches up to second degree
+        discovery.words.append(_NOT_ALL)
     return tuple(found)
 
 
