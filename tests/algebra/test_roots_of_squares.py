@@ -84,3 +84,13 @@ def test_the_value_is_kept_on_either_side(seed):
                 assert value is not None, (formula, after, point)
                 assert abs(value - before) < 1e-8 * (1 + abs(before)), (formula, after, point)
     assert compared
+
+
+@pytest.mark.parametrize("factor", [sqrt(2), sqrt(6) / 4, 3, a, k * sqrt(5)])
+@pytest.mark.parametrize("power", [Rational(n, 2) for n in (-5, -3, -1, 1, 3)])
+def test_an_odd_power_of_a_root_is_its_power(factor, power):
+    """x^(-3/2) is sqrt(x)^(-3) for every complex x, and sqrt(x^3)/x^3 its negative for x < 0."""
+    formula = factor * x**power
+    for value in (-2, -0.3, 0.7, 3):
+        point = {x: value, k: 1.3, a: 0.6}
+        assert complex((simplify(formula) - formula).subs(point)) == pytest.approx(0, abs=1e-12)
