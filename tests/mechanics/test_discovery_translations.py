@@ -84,6 +84,32 @@ def test_without_the_boosts_the_momenta_are_no_heisenberg_algebra():
     assert name_of(structure([X * U - Y * V, U, V])) == "Poincaré iso(1,1)"
 
 
+LEFT, RIGHT = U - Y * W / 2, V + X * W / 2  # on the group of Heisenberg, {LEFT, RIGHT} = -W
+OF_CHARGES = {
+    "Heisenberg h(1)": [LEFT, RIGHT, W],
+    "oscillator algebra": [LEFT, RIGHT, W, TURNS[0]],
+    "oscillator algebra + R": [LEFT, RIGHT, W, TURNS[0], LEFT**2 + RIGHT**2 - 2 * W * TURNS[0]],
+    "Galilei in 1 dimension": [U**2, U * W, X * W, W**2],
+}
+
+
+@pytest.mark.parametrize("name", OF_CHARGES)
+def test_a_charge_may_be_what_the_constants_are_elsewhere(name):
+    """Thurston's geometry of nil: the brackets of two translations are the third (Scott, 1983)."""
+    assert name_of(structure(OF_CHARGES[name])) == name
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_centre_need_not_be_among_the_charges(seed):
+    """The energy beside that of one coordinate: their difference is the other's."""
+    random = Random(seed)
+    one, other = [U**2, X**2, X * U], [Y**2 + V**2, W**2 + Z**2]
+    mixed = [f + random.randint(1, 3) * one[random.randint(0, 2)] for f in other]
+    functions = [*one, *mixed]
+    random.shuffle(functions)
+    assert name_of(structure(functions)) == "sl(2,R) + R^2"
+
+
 LINEAR = {  # two springs in a uniform field, a Penning trap with its energy and L_z, crossed fields
     "(x'^2 + y'^2 + z'^2 - a*x^2 - b*y^2 - c*z^2)/2 + x": "R with Heisenberg h(3)",
     "(x'^2 + y'^2 + z'^2)/2 + c*(x*y' - y*x') + a^2*(x^2 + y^2 - 2*z^2)/4":

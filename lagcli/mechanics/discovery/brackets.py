@@ -23,10 +23,11 @@ from dataclasses import dataclass
 from itertools import chain
 
 import mpmath
+import sympy
 from mpmath import mpf
 from sympy import Expr
 
-from lagcli.algebra import derivative
+from lagcli.algebra import derivative, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import DIGITS, Evaluator, with_assumed_sign
 from lagcli.algebra.row_rank import nullspace, rank
@@ -90,8 +91,9 @@ class ChargeBrackets:
         q, v = system.q, system.qdot
         slopes = [[derivative(Q, x) for x in (*q, *v)] for Q in (*charges, *surface)]
         # without the s of p_phi + s: {A_x, A_y} = -2 E p_phi has no E s
+        still = dict.fromkeys(v, sympy.S.Zero)
         moving = [
-            Q - Q.as_independent(system.t, *q, *v, as_Add=True)[0]
+            Q - simplify(Q.xreplace(still)).as_independent(system.t, *q, as_Add=True)[0]
             if all(free_of(slope, v) for slope in by_state[len(q) :])
             else Q
             for Q, by_state in zip(charges, slopes, strict=False)

@@ -21,7 +21,7 @@ import mpmath
 from mpmath import mpf
 
 from lagcli.algebra.numeric import DIGITS
-from lagcli.algebra.row_rank import rank
+from lagcli.algebra.row_rank import nullspace, rank
 from lagcli.mechanics.discovery.brackets import Structure, Vector
 
 _SMALL = mpf(10) ** -12  # measured: zeros are below 4e-38, others above 4e-1
@@ -48,7 +48,8 @@ def name_of(structure: Structure) -> str | None:
     """The name of the algebra, None where it is none of the known ones."""
     with mpmath.workdps(DIGITS):
         if structure.by_energy is None:
-            return _with_centre(_name(structure.constants, structure.central))
+            name = _name(structure.constants, structure.central)
+            return _with_centre(name, structure)
         if _changes_elsewhere(structure):
             return None
         names = [_name(_at_energy(structure, E), structure.central) for E in (-1, 0, 1)]
@@ -60,9 +61,11 @@ def name_of(structure: Structure) -> str | None:
         return ", ".join(f"{name} {at}" for name, at in zip(names, where, strict=True) if name)
 
 
-def _with_centre(name: str | None) -> str | None:
-    """The name, with a note where the constants belong to the algebra."""
+def _with_centre(name: str | None, structure: Structure) -> str | None:
+    """The name, with a note where the constants belong to the algebra, and no charge in it."""
     if name is None or not any(word in name for word in _EXTENDED):
+        return name
+    if _are_shifts(structure.constants, structure.central):
         return name
     return f"{name}{MODULO_CONSTANTS}"
 
@@ -102,10 +105,12 @@ def _name(C: list[list[Vector]], central: Sequence[Vector]) -> str | None:
     if whole is not None:
         return whole
     centre = _centre(C, central)
-    if centre and rank([*products, *centre]) == derived + len(centre):
-        quotient = _without(C, central, centre)
-        inner = _name(*quotient)
-        return None if inner is None else f"{inner} + {_abelian(len(centre))}"
+    alone = _beyond(products, centre)
+    if alone:
+        inner = _name(*_without(C, central, alone))
+        return None if inner is None else f"{inner} + {_abelian(len(alone))}"
+    if len(centre) == 1 and not extended:  # a charge in place of the constants, as p_z
+        return _name(*_extension(C, centre[0]))
     return _direct_sum(C, central) or _with_translations(C, central)
 
 
@@ -117,7 +122,6 @@ def _with_translations(C: list[list[Vector]], central: Sequence[Vector]) -> str 
     """
     for ideal in _commuting(C, [a for a in range(len(C)) if _squares_to_0(C, a)]):
         others = [a for a in range(len(C)) if a not in ideal]
-        form = mpmath.matrix([[central[a][b] for b in ideal] for a in ideal])
         inside = all(abs(C[a][s][c]) < _SMALL for a in ideal for s in range(len(C)) for c in others)
         if (
             not ideal
@@ -125,6 +129,7 @@ def _with_translations(C: list[list[Vector]], central: Sequence[Vector]) -> str 
             or rank([[central[a][b] for b in ideal] for a in ideal]) < len(ideal)
         ):
             continue
+        form = mpmath.matrix([[central[a][b] for b in ideal] for a in ideal])
         rows = [mpmath.matrix([central[s][b] for b in ideal]) for s in others]
         shifts = [mpmath.lu_solve(form.T, row) for row in rows]
         inner = [
@@ -281,19 +286,53 @@ def _signature(C: list[list[Vector]]) -> tuple[int, int]:
 
 
 def _centre(C: list[list[Vector]], central: Sequence[Vector]) -> list[Vector]:
-    """Basis vectors that commute with all: enough for bases that are chosen sparse."""
-    n = len(C)
-    return [
-        [mpf(int(i == a)) for i in range(n)]
-        for a in range(n)
-        if all(not any(C[a][b]) for b in range(n)) and not any(central[a])
-    ]
+    """A basis of what commutes with all, the basis vectors of the algebra among it first."""
+    n = range(len(C))
+    rows = [[C[a][b][c] for a in n] for b in n for c in n] + [[central[a][b] for a in n] for b in n]
+    units = [[mpf(int(i == a)) for i in n] for a in n]
+    own = [u for a, u in enumerate(units) if not any(row[a] for row in rows)]
+    return _beyond([], [*own, *nullspace(rows)])
+
+
+def _beyond(given: Sequence[Vector], vectors: Sequence[Vector]) -> list[Vector]:
+    """The first of the vectors that are independent of each other and of the given ones."""
+    found: list[Vector] = []
+    base = rank(list(given))
+    for vector in vectors:
+        if rank([*given, *found, vector]) > base + len(found):
+            found.append(vector)
+    return found
 
 
 def _without(
     C: list[list[Vector]], central: Sequence[Vector], centre: Sequence[Vector]
 ) -> tuple[list[list[Vector]], list[Vector]]:
-    return _restricted(C, central, [next(i for i, x in enumerate(z) if x) for z in centre])
+    """The quotient by a part of the centre, in basis vectors of the algebra."""
+    kept, parts = _by_centre(C, centre)
+    inner = [[row[: len(kept)] for row in rows] for rows in parts]
+    return inner, [[central[a][b] for b in kept] for a in kept]
+
+
+def _extension(C: list[list[Vector]], z: Vector) -> tuple[list[list[Vector]], list[Vector]]:
+    """The quotient by z, with what the brackets have of z in place of the constants."""
+    kept, parts = _by_centre(C, [z])
+    inner = [[row[: len(kept)] for row in rows] for rows in parts]
+    return inner, [[row[-1] for row in rows] for rows in parts]
+
+
+def _by_centre(
+    C: list[list[Vector]], centre: Sequence[Vector]
+) -> tuple[list[int], list[list[Vector]]]:
+    """Basis vectors that with those of the centre are a basis, and the brackets in it."""
+    units = [[mpf(int(i == a)) for i in range(len(C))] for a in range(len(C))]
+    rest = _beyond(centre, units)
+    kept = [units.index(unit) for unit in rest]
+    inverse = mpmath.matrix([*rest, *centre]).T ** -1
+
+    def parts(bracket: Vector) -> Vector:
+        return [x if abs(x) > _SMALL else mpf(0) for x in inverse * mpmath.matrix(bracket)]
+
+    return kept, [[parts(C[a][b]) for b in kept] for a in kept]
 
 
 def _restricted(
