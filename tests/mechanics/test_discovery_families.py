@@ -408,3 +408,25 @@ def test_a_list_of_special_values_is_not_called_whole_without_those_of_quartic_i
     )
     assert "16" not in {str(value) for c in derivation.special_cases for _, value in c.given}
     assert "not all special values of the parameters were sought" in derivation.discovery.ansatz
+
+
+BOTH_0 = {  # terms of which one is as bad as both: Kepler's problem, the free particle, a sphere
+    "[x, y]": "(x'^2 + y'^2)/2 + (1 + b*sqrt(R + x) + c*sqrt(R - x))/R",
+    "[x]": "x'^2/2 - b/sin(x)^2 - c/cos(x)^2",
+    "[theta, phi]": "(theta'^2 + sin(theta)^2*phi'^2)/2 - 1/cos(theta)^2"
+    " - (b/cos(phi)^2 + c/sin(phi)^2)/sin(theta)^2",
+}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("coordinates", BOTH_0)
+def test_two_terms_may_have_to_be_absent_together(coordinates):
+    L = BOTH_0[coordinates].replace("R", "sqrt(x^2 + y^2)")
+    text = f"coordinates: {coordinates}\nparameters: {{b: {{}}, c: {{}}}}\nL: {L}\n"
+    derivation = derive(text)
+    [case] = [c for c in derivation.special_cases if c.given]
+    assert {(str(p), v) for p, v in ((case.parameter, case.value), *case.given)} == {
+        ("b", 0),
+        ("c", 0),
+    }
+    assert case.number > len(derivation.discovery.charges)

@@ -52,7 +52,7 @@ class Pivots:
         return [self.field.polynomial_to_sympy(f) for f in found if self._may_vanish(f)]
 
     def pairs(self) -> list[tuple[Expr, Expr]]:
-        """Two with several terms that lower the rank together, and neither alone: a = b, c = 3.
+        """Two that lower the rank together, and neither alone: a = b and c = 3, or b = c = 0.
 
         The second are the factors of the pivots where the first is solved for one symbol.
         """
@@ -71,7 +71,7 @@ class Pivots:
         return [(shown(first), shown(second)) for first, second in found]
 
     def _of_pair(self, factor: Poly) -> bool:
-        few = 1 < len(factor) <= _MOST_TERMS_OF_PAIR and self._may_vanish(factor)
+        few = len(factor) <= _MOST_TERMS_OF_PAIR and self._may_vanish(factor)
         return few and not self._rank.is_lower_at(factor)
 
     def _solved(self, factor: Poly) -> dict[int, Poly] | None:

@@ -9,6 +9,7 @@ from itertools import combinations_with_replacement
 import sympy
 from sympy import Expr, Symbol
 
+from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
 from lagcli.algebra.place import NO_VALUE
 from lagcli.diagnostics import ProblemError
@@ -67,19 +68,15 @@ def special_cases(
         if searched.dynamics.constraints.equations:
             values = exchanged(discovery.dynamics)
         else:
-            factors, pairs = _factors(searched, allowed)
-            factors += linear_powers(searched.equations)
+            lower, pairs = _factors(searched, allowed)
+            together = both_vanish(pairs, lower, system.parameters)
+            factors = lower + linear_powers(searched.equations)
             linear = searched.accelerations or (), searched.time_functions.exponents, system.q
             factors += damped_powers(*linear)
             if len(system.q) == 1 or searched.time_functions.exponents:
                 factors += system.parameters  # a term less: linear, with functions of time
             values = candidates(system, factors, _exponents(searched))
-            together = both_vanish(pairs, factors, system.parameters)
-        choices: list[tuple[Value, ...]] = [(value,) for value in values[:_MOST_VALUES]]
-        choices += together[:_MOST_PAIRS]
-        if len(values) > _MOST_VALUES or len(together) > _MOST_PAIRS:
-            discovery.words.append(_NOT_TRIED)
-        for choice in choices:
+        for choice in _choices(values, together, found, discovery.words):
             if any(sympy.count_ops(value) > _MOST_OPERATIONS for _, value in choice):
                 discovery.words.append(_NOT_TRIED)
                 continue
@@ -104,6 +101,26 @@ def special_cases(
     if found and searched.degree > 2:  # the values come from the searches up to second degree
         discovery.words.append(_NOT_ALL)
     return tuple(found)
+
+
+def _choices(
+    values: Sequence[Value],
+    pairs: Sequence[tuple[Value, Value]],
+    found: Sequence[SpecialCase],
+    words: list[str],
+) -> Iterator[tuple[Value, ...]]:
+    """One value at a time, then two where neither was found by then to suffice."""
+    yield from ((value,) for value in values[:_MOST_VALUES])
+    left = [pair for pair in pairs if not any(_holds(case, pair) for case in found)]
+    yield from left[:_MOST_PAIRS]
+    if len(values) > _MOST_VALUES or len(left) > _MOST_PAIRS:
+        words.append(_NOT_TRIED)
+
+
+def _holds(case: SpecialCase, choice: Sequence[Value]) -> bool:
+    """Whether the values chosen are among those of a case of one parameter."""
+    relation = (case.parameter - case.value).xreplace(dict(choice))
+    return not case.given and is_zero(relation) is True
 
 
 def _beyond_products(
@@ -201,7 +218,7 @@ def _factors(
 ) -> tuple[list[Expr], list[tuple[Expr, Expr]]]:
     """Of the search for point symmetries, and of that for integrals of second degree.
 
-    Of the latter also pairs that have to vanish together.
+    Of both also pairs that have to vanish together.
     """
     part = allowed.part(_FOR_PIVOTS)
     found: dict[Expr, None] = {}
@@ -213,7 +230,7 @@ def _factors(
             else:
                 pivots = Pivots(search, part)
                 found |= dict.fromkeys(pivots.factors())
-                pairs = pivots.pairs()
+                pairs += pivots.pairs()
     except (NoPoint, TooMuchWork, ZeroDivisionError):
         discovery.words.append(_NOT_ALL)
     return list(found), [pair for pair in pairs if not found.keys() & set(pair)]
