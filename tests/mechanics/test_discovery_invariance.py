@@ -30,6 +30,12 @@ PLANE = {
     "inverse square": f"{T} - k/(x^2 + y^2)",
     "Stark": f"{T} + k/{R} + b*y",
     "of fourth degree": f"{T} - k*(x^2 + y^2)^2",
+    "inverse square of one": f"{T} - k/x^2 - b*y^3",
+    "oscillator and inverse square of one": f"{T} - m*k^2*x^2/2 - b/x^2 - m*y^4",
+    "turning frame": "m*((x' - k*y)^2 + (y' + k*x)^2)/2",
+    "Kepler in a turning frame": f"m*((x' - b*y)^2 + (y' + b*x)^2)/2 + k/{R}",
+    "Kepler that fades": f"{T} + k/((1 + b*t)*{R})",
+    "oscillator that fades": f"{T} - k*(x^2 + y^2)/(2*(1 + t)^4)",
 }
 
 

@@ -41,6 +41,31 @@ def test_a_flat_plane_has_the_eight_of_a_free_particle(name):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("V", ["0", "b*a^3"])
+def test_a_universe_with_a_scalar_field_is_a_flat_plane_of_powers(V):
+    """Whether or not a is said to be positive, though a^(3/2) is real for no other one.
+
+    Piedipalumbo, Scudellaro, Esposito, Rubano, Gen. Relativ. Gravit. 44 (2012) 2611.
+    """
+    for a in ("{}", POS):
+        L = f"-3*a*a'^2 + a^3*phi'^2/2 - {V}"
+        found = summary(derive(problem(L, f"{{a: {a}, phi: {{}}}}", "|b")).discovery)
+        assert (found.dimension, found.independent, found.integrable) == (8, 4, True)
+        assert found.name.startswith("sl(2,R) + so(1,1) with Heisenberg h(2)")
+
+
+@pytest.mark.parametrize("F", ["", " - b/(x^2 + y^2)"])
+def test_a_flux_line_changes_no_bracket_away_from_it(F):
+    """L_z + flux and L_z have the same brackets (Aharonov, Bohm, Phys. Rev. 115 (1959) 485)."""
+    free = f"m*(x'^2 + y'^2)/2 + k/sqrt(x^2 + y^2){F}"
+    flux = f"{free} + c*(x*y' - y*x')/(x^2 + y^2)"
+    with_, without = (
+        summary(derive(problem(L, parameters="m k b c")).discovery) for L in (flux, free)
+    )
+    assert (with_.dimension, with_.name) == (without.dimension, without.name)
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("name", PLANES)
 def test_kepler_keeps_its_runge_lenz_vector(name):
     coordinates, rates, inverse = PLANES[name]

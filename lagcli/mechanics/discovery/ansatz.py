@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from itertools import product
+from itertools import combinations_with_replacement, product
 
 import sympy
 from sympy import Expr, Symbol
@@ -45,6 +45,11 @@ class TimeFunctions:
     changing: bool = False  # with the solutions of a linear equation whose coefficients change
     pushed: bool = False  # by forces without q and q', which translations alone take up
     unsolved: bool = False  # no formula is known for solutions of such an equation
+
+    @property
+    def alone(self) -> bool:
+        """Whether translations have functions of time that no other generator has."""
+        return self.pushed or self.changing or any(e.repeated for e in self.exponents)
 
 
 def time_functions(
@@ -156,6 +161,13 @@ def quadratic(found: Kinds, most: int) -> list[Expr]:
         if _size(groups) <= most:
             return _products(groups)
     return []
+
+
+def up_to_second_degree(X: Sequence[Expr], most: int) -> list[Expr]:
+    """Monomials in Cartesian coordinates, a bounded number of them."""
+    one, squares = sympy.S.One, [x * y for x, y in combinations_with_replacement(X, 2)]
+    choices = [one, *X, *squares], [one, *X], [one]
+    return next((made for made in choices if len(made) <= most), [])
 
 
 def _angle(x: Symbol, found: Kinds) -> list[Expr]:

@@ -173,7 +173,7 @@ class Discovery(Setting):
         equations, isometries = self.equations, self.isometries
         times = self.time_functions
         if isometries is not None and (
-            isometries.beyond(kinds) or (times.pushed and isometries.flat)
+            isometries.beyond(kinds) or (isometries.flat and times.alone)
         ):
             if isometries.flat:
                 self.cartesian = tuple(isometries.functions)
@@ -243,9 +243,9 @@ class Discovery(Setting):
     def _hidden(self) -> None:
         if len(self.system.q) < 2 or not self.quadratic_mass or not self.canonical:
             return
-        if len(self.system.q) > _MOST_FOR_TENSORS or self._by_killing_vectors():
+        if len(self.system.q) > _MOST_FOR_TENSORS:
             return
-        if self.system.t not in self.equations_symbols:
+        if self.system.t not in self.equations_symbols and not self._by_killing_vectors():
             self.degree = 2
             self.words.append(
                 f"{_SECOND} without explicit time, coefficients up to second degree in the "
@@ -258,9 +258,16 @@ class Discovery(Setting):
                 self.stopped.append("there are too many coordinates for the second degree")
                 return
             self._keep(integrals.found(self.charges))
-        if TimedIntegrals.applies(self.equations, self.coordinate_kinds, self.point_charges):
+        flat = self.isometries if self.isometries and self.isometries.flat else None
+        in_lengths = not (self.isometries or self.coordinate_kinds.angles)
+        if (flat or in_lengths) and TimedIntegrals.apply(self.equations, self.point_charges):
             timed = TimedIntegrals(
-                self.noether, self.equations, self.centred_kinds, self.time_functions, self.allowed
+                self.noether,
+                self.equations,
+                self.centred_kinds,
+                self.time_functions,
+                flat,
+                self.allowed,
             )
             if timed.functions:
                 self.degree = 2
@@ -304,7 +311,7 @@ class Discovery(Setting):
     def _by_killing_vectors(self) -> bool:
         """Those of T of constant curvature, which are all; else of T without a factor w(q)."""
         equations, what = self.equations, _SECOND
-        if self.system.t in self.equations_symbols or is_gyroscopic(equations):
+        if is_gyroscopic(equations):
             return False
         if self.isometries is None:
             for frame in KillingFrame.without_factor(equations, self.allowed):

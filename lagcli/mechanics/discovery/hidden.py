@@ -63,6 +63,7 @@ class QuadraticIntegrals:
         self.linear = point_slots(equations)[1:] if is_gyroscopic(equations) else []
         slots = len(self.pairs) + len(self.linear)
         self.times: tuple[Expr, ...] = (sympy.S.One,)
+        self.X: Sequence[Expr] = equations.q
         self._still = dict.fromkeys(equations.v, sympy.S.Zero)
         self.functions = quadratic(kinds, MOST_UNKNOWNS // slots)
         if not self.functions and n * (n + 1) // 2 <= MOST_UNKNOWNS:
@@ -171,15 +172,14 @@ class QuadraticIntegrals:
         """Products of the terms of L at rest with monomials and with the functions f."""
         q = self.equations.q
         terms = self._of_rest()
-        monomials = [sympy.S.One, *q]
-        monomials += [x * y for i, x in enumerate(q) for y in q[: i + 1]]
+        monomials = [sympy.S.One, *self.X, *_products(self.X)]
         inside = {t for _, f in functions for t in bare_terms(f, q)}
         roots = sorted(
             _roots(sympy.Tuple(*terms), q), key=sympy.default_sort_key
         )  # such as r in b sqrt(r + x)/r
         made = [a * b for b in terms for a in (*monomials, *roots, *sorted(inside, key=str))]
         made += [m for m in monomials if m != 1] + [
-            x / root for root in roots for x in (*q, root**2)
+            x / root for root in roots for x in (*self.X, root**2)
         ]
         turns = {
             sympy.Mul(*(x for x in sympy.Mul.make_args(f) if x.has(sympy.sin, sympy.cos)))
@@ -198,6 +198,11 @@ def potential(
         return sympy.S.Zero
     found = with_gradient(force, candidates, q, allowed)
     return boundary_term(simplify(dot(force, system.qdot)), system) if found is None else found
+
+
+def _products(X: Sequence[Expr]) -> list[Expr]:
+    """Of two, equal ones too."""
+    return [x * y for x, y in combinations_with_replacement(X, 2)]
 
 
 def _roots(expression: Expr, q: Sequence[Symbol]) -> set[Expr]:
@@ -223,7 +228,7 @@ def _of_field(equations: SlotEquations) -> list[Expr]:
     still = dict.fromkeys(v, sympy.S.Zero)
     slopes = [simplify(f.diff(x).xreplace(still)) for f in equations.forcing for x in v]
     terms = dict.fromkeys(t for s in slopes for t in bare_terms(s, q))
-    monomials = [sympy.S.One, *q, *(x * y for x, y in combinations_with_replacement(q, 2))]
+    monomials = [sympy.S.One, *q, *_products(q)]
     made = dict.fromkeys(t * m for t in terms for m in monomials)
     return list(made) if len(made) <= _MOST_OF_FIELD else []
 

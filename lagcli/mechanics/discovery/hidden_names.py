@@ -21,7 +21,8 @@ from itertools import combinations, combinations_with_replacement
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import is_zero, simplify
+from lagcli.algebra import dot, is_zero, simplify
+from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.cartesian import cartesian
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.names import AXES
@@ -107,17 +108,29 @@ class HiddenNames:
 
     def _timed(self, functions: Sequence[tuple[Slot, Expr]]) -> str:
         """The dilation and the conformal integral of one separated coordinate."""
-        pairs = [(slot.kind[1:], f) for slot, f in functions if slot.kind[0] == "pair"]
+        pairs = [(slot, f) for slot, f in functions if slot.kind[0] == "pair"]
         if len(pairs) != 1:
             return ""
-        [((i, j), f)] = pairs
-        if i != j or f.free_symbols & set(self.q):
+        [(slot, f)] = pairs
+        x = self._along(slot)
+        if not x or f.free_symbols & set(self.q):
             return ""
-        x = self.q[int(i)].name
         if f.has(sympy.sin) != f.has(sympy.cos):
             return f"conformal_{x}_{'sin' if f.has(sympy.sin) else 'cos'}"
         degree = sympy.degree(f, self.t) if f.is_polynomial(self.t) else 0
         return {1: f"dilation_{x}", 2: f"conformal_{x}"}.get(degree, "")
+
+    def _along(self, slot: Slot) -> str:
+        """The Cartesian coordinate whose momentum the slot has squared; empty for none."""
+        square = dot(slot.vector, [dot(row, self.v) for row in self.mass])
+        if self._cartesian is not None:
+            rates = self._cartesian.moved(self.q, self.v)
+            for name, rate in zip(self._cartesian.names, rates, strict=True):
+                if self._constant_ratio(square, rate**2) is not None:
+                    return name
+        own = [x for x, part in zip(self.q, slot.vector, strict=True) if part != 0]
+        alone = slot.kind[1] == slot.kind[2] and len(own) == 1
+        return own[0].name if alone and free_of(square, self.q) else ""
 
     def _constant_tensor(self, functions: Sequence[tuple[Slot, Expr]]) -> tuple[str, Expr]:
         nothing = ("", sympy.S.One)

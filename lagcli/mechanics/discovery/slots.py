@@ -40,7 +40,9 @@ from dataclasses import dataclass
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import derivative, dot
+from lagcli.algebra import derivative, dot, simplify
+
+Vector = tuple[Expr, ...]
 
 #: (index of the jet of f, expression): jets are f, f,q_1 … f,q_n, Df, D^2 f.
 Condition = list[tuple[int, Expr]]
@@ -104,27 +106,29 @@ class Slot:
 
 def point_slots(equations: SlotEquations) -> list[Slot]:
     """u = -q' for tau and the unit vectors for xi: the point transformations."""
-    n = len(equations.q)
-    zero, one = sympy.S.Zero, sympy.S.One
-    units = [tuple(one if i == j else zero for i in range(n)) for j in range(n)]
-    return [
-        Slot(("tau",), tuple(-v for v in equations.v)),
-        *(Slot(("xi", j), unit) for j, unit in enumerate(units)),
-    ]
+    n = range(len(equations.q))
+    units = [tuple(sympy.Integer(i == j) for i in n) for j in n]
+    return [Slot(("tau",), tuple(-v for v in equations.v)), *linear_slots(units)]
 
 
-def quadratic_slots(equations: SlotEquations) -> list[Slot]:
-    """u = p_i e_j + p_j e_i (e_i p_i for i = j), p = M q': f is K^ij of Q = K^ij p_i p_j / 2."""
-    n = len(equations.q)
+def linear_slots(units: Sequence[Vector]) -> list[Slot]:
+    """u = E_a: f is the displacement along it."""
+    return [Slot(("xi", a), unit) for a, unit in enumerate(units)]
+
+
+def quadratic_slots(equations: SlotEquations, units: Sequence[Vector] = ()) -> list[Slot]:
+    """u = P_a E_b + P_b E_a (P_a E_a for a = b): f is K^ab of Q = K^ab P_a P_b / 2.
+
+    P_a = E_a.p with p = M q'; the E_a are the unit vectors where no others are given.
+    """
+    units = units or [slot.vector for slot in point_slots(equations)[1:]]
     p = [dot(row, equations.v) for row in equations.mass]
+    P = [simplify(dot(unit, p)) for unit in units]
     slots = []
-    for i in range(n):
-        for j in range(i + 1):
-            vector: list[Expr] = [sympy.S.Zero] * n
-            vector[i] += p[j]
-            if i != j:
-                vector[j] += p[i]
-            slots.append(Slot(("pair", j, i), tuple(vector)))
+    for a, E in enumerate(units):
+        for b, F in enumerate(units[: a + 1]):
+            both = (P[b] * x + (P[a] * y if a != b else 0) for x, y in zip(E, F, strict=True))
+            slots.append(Slot(("pair", b, a), tuple(both)))
     return slots
 
 

@@ -19,13 +19,19 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, simplify
-from lagcli.mechanics.discovery.ansatz import TimeFunctions, quadratic
+from lagcli.mechanics.discovery.ansatz import TimeFunctions, quadratic, up_to_second_degree
 from lagcli.mechanics.discovery.boundary import gauge_of
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots
+from lagcli.mechanics.discovery.isometries import Isometries
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.relation import with_gradient
-from lagcli.mechanics.discovery.slots import SlotEquations, point_slots
+from lagcli.mechanics.discovery.slots import (
+    SlotEquations,
+    linear_slots,
+    point_slots,
+    quadratic_slots,
+)
 from lagcli.mechanics.noether import Noether, NoetherCharge
 
 _MOST_UNKNOWNS = 900
@@ -35,7 +41,10 @@ _WAVES = (sympy.sin, sympy.cos, sympy.exp)
 
 
 class TimedIntegrals(QuadraticIntegrals):
-    """Those of equations M(q) q'' = forcing(t, q, q') in coordinates that are lengths."""
+    """Those of equations M(q) q'' = forcing(t, q, q').
+
+    K^ab and f^a are components along grad X_a where T is flat; else the q are lengths.
+    """
 
     def __init__(
         self,
@@ -43,21 +52,30 @@ class TimedIntegrals(QuadraticIntegrals):
         equations: SlotEquations,
         kinds: Kinds,
         times: TimeFunctions,
+        flat: Isometries | None,
         allowed: Allowance,
     ) -> None:
         super().__init__(noether, equations, kinds, allowed)
-        self.linear = point_slots(equations)[1:]
         self.times = times.others
+        if flat is None:
+            self.linear = point_slots(equations)[1:]
+        else:
+            self.X = flat.functions
+            self.pairs = quadratic_slots(equations, flat.translations)
+            self.linear = linear_slots(flat.translations)
         slots = len(self.pairs) + len(self.linear)
-        self.functions = quadratic(kinds, _MOST_UNKNOWNS // (slots * len(self.times)))
+        most = _MOST_UNKNOWNS // (slots * len(self.times))
+        self.functions = (
+            quadratic(kinds, most) if flat is None else up_to_second_degree(self.X, most)
+        )
 
     @staticmethod
-    def applies(equations: SlotEquations, kinds: Kinds, known: Sequence[NoetherCharge]) -> bool:
+    def apply(equations: SlotEquations, known: Sequence[NoetherCharge]) -> bool:
         """Whether there may be any: not where 2n integrals of first degree give them all."""
         n = len(equations.q)
         moving = (*equations.q, *equations.v)
         plain = [c for c in known if c.transformation.displaces_without(moving)]
-        return 1 < n <= _MOST_COORDINATES and not kinds.angles and len(plain) < 2 * n
+        return 1 < n <= _MOST_COORDINATES and len(plain) < 2 * n
 
     def _scalar(self, functions: Slots, eta: Sequence[Expr], moving: Expr, /) -> Expr | None:
         """S(t, q) with dS/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) - d(moving)/dt."""
