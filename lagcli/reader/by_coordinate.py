@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
+from lagcli.reader.foreign.vector_products import along_z, vector_product
 from lagcli.reader.foreign.words import Vocabulary, rate_meant
 from lagcli.reader.misshapen import as_list, behind_words, is_sentence
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
@@ -40,6 +41,12 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
         number = re.search(r"\d+(?:\.\d+)?", node.value)
         begin = f"write {{{names[0]}: {number[0]}}}" if number else "leave it out"
         return f"{begin}: what is not given is 0"
+    known = scope.kinds.keys()
+    products = vector_product(node.value, (*names,), known) if isinstance(node, Scalar) else []
+    if isinstance(node, Scalar) and products and len(products) == len(names):
+        alone = along_z(node.value, known)
+        condition = f": {alone} is taken along z" if alone and names[2:] else ""
+        return _pairs([*zip(names, products, strict=True)]) + condition
     written = node.text.source.text[node.start : node.end].strip("[] \n")
     written = behind_words(written, scope.kinds)
     pairs_given = _GIVEN.findall(written) or _SIDE_BY_SIDE.findall(written)

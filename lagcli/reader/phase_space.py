@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import Name, walk
 from lagcli.problem_data import BracketQuestion, CanonicalTransformation
 from lagcli.reader.misshapen import FOUND, source_of
@@ -52,6 +53,15 @@ def read_observables(file: FileReader, node: DocumentNode) -> dict[str, Expressi
 def mend_velocities(file: FileReader, node: DocumentNode, kinetic: Expression) -> None:
     """Make the velocities in each observable one mistake, with momenta in the hint."""
     for key, value in node.entries if isinstance(node, Mapping) else ():
+        if isinstance(value, Scalar) and (parts := _components(file, value, kinetic)):
+            named = zip("xyz", parts, strict=False)
+            listed = ", ".join(f"{key.label}_{axis}: {part}" for axis, part in named)
+            hint = f"a vector is written by its components: {listed}"
+            hint = f"write {parts[0]}" if not parts[1:] else hint
+            wrong = Diagnostic(f"'{key.label}' is a product of vectors", value.span, hint)
+            kept = [each for each in file.diagnostics if not _is_inside(each, value.span)]
+            file.diagnostics[:] = [*kept, wrong]
+            continue
         place = f" cannot stand in the observable '{key.label}'"
         found = [each for each in file.diagnostics if each.message.endswith(place)]
         if not isinstance(value, Scalar) or not found:
@@ -62,6 +72,23 @@ def mend_velocities(file: FileReader, node: DocumentNode, kinetic: Expression) -
             mended = replace(found[0], hint=f"write {whole}: {FUNCTION.why}")
             kept = [each for each in file.diagnostics if each not in found[1:]]
             file.diagnostics[:] = [mended if each is found[0] else each for each in kept]
+
+
+def _components(file: FileReader, node: Scalar, kinetic: Expression) -> list[str]:
+    """The components of `m*(r × v)` on phase space; nothing for other texts."""
+    from lagcli.reader.foreign.vector_products import vector_product
+    from lagcli.reader.momenta_meant import with_momenta
+
+    coordinates = (*file.scope.of_kind("coordinate"),)
+    found = vector_product(node.value, coordinates, file.scope.kinds.keys())
+    found = [with_momenta(each, kinetic, node.text) if "'" in each else each for each in found]
+    return found if all(found) else []
+
+
+def _is_inside(mistake: Diagnostic, span: Span) -> bool:
+    return span.line <= mistake.span.line <= span.end_line and (
+        mistake.span.column >= span.column or mistake.span.line > span.line
+    )
 
 
 def _is_momentum(file: FileReader, key: Scalar) -> bool:

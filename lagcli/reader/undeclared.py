@@ -179,6 +179,9 @@ def _joined(group: list[Diagnostic]) -> Diagnostic:
     for before, each in pairwise(group):
         at = each.span.line
         line = f"in line {at} " if at != before.span.line else ""
+        if each.hint in hints and line and each.hint.startswith("write "):
+            hints[f"{line}the same"] = f"{line}the same"
+            continue
         hints.setdefault(each.hint, line + each.hint[each.hint.find(": write ") + 1 :].strip())
     more = ["and so on"] if len(hints) > _SHOWN else []
     return replace(group[0], hint="; ".join([*list(hints.values())[:_SHOWN], *more]))

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from lagcli.notation.greek import BY_LETTER, BY_NAME
 from lagcli.reader.foreign.indexed_sums import written_out
+from lagcli.reader.foreign.vector_products import vector_product
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, parts_of
 from lagcli.reader.habits import REMARK, foreign_function, is_angle, unit_behind
 
@@ -94,6 +95,8 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
     text = re.sub(r"\\(?:begin|end)\s*\{\w+\*?\}|\\[()\[\]]", " ", text)
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
+    along_z = vector_product(text, names.coordinates, {*names.known})
+    text = along_z[0] if len(along_z) == 1 else text
     text = _products_of_vectors(written_out(text, names), names)
     text = re.sub(r"->|→|⇒", "=", text) if names.related else text
     for words, sign in _RELATIONS:

@@ -1,0 +1,99 @@
+"""Products of two vectors, `r × v` and `cross(v, B)`, as their Cartesian components."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Set as AbstractSet
+
+#: A vector by its letter, or by its components.
+_VECTOR = (
+    r"(?:\\?(?:vec|mathbf|boldsymbol|bm)?\s*\{?\s*(?P<letter_N>[^\W\d]\w*)\s*\}?(?![\w'(])"
+    r"|(?P<list_N>\[[^\[\]]*,[^\[\]]*\]|\([^()]*,[^()]*\)))"
+)
+_TIMES = r"\s*(?:×|⨯|\\times(?!\w))\s*"
+
+
+def _vector(number: int) -> str:
+    return _VECTOR.replace("_N", f"_{number}")
+
+
+#: `r × v`, `cross(r, v)`, with a factor before it.
+_CROSS = re.compile(
+    r"(?P<factor>[-+]?\s*(?:[\w./^]+(?:\s*[*·]\s*|\s+)){0,4}?)\s*"
+    rf"(?:\(\s*{_vector(1)}{_TIMES}{_vector(2)}\s*\)|(?<![\w)]){_vector(3)}{_TIMES}{_vector(4)}"
+    rf"|(?:\w+\.)?[cC]ross\s*[(\[]\s*{_vector(5)}\s*,\s*{_vector(6)}\s*[)\]])"
+)
+_LONGEST = 200
+_AXES_OF = ("x", "y", "z")
+
+
+def vector_product(text: str, coordinates: tuple[str, ...], known: AbstractSet[str]) -> list[str]:
+    """The components of `q*(v × B)`: of a product along z alone in a plane, its only one.
+
+    Parameters
+    ----------
+    text
+        What may be a product of two vectors, with a factor.
+    coordinates
+        Those of the file: the product is taken in Cartesian ones.
+    known
+        The names of the file.
+
+    Returns
+    -------
+    list of str
+        Empty where the text is not such a product, or a vector has no known components.
+    """
+    has_product = re.search(r"[×⨯]|\\times|[cC]ross", text[:_LONGEST])
+    found = _CROSS.fullmatch(text.strip()) if has_product and not text[_LONGEST:] else None
+    if found is None or len(coordinates) < 2 or not {*coordinates} <= {*_AXES_OF}:
+        return []
+    given = [value for name, value in found.groupdict().items() if name != "factor" and value]
+    one, other = (_components_of(each, coordinates, known) for each in given)
+    if not one or not other or not any((*one[:2], *other[:2])):
+        return []  # of two numbers
+    factor = found["factor"].strip().rstrip("*·").strip()
+    parts = []
+    for axis in range(3):
+        j, k = (axis + 1) % 3, (axis + 2) % 3
+        terms = [_product(one[j], other[k]), _product(one[k], other[j])]
+        minus = " - " if terms[0] else "-"
+        inner = terms[0] + (minus + terms[1] if terms[1] else "")
+        sign = "-" if re.fullmatch(r"-[^-+]*", inner) else ""
+        whole = f"({inner})" if re.search(r"[-+]", inner) and not sign else inner[len(sign) :]
+        parts.append(f"{sign}{factor}*{whole}" if factor and inner else inner or "0")
+    parts = [part.replace("--", "") for part in parts]
+    if len(coordinates) == 2 and parts[:2] == ["0", "0"]:
+        return parts[2:]
+    return [part for axis, part in zip(_AXES_OF, parts, strict=True) if axis in coordinates]
+
+
+def along_z(text: str, known: AbstractSet[str]) -> str:
+    """The vector of a product that has one component in the file; nothing for others."""
+    found = _CROSS.fullmatch(text.strip())
+    letters = [v for k, v in found.groupdict().items() if v and "letter" in k] if found else []
+    alone = [x for x in letters if x in known and f"{x}_x" not in known and f"{x}x" not in known]
+    return alone[0] if len(alone) == 1 else ""
+
+
+def _components_of(
+    given: str, coordinates: tuple[str, ...], known: AbstractSet[str]
+) -> list[str] | None:
+    """The three components of a vector: r, v and p, or others with names; None for unknown ones."""
+    if given[0] not in "[(":
+        usual = {"r": "{}", "v": "{}'", "p": "p_{}"}
+        if given in usual and given not in known:
+            form = usual[given]
+            return [form.format(x) if x in coordinates else "" for x in _AXES_OF]
+        named = [next((n for n in (f"{given}_{x}", f"{given}{x}") if n in known), "")
+                 for x in _AXES_OF]  # fmt: skip
+        if any(named):
+            return named
+        return ["", "", given] if given in known - {*coordinates} else None
+    parts = [part.strip() for part in given[1:-1].split(",")]
+    parts = [f"({part})" if re.search(r"\w\s*[-+]", part) else part for part in parts]
+    return ["" if part == "0" else part for part in [*parts, "0"][:3]] if len(parts) <= 3 else None
+
+
+def _product(one: str, other: str) -> str:
+    return f"{one}*{other}" if one and other else ""
