@@ -103,6 +103,28 @@ def test_a_bracket_that_is_a_sum_of_charges_is_shown_as_one():
     assert "5 other brackets are neither 0 nor a multiple of one of them." in words(told, ALGEBRA)
 
 
+@pytest.mark.parametrize("k", ["k", "3*k", "1 + k"])
+def test_brackets_of_charges_that_have_no_value_at_time_0(k):
+    """x'' = -k x/t^2 has the solutions sqrt(t) cos(c ln(t)/2) with c^2 = 4 k - 1 (Euler, Cauchy).
+
+    Stretching t by e^(2 s) moves c ln(t)/2 by c s, so it turns the cosine into the sine.
+    """
+    text = (
+        "{coordinates: [x], parameters: {m: {assume: positive}, k: {assume: positive}}, "
+        f'T: "m*x\'^2/2", V: "m*({k})*x^2/(2*t^2)"}}'
+    )
+    told = explain(derive(text), ("algebra",))
+    found = {
+        (row.left.left.name, row.left.right.name): normal(row.right)
+        for row in rows(told, ALGEBRA)
+        if isinstance(row.left, Bracket)
+    }
+    c = f"sqrt(4*({k}) - 1)"
+    assert found["dilation", "translation_x_cos"] == formula(f"{c}*translation_x_sin")
+    assert found["dilation", "translation_x_sin"] == formula(f"-{c}*translation_x_cos")
+    assert "other bracket" not in words(told, ALGEBRA)
+
+
 @pytest.mark.long
 def test_a_momentum_equation_is_told_with_its_rate():
     told = also("nonholonomic/chaplygin-sleigh", "discovered")

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import cast
 
-from sympy import Expr, Matrix, Rational, S, Symbol
+from sympy import Expr, Matrix, N, Rational, S, Symbol
 
 from lagcli.algebra import dot, is_zero, shape, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.place import NO_VALUE
 from lagcli.document import Block, Bracket, Equations, Heading, Label, Row, equations_of
 from lagcli.expression import ZERO, Expression, Name, walk
 from lagcli.mechanics.canonical.poisson import poisson
@@ -238,20 +239,26 @@ def _brackets(explainer: Explainer, *, closed: bool) -> Iterator[Block]:
         explainer.letters.free(each.name).name: hamiltonian.in_phase_space(each.charge)
         for each in charges
     }
-    rows, commuting, other = [], 0, 0
+    t = explainer.system.t
+    if any(f.subs(t, S.Zero).has(*NO_VALUE) for f in known.values()):
+        later = Symbol(t.name, positive=True)  # ln t and 1/t have no value at 0
+        known, t = {name: f.subs(t, later) for name, f in known.items()}, later
+    moving = (*explainer.system.q, *explainer.system.momenta, t)
+    rows, commuting, other, apart = [], 0, 0, True
     for one, two in combinations(known, 2):
         value = poisson(known[one], known[two], explainer.system)
         if is_zero(value) is True:
             commuting += 1
             continue
         try:
-            multiple = _multiple(explainer, value, known)
+            multiple = _multiple(explainer, value, known, t)
             if multiple is None and closed:
-                multiple = _combination(explainer, value, known)
+                multiple = _combination(explainer, value, known, t)
         except TooMuchWork:
             multiple = None
         if multiple is None:
             other += 1
+            apart = apart and not any(_may_be_multiple(value, f, moving) for f in known.values())
             continue
         order = (*explainer.system.order, *known)
         rows.append(Row(Bracket(Name(one), Name(two)), shape(multiple, order)))
@@ -264,16 +271,38 @@ def _brackets(explainer: Explainer, *, closed: bool) -> Iterator[Block]:
         yield says("The conserved quantities have the Poisson brackets")
         yield Equations(tuple(rows))
     if other:
-        yield says(f"{other} other {'brackets are' if other > 1 else 'bracket is'} neither 0 nor a "
-                   "multiple of one of them.")  # fmt: skip
+        several = other > 1
+        verb = "are" if several else "is"
+        if closed:
+            what = f"{verb} {'' if several else 'a '}linear combination{'s' * several} of them and "
+            what += "of constants"
+        elif apart:
+            what = f"{verb} neither 0 nor a multiple of one of them"
+        else:
+            what = f"{'were' if several else 'was'} not found to be 0 or a multiple of one of them"
+        yield says(f"{other} other bracket{'s' * several} {what}.")
     if commuting:
         yield says("All others are 0.")
 
 
-def _multiple(explainer: Explainer, value: Expr, known: Mapping[str, Expr]) -> Expr | None:
+def _may_be_multiple(value: Expr, f: Expr, moving: Sequence[Symbol]) -> bool:
+    """Whether value/f agrees at two random states, as it does where it is constant."""
+    source = random.Random("multiple")
+    fixed = sorted((value.free_symbols | f.free_symbols) - {*moving}, key=str)
+    at = {x: Rational(source.randint(10, 99), 31) for x in fixed}
+    one, two = (
+        N((value / f).subs(at | {x: Rational(source.randint(10, 99), 31) for x in moving}), 30)
+        for _ in range(2)
+    )
+    return not (one - two).is_number or bool(abs(one - two) <= abs(one) * S(10) ** -20)
+
+
+def _multiple(
+    explainer: Explainer, value: Expr, known: Mapping[str, Expr], t: Symbol
+) -> Expr | None:
     """The bracket as a constant, or a constant times a charge, or that times the energy."""
     system = explainer.system
-    moving = (*system.q, *system.momenta, system.t)
+    moving = (*system.q, *system.momenta, t)
     if free_of(value, moving):
         return value
     energy = known.get("energy")
@@ -289,17 +318,19 @@ def _multiple(explainer: Explainer, value: Expr, known: Mapping[str, Expr]) -> E
     return None
 
 
-def _combination(explainer: Explainer, value: Expr, known: Mapping[str, Expr]) -> Expr | None:
+def _combination(
+    explainer: Explainer, value: Expr, known: Mapping[str, Expr], t: Symbol
+) -> Expr | None:
     """The bracket as the sum of two charges or one with constant factors, and a constant.
 
-    Constants of the motion that depend linearly on each other at t = 0 do so always.
+    Constants of the motion that depend linearly on each other at one time do so always.
     """
     system = explainer.system
     source = random.Random("combination")
     variables = (*system.q, *system.momenta)
+    time = S.One if t.is_positive else S.Zero
     states = [
-        {system.t: S.Zero, **{x: Rational(source.randint(10, 99), 31) for x in variables}}
-        for _ in range(3)
+        {t: time, **{x: Rational(source.randint(10, 99), 31) for x in variables}} for _ in range(3)
     ]
     for names in combinations(known, 2):
         rows = Matrix([[*(known[name].subs(at) for name in names), 1] for at in states])
