@@ -1018,3 +1018,17 @@ def test_without_a_force_what_touches_a_wall_rests_beside_it_too(rest, beside, g
     )
     _, closed, *_ = told.split("In contact: wall. ")
     assert closed.startswith("Stable up to displacements to the equilibria near it") is beside
+
+
+@pytest.mark.parametrize(
+    ("lagrangian", "functions", "named"),
+    [
+        ("x'^2/2 - U(x)", "U: [d]", "the function U is not specified"),
+        ("L0(x, x')", "L0: [q, v]", "the function L0 is not specified"),
+        ("x'^2/2 - U(x) - W(x)*x", "U: [d], W: [d]", "the functions U and W are not specified"),
+        ("x'^2/2 - exp(x) - x^2", "U: [d]", "no closed solution of the conditions of equilibrium"),
+    ],
+)
+def test_what_is_not_specified_is_named(lagrangian, functions, named):
+    text = f'{{coordinates: [x], functions: {{{functions}}}, L: "{lagrangian}"}}'
+    assert equilibria(derive(text).dynamics).reason.startswith(named)

@@ -46,7 +46,6 @@ from lagcli.mechanics.oscillations.reduced_verdict import ReducedVerdict
 from lagcli.mechanics.rest.characteristic import Characteristic
 from lagcli.mechanics.rest.equilibria import (
     EVERYWHERE,
-    NO_CLOSED_SOLUTION,
     REACHED,
     TIMED,
     RestPoints,
@@ -100,7 +99,7 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     places = oscillations.places
     if rest.reason == EVERYWHERE:
         return EquilibriaSection(equilibria=None, reason=EVERYWHERE, everywhere=True)
-    alone = rest.reason == NO_CLOSED_SOLUTION and len(oscillations.held) == 1
+    alone = rest.is_unsolved and len(oscillations.held) == 1
     is_solved = oscillations.complete or (places is None and not alone)
     unsolved = () if is_solved else rest.conditions
     open_ = tuple(written(vanishing_part(e), order) for e in unsolved)

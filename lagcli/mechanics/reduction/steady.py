@@ -30,6 +30,7 @@ from lagcli.mechanics.rest.equilibria import (
     REACHED,
     TIMED,
     RestPoints,
+    not_specified,
 )
 from lagcli.mechanics.rest.exceptions import without_unknowns
 from lagcli.mechanics.rest.held import held
@@ -89,7 +90,8 @@ class SteadyMotions:
             self.reason = _STEADY_EVERYWHERE if self.routh.cyclic else EVERYWHERE
             return None
         if not found and (self._singular or not self.complete):
-            unsolved = _ONLY_AT_REST if self._solved and self.only_rest_is_sought else _UNSOLVED
+            unsolved = not_specified(self.system, self.rest.equations) or _UNSOLVED
+            unsolved = _ONLY_AT_REST if self._solved and self.only_rest_is_sought else unsolved
             where = f"the conditions hold only where {singular(self.dynamics)} singular"
             self.reason = where if self._singular else unsolved
             return None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -10,6 +11,7 @@ from itertools import islice, product
 import mpmath
 import sympy
 from sympy import Expr, S, Symbol
+from sympy.core.function import AppliedUndef
 
 from lagcli.algebra import simplify
 from lagcli.algebra.build import CIRCULAR, free_of
@@ -26,13 +28,13 @@ from lagcli.mechanics.rest.family import Family, exists_where, family
 from lagcli.mechanics.rest.kinks import at_cusps, at_kinks
 from lagcli.mechanics.rest.rest_conditions import RestConditions, RestPoint
 from lagcli.mechanics.rest.singular import is_pressed_to_an_edge, survives
-from lagcli.statements.wording import FINITE_MASS, INDEPENDENT, NOT_ZERO
+from lagcli.mechanics.system import System
+from lagcli.statements.wording import FINITE_MASS, INDEPENDENT, NOT_ZERO, enumerated
 
 _MAX_EVIDENT = 64  # six angles at 0 or pi
 #: Why nothing is solved for where the forces at rest are 0/0.
 NO_VALUE_AT_REST = "a force has no value at rest, as v/|v| has none"
-#: Why none is given where there may be some.
-NO_CLOSED_SOLUTION = "no closed solution of the conditions of equilibrium was found"
+_NO_CLOSED_SOLUTION = "no closed solution of the conditions of equilibrium was found"
 #: Why none is listed where all are.
 EVERYWHERE = "no force acts at rest, so every position that the constraints allow is an equilibrium"
 #: Why nothing is solved for that is constant.
@@ -67,6 +69,21 @@ def _signs_of_letters(positive: Sequence[Expr]) -> Iterator[Expr]:
                 yield -side * letter
 
 
+def not_specified(system: System, conditions: Iterable[Expr]) -> str:
+    """Which functions of the conditions the file does not specify, in a sentence; empty: none."""
+    called = {
+        word
+        for c in conditions
+        for f in c.atoms(AppliedUndef)  # U, U' or diff(U, 1, 2)
+        for word in re.findall(r"\w+", f.func.__name__)
+    }
+    names = [name for name in system.problem.functions if name in called]
+    if not names:
+        return ""
+    nouns = "function" if len(names) == 1 else "functions"
+    return f"the {nouns} {enumerated(names)} {'is' if len(names) == 1 else 'are'} not specified"
+
+
 class RestPoints(RestConditions):
     """All equilibria of a system, or the evident ones.
 
@@ -81,6 +98,8 @@ class RestPoints(RestConditions):
         self._kinks_apart = kinks_apart  # rest at kinks is sought by others
         self.reason = ""
         self.complete = True
+        #: there may be some, and no closed solution was found
+        self.is_unsolved = False
         #: all solutions are where the coordinates are singular, and none is an equilibrium
         self.at_singular_coordinates = False
         #: at some solutions the base of a power is 0, and its exponent has no known sign
@@ -120,7 +139,9 @@ class RestPoints(RestConditions):
             )
             found += evident
             if not found:
-                self.reason = _AT_A_KINK if kinks else NO_CLOSED_SOLUTION
+                self.is_unsolved = not kinks
+                unsolved = not_specified(self.system, equations) or _NO_CLOSED_SOLUTION
+                self.reason = _AT_A_KINK if kinks else unsolved
                 self.reason = _AT_AN_OPEN_POWER if self.at_open_powers else self.reason
                 self.reason = _AT_A_JUMP if self.at_jumps else self.reason
                 self.reason = TIMED if self.depends_on_time else self.reason
