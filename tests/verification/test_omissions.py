@@ -48,6 +48,15 @@ def test_conditions_of_steady_motions_hold_for_those_listed(name: str) -> None:
         assert refuted(problem, answers, "steady_motions", other)
 
 
+@pytest.mark.parametrize("name", ["impact/ladder-leaves-wall", "rigid/rod-sliding-down-wall"])
+def test_where_a_contact_just_touches_no_frequency_is_missed(name: str) -> None:
+    """At theta = 0 the rod stands at the wall, which does not push."""
+    problem, answers = derived(name, ["steady_motions"])
+    section = answers.sections["steady_motions"]
+    assert [motion.frequencies_squared for motion in section.motions] == [()]
+    assert not refuted(problem, answers, "steady_motions", section)
+
+
 @pytest.mark.parametrize("name", ["steady/bead-on-rotating-hoop", "classics/spherical-pendulum"])
 def test_a_frequency_that_is_left_out_is_missed(name: str) -> None:
     problem, answers = derived(name, ["steady_motions"])
