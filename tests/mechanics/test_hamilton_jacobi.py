@@ -13,9 +13,11 @@ from lagcli.algebra.build import Builder, symbol
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.separation_statement import hamilton_jacobi
+from lagcli.pipeline import explain
 from lagcli.reader import parse_text
 
 from .derived import derive
+from .test_explanation import words
 
 KEPLER = """
 coordinates: {r: POSITIVE, phi: {}}
@@ -318,3 +320,16 @@ def test_why_constraints_leave_no_equation(constraint, why):
     separation = Separation(derivation)
     assert separation.hamiltonian is None
     assert separation.reason == why
+
+
+@pytest.mark.parametrize(
+    ("L", "said"),
+    [
+        ("x'^2/2 - x^2*cos(w*t)", "The sum of H and the derivative of … with respect to t is 0"),
+        ("x'^2/2 - x*cos(w*t)", "H is linear in the coordinates"),
+    ],
+)
+def test_the_equation_of_a_hamiltonian_of_the_time_is_stated(L, said):
+    """Goldstein, Poole, Safko, 3rd ed., equation 10.3: it has the term dS/dt, whatever H is."""
+    told = explain(derive(f'{{coordinates: [x], parameters: [w], L: "{L}"}}'), ["hamilton_jacobi"])
+    assert said in words(told, "The Hamilton-Jacobi equation")

@@ -53,7 +53,7 @@ def oscillations(explainer: Explainer, section: Section) -> Iterator[Block]:
     known = cast(ModesSection, section)
     found = known.modes
     if not found:
-        lead = "They were not found" if found is None else "There are none"
+        lead = "They were not found" if found is None else "There are no normal modes"
         yield says(f"{lead}: {known.reason}.")
         return
     small = SmallOscillations(explainer.dynamics)

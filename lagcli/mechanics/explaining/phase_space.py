@@ -9,6 +9,7 @@ from lagcli.document import Block, Bracket, Equations, Integral, Label, Row, equ
 from lagcli.expression import ZERO, Call, Diff, Expression, Name, Negative, Product, walk
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
+from lagcli.mechanics.reduction.separation import ON_TIME
 from lagcli.notation.letters import own
 from lagcli.statements.answers import CanonicalSection, Section
 from lagcli.statements.motions import HamiltonJacobiSection
@@ -117,6 +118,12 @@ def _beside(explainer: Explainer) -> Iterator[Block]:
 def hamilton_jacobi(explainer: Explainer, section: Section) -> Iterator[Block]:
     """From H(q, dS/dq) = E to the parts of S, coordinate by coordinate."""
     found = cast(HamiltonJacobiSection, section)
+    if found.hamiltonian is None and found.reason == ON_TIME:
+        S, t = Label("S"), Name("t")
+        yield says("The sum of H and the derivative of ", S, " with respect to ", t, " is 0, where "
+                   "each momentum in H is the derivative of ", S, " with respect to its "
+                   f"coordinate. This equation was not solved: {found.reason}.")  # fmt: skip
+        return
     if found.hamiltonian is None:
         yield says(f"The equation was not set up: {found.reason}.")
         return

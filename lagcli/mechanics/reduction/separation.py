@@ -42,7 +42,7 @@ from lagcli.record import record
 MOST = 6
 #: What the constants of separation are called: the first with which no name of the file clashes.
 LETTERS = ("alpha", "beta", "gamma", "constant")
-_ON_TIME = "H depends on the time and is not linear in the coordinates"
+ON_TIME = "H depends on the time and is not linear in the coordinates"
 _REFERENCES = (S.Zero, S.One, S(2), S(3))
 
 
@@ -128,13 +128,13 @@ class Separation:
         elif self.derivation.hamiltonian.function is None:
             self.reason = self.derivation.hamiltonian.reason
         elif is_zero(self.derivation.hamiltonian.function.diff(system.t)) is not True:
-            self.reason = _ON_TIME
+            self.reason = ON_TIME
         return None if self.reason else self.derivation.hamiltonian.function
 
     @cached_property
     def driven(self) -> Driven | None:
         """The complete integral where H depends on the time by forces F(t) alone."""
-        if self.hamiltonian is not None or self.reason != _ON_TIME:
+        if self.hamiltonian is not None or self.reason != ON_TIME:
             return None
         H = self.derivation.hamiltonian.function
         assert H is not None
