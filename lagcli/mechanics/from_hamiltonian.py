@@ -13,8 +13,9 @@ from __future__ import annotations
 from sympy import Expr
 
 from lagcli.algebra import dot, simplify, to_expression
+from lagcli.algebra.signs import sign
 from lagcli.diagnostics import Diagnostic, ProblemError
-from lagcli.mechanics.legendre import Inversion
+from lagcli.mechanics.legendre import Inversion, at_rest_against_far, bending
 from lagcli.mechanics.phase_states import PhaseStates
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Problem
@@ -61,6 +62,13 @@ def _lagrangian(system: System) -> Expr:
             "do not determine the momenta",
         )
     if inversion.inverted is None:
+        bends = bending(hessian, system.momenta)
+        if bends is not None and -1 in map(sign, at_rest_against_far(bends, system.momenta)):
+            raise NoLagrangian(
+                system.problem,
+                "the determinant of its second derivatives in the momenta takes both signs, so "
+                "the velocities do not determine the momenta",
+            )
         raise NoLagrangian(
             system.problem, "q' = dH/dp could not be solved for the momenta in closed form"
         )

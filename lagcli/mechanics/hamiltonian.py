@@ -17,18 +17,16 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import sympy
-from sympy import Expr, Symbol
+from sympy import Expr
 
 from lagcli.algebra import dot, simplify
-from lagcli.algebra.build import free_of
-from lagcli.algebra.determinants import determinant
 from lagcli.algebra.place import NO_VALUE
 from lagcli.algebra.positivity import deciding
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.energy import EnergyFunction
-from lagcli.mechanics.legendre import LegendreTransform
+from lagcli.mechanics.legendre import LegendreTransform, at_rest_against_far, bending
 from lagcli.mechanics.system import System
 
 
@@ -112,17 +110,14 @@ class Hamiltonian:
     @property
     def _opposed(self) -> list[Expr]:
         whole = self._decisive
-        return [] if whole is None else _at_rest_against_far(whole, self.system.qdot)
+        return [] if whole is None else at_rest_against_far(whole, self.system.qdot)
 
     @cached_property
     def _decisive(self) -> Expr | None:
         """det M without factors of known sign, a polynomial in the velocities; None of others."""
         if self.legendre.is_quadratic:
             return None
-        whole = determinant(self.dynamics.lagrange.mass_matrix)
-        rest = sympy.S.One if whole is None else simplify(whole)
-        bends = rest.is_polynomial(*self.system.qdot) and not free_of(rest, self.system.qdot)
-        return deciding(rest) if bends else None
+        return bending(self.dynamics.lagrange.mass_matrix, self.system.qdot)
 
     @cached_property
     def growth(self) -> tuple[tuple[Expr, Expr], ...] | None:
@@ -199,15 +194,3 @@ class GivenHamiltonian:
 def _force(system: System, constraints: Sequence[ConstraintEquation], j: int) -> Expr:
     """Q_j - dD/dq_j' + sum_k lambda_k a_kj."""
     return system.applied_forces[j] + sympy.Add(*(e.multiplier * e.row[j] for e in constraints))
-
-
-def _at_rest_against_far(expression: Expr, velocities: Sequence[Symbol]) -> list[Expr]:
-    """Its value at rest times its sign far away along a velocity: it takes both signs below 0."""
-    still = expression.xreplace(dict.fromkeys(velocities, sympy.S.Zero))
-    found = []
-    for v in velocities:
-        alone = expression.xreplace({u: sympy.S.Zero for u in velocities if u != v})
-        if alone.is_polynomial(v) and not free_of(alone, [v]):
-            far = sign(sympy.Poly(alone, v).LC())
-            found += [far * still] if far else []
-    return found

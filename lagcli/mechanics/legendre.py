@@ -26,9 +26,12 @@ from sympy import Expr, Pow, Symbol
 
 from lagcli.algebra import is_zero, rank, simplify, solve_linear
 from lagcli.algebra.build import free_of
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.jumps import is_continuous
 from lagcli.algebra.numeric import DIGITS, Evaluator
+from lagcli.algebra.positivity import deciding
+from lagcli.algebra.signs import sign
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.states import Contradiction, State
 
@@ -382,3 +385,30 @@ def _odd_inverses(momentum: Expr, v: Symbol, p: Symbol, u: Expr) -> list[Expr]:
         return []
     roots = _real_inverses(simplify(forwards), size, p)
     return [(sympy.sign(p) * x.xreplace({p: sympy.Abs(p)}) - start) / slope for x in roots]
+
+
+def bending(hessian: Sequence[Sequence[Expr]], variables: Sequence[Symbol]) -> Expr | None:
+    """What the sign of the determinant follows, a polynomial in the variables; None of others.
+
+    Where it is 0 two branches of the transform meet.
+    """
+    whole = determinant(hessian)
+    rest = sympy.S.One if whole is None else simplify(whole)
+    bends = rest.is_polynomial(*variables) and not free_of(rest, variables)
+    return deciding(rest) if bends else None
+
+
+def at_rest_against_far(expression: Expr, variables: Sequence[Symbol]) -> list[Expr]:
+    """Its value at rest times its sign far away along a variable: it takes both signs below 0.
+
+    Of odd degree it has both signs far away.
+    """
+    still = expression.xreplace(dict.fromkeys(variables, sympy.S.Zero))
+    found = []
+    for v in variables:
+        alone = expression.xreplace({u: sympy.S.Zero for u in variables if u != v})
+        if alone.is_polynomial(v) and not free_of(alone, [v]):
+            poly = sympy.Poly(alone, v)
+            far = sign(poly.LC())
+            found += [sympy.S.NegativeOne if poly.degree() % 2 else far * still] if far else []
+    return found

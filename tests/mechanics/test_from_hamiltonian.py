@@ -131,6 +131,13 @@ def test_no_lagrangian_is_told_at_its_place(text: str):
     assert mistake.span.column == 4
 
 
+@pytest.mark.parametrize("H", ["(p_x^2 + p_y^2)/2 + p_x^3/3", "p_y^2/2 - p_x^2/2 + p_x^4/4"])
+def test_velocities_of_several_momenta_give_no_lagrangian(H: str):
+    """p + p^2 and p^3 - p have the same values twice, and thrice."""
+    d = derive("{coordinates: [x, y], H: '" + H + "'}")
+    assert "takes both signs" in d.no_lagrangian
+
+
 def test_constraints_need_a_lagrangian():
     d = derive(SINGULAR + "\nconstraints: {line: x = y}")
     with pytest.raises(ProblemError) as raised:

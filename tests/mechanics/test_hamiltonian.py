@@ -138,7 +138,7 @@ def test_canonical_equations_of_a_three_link_arm() -> None:
         assert abs(velocity.xreplace({**state, **momenta}).evalf(30) - rates[v]) < 1e-20
 
 
-@pytest.mark.parametrize("power", [4, 6])
+@pytest.mark.parametrize("power", [3, 4, 5, 6])
 def test_a_lagrangian_that_folds_has_several_branches(power):
     """Henneaux, Teitelboim, Zanelli, Phys. Rev. A 36 (1987) 4417: multivalued Hamiltonians."""
     found = derive(f"""
