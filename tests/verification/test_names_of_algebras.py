@@ -6,11 +6,15 @@ Free motion with a quadratic form of signature (2, 0) or (1, 1): rotations so(2)
 
 from __future__ import annotations
 
+from random import Random
+
 import pytest
+from flint import arb, arb_mat, ctx
 
 from lagcli.reader import parse_text, read_problem
 from lagcli.record import replace
 from lagcli.verification import verified
+from lagcli.verification.claims.algebra import signs
 from lagcli.verification.examination import Examination
 from tests.solved import solve
 
@@ -59,3 +63,29 @@ def test_velocities_in_abbreviations_are_seen() -> None:
     examination.define("abbreviations", {"k": parse_text("x'*y"), "s": parse_text("k + y")})
     assert examination.has_velocities(parse_text("2*s"))
     assert not examination.has_velocities(parse_text("2*y"))
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_the_signature_of_a_form_is_that_in_any_basis(seed: int) -> None:
+    """Sylvester's law of inertia, with equal squares as those of two so(3) side by side."""
+    random = Random(seed)
+    n = random.randint(3, 15)
+    squares = [arb(random.choice([-5, -1, 0, 0, 1, 2])) for _ in range(n)]
+    with ctx.workprec(200):
+        basis = arb_mat([[arb(random.randint(-9, 9)) / 7 for _ in range(n)] for _ in range(n)])
+        rows = [[x if i == j else arb(0) for j in range(n)] for i, x in enumerate(squares)]
+        found = signs((basis * arb_mat(rows) * basis.transpose()).tolist())
+    assert found == (sum(x > 0 for x in squares), sum(x < 0 for x in squares))
+
+
+def test_two_bodies_have_a_name_whatever_they_are_called() -> None:
+    text = (
+        "coordinates: [a, b, c, x, y, z]\n"
+        "parameters: {M: {assume: positive}, m: {assume: positive}, k: {assume: positive}}\n"
+        "T: M*(a'^2 + b'^2 + c'^2)/2 + m*(x'^2 + y'^2 + z'^2)/2\n"
+        "V: -k/sqrt((a - x)^2 + (b - y)^2 + (c - z)^2)\n"
+    )
+    problem = read_problem("test.yaml", text.encode()).checked()
+    found = solve(problem, ["discovered", "algebra"])
+    assert found.sections["algebra"].name == "Galilei in 3 dimensions + so(3), modulo constants"
+    assert not found.warnings
