@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from lagcli.problem_data import Point, Problem
 from lagcli.reader.by_coordinate import by_name, coordinate_meant
 from lagcli.reader.file_reader import Required
+from lagcli.reader.foreign.tokens import polar_speed
 from lagcli.reader.growth import growth
-from lagcli.reader.habits import colon_advice
+from lagcli.reader.habits import colon_advice, is_angle
 from lagcli.reader.headings import forces_without_headings, without_headings
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.misshapen import as_list, source_of
@@ -28,6 +29,10 @@ _CARTESIAN = "write [x, y], in polar coordinates [r*cos(phi), r*sin(phi)]"
 _POLAR = re.compile(
     r"(?<!\w)(?:e_?|\\hat\s*\{?\\?|\\vec\s*\{?e\}?_\{?\\?)(?:r|rho|phi|varphi|theta|[ρφϕθ])(?!\w)\}?"
     r"|[rρφϕθ]\u0302|(?<!\w)(?:r|rho|phi|theta)_?hat(?!\w)"
+)
+#: `-grad(V)`, a force with a potential.
+_GRADIENT = re.compile(
+    r"\s*-\s*(?:grad|gradient|nabla|∇|\\nabla)\s*(?:\((?P<whole>.*)\)|\s+(?P<name>\w+)|(?<=∇)\w+)\s*"
 )
 _POINT_ATTRIBUTES = ("position", "mass", "force")
 
@@ -55,7 +60,8 @@ def check_masses(file: FileReader, problem: Problem, span: Span) -> None:
     if any(formula is not None for formula in given) or file.scope.refused:
         return
     if not problem.points:
-        hint = "give T, or points with masses, or L, or H"
+        usual = _usual_energy(file)
+        hint = f"give T{usual}, or points with masses, or L, or H"
         file.error("there is no kinetic energy", span, hint)
     for point in problem.points:
         if point.mass is None:
@@ -69,6 +75,32 @@ def check_masses(file: FileReader, problem: Problem, span: Span) -> None:
                 place = f"{{places: {{{point.name}: [{axes}]}}}}"
                 hint = f"what does not move has no mass and stands under picture: {place}"
             file.error(message, point.span, hint)
+
+
+def _usual_energy(file: FileReader) -> str:
+    """`, as in T: m*x'^2/2`; nothing where the kinetic energy may have mixed terms."""
+    coordinates = [*file.scope.of_kind("coordinate")]
+    known = {*file.scope.of_kind("parameter")}
+    turning = [x for x in coordinates if is_angle(x)]
+    squares = polar_speed((*coordinates,)) if coordinates else ""
+    masses = [x for x in known if re.fullmatch(r"[mM]_?\w?", x)]
+    if turning and not squares and coordinates[1:]:
+        return ""
+
+    def mass(x: str) -> str:
+        index = re.sub(r"^\D*", "", x)
+        return next((m for m in (f"m{index}", f"m_{index}", "m", *masses) if m in known), "m")
+
+    if squares:
+        return f", as in T: {mass('')}/2*({squares})"
+    if turning:
+        [angle] = turning
+        inertia = next((x for x in ("I", "J", "Theta") if x in known), "")
+        length = next((x for x in ("l", "L", "ℓ", "R", "r", "a", "b", "d") if x in known), "")
+        inertia = inertia or (f"{mass(angle)}*{length}^2" if length else "I")
+        return f", as in T: {inertia}*{angle}'^2/2"
+    whole = " + ".join(f"{mass(x)}*{x}'^2/2" for x in coordinates)
+    return f", as in T: {whole}" if whole else ""
 
 
 def check_momenta(file: FileReader) -> None:
@@ -272,7 +304,12 @@ def read_by_coordinate(
     """A map coordinate → expression."""
     found = {}
     coordinates = list(file.scope.of_kind("coordinate"))
-    entries = list(file.entries(node, section, by_name(node, file.scope)))
+    hint = by_name(node, file.scope)
+    if section == "forces" and isinstance(node, Scalar) and (of := _GRADIENT.fullmatch(node.value)):
+        potential = of["whole"] or of["name"]
+        hint = "leave it out: the force of V is found"
+        hint += f"; write V: {potential}" if "V" not in file.sections else ""
+    entries = list(file.entries(node, section, hint))
     if whole := forces_without_headings(node, coordinates):
         [heading, *_] = [key for key, value in entries if isinstance(value, Mapping)]
         message = f"'{heading.label}' in {section} is not a coordinate"

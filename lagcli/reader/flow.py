@@ -39,6 +39,8 @@ def _mend(
 
     `rest[i]` is the text that continues a formula when entry i is a piece of one.
     """
+    from lagcli.reader.foreign.vectors import components
+
     keep = [True] * len(values)
     mistakes = []
     i = 0
@@ -63,6 +65,11 @@ def _mend(
             with_unit = re.fullmatch(r"\(\s*([-\d.]+)\s*,\s*([^,()]+)\)", one)
             if with_unit and unit_behind(f"1 {with_unit[2].strip()}"):
                 hint = f"write {{value: {with_unit[1]}, unit: {with_unit[2].strip()}}}"
+            is_quoted = hint.startswith("put ")
+            if is_quoted and (parts := components(one, ())):
+                hint = f"write a list: [{', '.join(parts)}]"
+            elif is_quoted and re.search(r"(?:[-+*]|^)\s*\([^()]*(?:\([^()]*\)[^()]*)*,", one):
+                hint = "a vector is a list of its components, as in [x, y]"
             message = "inside { } and [ ] a comma ends the value"
             mistakes.append(Diagnostic(message, first.text.span(first.start, end), hint))
             if isinstance(first, Scalar):

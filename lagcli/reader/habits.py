@@ -83,7 +83,11 @@ def instead(function: str) -> str:
 
 def key_meant(word: str, known: tuple[str, ...]) -> str | None:
     """The key of a problem that a word stands for elsewhere, also with arguments: `V(x)`."""
-    word = re.sub(r"^(?:\d+[.)]|[•·▪–—])\s*|\s*\(.*\)$|^[$*_]+|[$*_]+$|\\math\w+|[{}]", "", word)
+    word = re.sub(
+        r"^(?:\d+[.)]|[•·▪–—])\s*|\s*(?<!=)=[^=].*$|\s*\(.*\)$|^[$*_]+|[$*_]+$|\\math\w+|[{}]",
+        "",
+        word,
+    )
     if word in known:
         return word
     keys = habits()["keys"]
@@ -150,7 +154,7 @@ def name_meant(name: str, *, one: bool = False) -> str:
         return said
     words = re.findall(r"[^\W\d]\w*", name)
     letters = [each for each in words if len(each.partition("_")[0]) == 1 and each != "a"]
-    if len(words) > 2 and len(letters) == 1:  # m is the mass
+    if len(words) > 1 and len(letters) == 1 and max(map(len, words)) > 2:  # m is the mass
         return str(letters[0])
     if typed := advised("typed", name):
         return typed

@@ -115,6 +115,8 @@ def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:
         rate = "'" if RATE.search(heading.label) else ""
         if isinstance(value, Scalar):
             parts.append(f"{heading.label}: {source_of(value)}")
+        elif number := _number_of(value):
+            parts.append(f"{heading.label}: {number}")
         elif heading.label in coordinates and isinstance(value, Sequence):
             return ""
         elif isinstance(value, Sequence) and len(value.items) == len(coordinates):
@@ -128,6 +130,15 @@ def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:
                 parts.append(f"{name}{prime}: {source_of(each)}")
     names = {part.partition(":")[0].rstrip("'") for part in parts}
     return f"write {{{', '.join(parts)}}}" if names and names <= {*coordinates} else ""
+
+
+def _number_of(node: DocumentNode) -> str:
+    """`20*pi/180` for `{value: 20, unit: deg}`; nothing for others."""
+    given = {key.label: source_of(value) for key, value in getattr(node, "entries", ())}
+    if "value" not in given or not {*given} <= {"value", "unit", "units"}:
+        return ""
+    unit = given.get("unit", given.get("units", ""))
+    return given["value"] + "*pi/180" * (unit in {"deg", "°", "degree", "degrees"})
 
 
 def forces_without_headings(node: DocumentNode, coordinates: Iterable[str]) -> str:

@@ -10,10 +10,11 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from html import unescape
 from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic, Source, Span
-from lagcli.reader.habits import SIGNS, colon_advice, habits
+from lagcli.reader.habits import KEYS, SIGNS, colon_advice, habits
 
 #: Longer files are not tried, nor more lines of a file.
 _LONGEST, _MOST = 20_000, 8
@@ -109,6 +110,8 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"\s+//\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
     _assumed,
+    lambda line: unescape(line) if re.search(r"&\w+;", line) else line,
+    lambda line: re.sub(rf"^({'|'.join(KEYS)})\s+(?=[^\s:=])", r"\1: ", line),
     lambda line: re.sub(r"^(\s*\"?[^\W\d]\w*\"?)\s*(?:<-|←|:=|->|→|=>|=)\s*", r"\1: ", line),
     _with_blanks,
     _formula,

@@ -114,7 +114,9 @@ def _with_term(
     if unit is not None:
         given = written[slice(*text.offsets(unit.span))]
         quantity = unit.message.split("'")[1]
-        fitting.append(f"{unit.hint.removeprefix('write ')} for the unit {given} of {quantity}")
+        better = unit.hint.removeprefix("write ")
+        is_torque = better == "J" and "must be a torque" in mistake.message
+        fitting.append(f"{'N m' if is_torque else better} for the unit {given} of {quantity}")
     if not fitting:
         return mistake
     return replace(mistake, hint=f"write {', or '.join(fitting)}: {mistake.hint}")

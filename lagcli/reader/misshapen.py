@@ -8,6 +8,7 @@ from typing import get_args
 
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
+from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.habits import (
     CASE,
     MAPS,
@@ -92,13 +93,19 @@ def one_sum(node: DocumentNode, what: str) -> str:
         name, with_unit = what.split("'")[1], unit_mistake(" ".join(written))
         return with_unit[1] if with_unit else "write {0}: {1}, {0}': {2}".format(name, *written)
     if any(re.search(r"\bif\b|[<>]", term) for term in (*written, *inner)):
-        return CASE
+        cases = [re.sub(r",?\s*(?:otherwise|else)\b:?", "", each).strip() for each in written]
+        whole = without_cases(" else ".join(cases)) if len(cases) == 2 else ""
+        return f"write {whole}" if "sign(" in whole else CASE
     if what.startswith("the value of"):
         return SEVERAL
     if what.startswith("the definition of") and isinstance(node, Sequence) and written:
         name = what.split("'")[1]
         parts = (f"{name}_{axis}: {each}" for axis, each in zip("xyz", written, strict=False))
         return f"a vector is written by its components: {', '.join(parts)}"
+    if what.startswith("the constraint") and isinstance(node, Sequence) and written[1:]:
+        name = what.split("'")[1]
+        each_ = (f"{name}_{place}: {each}" for place, each in enumerate(written, start=1))
+        return f"each equation has its own name: {', '.join(each_)}"
     if what == "'until'" and written:
         return f"a motion begins at t = 0: write {written[-1].split()[-1]}"
     return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""

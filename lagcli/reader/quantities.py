@@ -446,6 +446,8 @@ def _check_symbol(file: FileReader, text: Scalar) -> None:
     if wrong:
         escaped = text.style == '"' and not text.value.isprintable()
         hint = "in double quotes a backslash is an escape: use single quotes" if escaped else ""
+        bare = re.sub(r"^\$+(.*?)\$+$|^\\\((.*)\\\)$", r"\1\2", text.value)
+        hint = f"write {bare}" if bare != text.value and not symbol_mistake(bare) else hint
         file.error(f"a symbol must be simple LaTeX: {wrong}", text.span, hint)
 
 

@@ -31,6 +31,18 @@ _LONGEST, _LONGEST_GIVEN = 600, 1800
 #: Characters of a formula in which neighbours are exchanged.
 _LONGEST_EXCHANGED = 160
 #: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
+#: `q'^T*M*q'`, transpose(q)*M*q.
+_MATRIX = re.compile(
+    r"(?<!\w)(?P<one>[^\W\d]\w*)'*\s*(?:\^\s*\{?(?:T|\\top|\\intercal)\}?(?!\w)|\.T(?!\w))"
+    r"|(?:\.transpose\(|\b[tT]ranspose[(\[])"
+)
+#: A term of Lagrange's equation.
+_LAGRANGE = re.compile(r"(?:d|∂|\\partial)\s*[LTV]\s*/\s*(?:d|∂|\\partial)")
+#: `d(x - R*phi)/dt` and `d/dt (x - R*phi)`.
+_TOTAL_RATE = re.compile(
+    r"(?<![\w.])d\s*\((?P<inner>(?:[^()]|\([^()]*\))+)\)\s*/\s*\(?dt\)?(?!\w)"
+    r"|(?<![\w.])d\s*/\s*dt\s*\(?\((?P<behind>(?:[^()]|\([^()]*\))+)\)"
+)
 _LEFT_SIDE = re.compile(r"^\s*(?:T\s*[-−]\s*V|[^\W\d][\w ]*(?:\(\w+\))?)\s*:?=(?!=)")
 
 
@@ -61,12 +73,20 @@ def with_whole(
         return [energy]
     stated = what == "dissipation" and "=" in node.value  # as a force: -c*x'
     too_large = "the limit is" in found[0].hint
-    if stated or too_large or all(each.hint.startswith("did you mean '") for each in found):
+    in_lines = any(each.message.startswith("two lines without") for each in found)
+    if (
+        stated
+        or too_large
+        or in_lines
+        or all(each.hint.startswith("did you mean '") for each in found)
+    ):
         return found
     if is_sentence(node.value, scope.kinds):
         hint = "write a formula" if role.order > 0 else "write a number or a parameter"
         hint = "write left = right, as in x' = R*theta'" if read is read_equation else hint
         return [Diagnostic("a sentence is no formula", node.span, hint)]
+    if matrices := _of_matrices(node, scope):
+        return [matrices]
     for written in _written(node.value, scope, equation=read is not read_expression):
         try:
             names = _vocabulary(scope, role)
@@ -92,17 +112,46 @@ def with_whole(
             return found
         if refused := [each for each in wrong if each.message.startswith("the acceleration ")]:
             return [replace(each, span=node.span) for each in refused]
+        undeclared = {each.message for each in wrong}
+        if all(each.message in undeclared for each in found):
+            return found
         has_words = behind_words(node.value, scope.kinds) != node.value
         guess = found[0].hint.endswith("?") and not has_words
         hint = f"did you mean {whole}?" if guess else f"write {whole}"
         spans = {each.message: each.span for each in reversed(found)}
-        undeclared = {each.message for each in wrong}
         first = next((each for each in found if each.message not in undeclared), found[0])
         rest = [replace(each, span=spans.get(each.message, node.span)) for each in wrong]
         message = "words are no part of a formula" if has_words else first.message
         return [replace(first, message=message, hint=hint), *rest]
+    if rate := _of_rates(node, scope):
+        return [rate]
     exchanged = _exchanged(node.value, scope, role, what, read)
     return [replace(found[0], hint=f"did you mean {exchanged}?")] if exchanged else found
+
+
+def _of_matrices(node: Scalar, scope: Scope) -> Diagnostic | None:
+    """What is written for `q'^T*M*q'`; None where no matrix is meant."""
+    matrix = _MATRIX.search(node.value)
+    if matrix is None or {matrix["one"], "T"} & scope.kinds.keys():
+        return None
+    x, y = [*scope.of_kind("coordinate"), "x", "y"][:2]
+    hint = f"write the sum, as in (m_11*{x}'^2 + 2*m_12*{x}'*{y}' + m_22*{y}'^2)/2"
+    return Diagnostic("a formula has no matrices", node.span, hint)
+
+
+def _of_rates(node: Scalar, scope: Scope) -> Diagnostic | None:
+    """What is written for `d(x - R*phi)/dt`; None where no rate of a formula is meant."""
+    total = _TOTAL_RATE.search(node.value)
+    if total is None or {"d", "dt"} & scope.kinds.keys():
+        return None
+    if _LAGRANGE.search(node.value):
+        hint = "leave it out, or give the force alone"
+        return Diagnostic("the equations of motion are derived", node.span, hint)
+    inner = total["inner"] or total["behind"]
+    whole = f"{node.value[: total.start()]}u'{node.value[total.end() :]}".strip()
+    hint = "a total time derivative is the prime of a definition"
+    hint = f"{hint}: definitions: {{u: {inner}}} and here {whole}"
+    return Diagnostic("'d/dt' of a formula has no meaning", node.span, hint)
 
 
 def _energy_meant(

@@ -6,6 +6,7 @@ import re
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from lagcli.expression import ZERO, Name
 from lagcli.problem_data import Constraint, Symmetry, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
 from lagcli.reader.habits import is_angle, name_meant
@@ -81,7 +82,8 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
             sides = (equation.left, equation.right)
             if max(derivative_order(side, file.scope) for side in sides) < 0:
                 message = f"the constraint '{name}' contains no coordinate"
-                file.error(message, node.span, "a value stands under 'parameters', as in l: 1")
+                alone = isinstance(equation.left, Name) and equation.right == ZERO
+                file.error(message, node.span, _of_length(file, str(equation.left) * alone))
         holds_while = None
         if "holds_while" in one.attributes:
             holds_while = file.comparison(one.attributes["holds_while"], "'holds_while'", QUESTION)
@@ -99,6 +101,15 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
             )
         )
     return tuple(constraints)
+
+
+def _of_length(file: FileReader, name: str) -> str:
+    """`write x^2 + y^2 = l^2` for a parameter l beside Cartesian coordinates."""
+    axes = [x for x in "xyz" if file.scope.kinds.get(x) == "coordinate"]
+    if file.scope.kinds.get(name) != "parameter" or len(axes) < 2:
+        return "a value stands under 'parameters', as in l: 1"
+    squares = " + ".join(f"{x}^2" for x in axes)
+    return f"a constraint is an equation of coordinates, as in {squares} = {name}^2"
 
 
 def _law_of_force(file: FileReader, node: DocumentNode, name: str) -> str:

@@ -141,7 +141,8 @@ def _missing_product(
     if str(left) == "lambda" and ":" in excerpt.value:
         written = excerpt.value.partition(":")[2].strip()
         return Diagnostic("a formula is no program", span, f"write {written}")
-    if "\n" in excerpt.value[left.end_pos : right.start_pos]:
+    between = slice(excerpt.offsets[left.end_pos - 1], excerpt.offsets[right.start_pos])
+    if "\n" in excerpt.text.source.text[between]:
         hint = "begin the second line with its sign, as in + x"
         return Diagnostic("two lines without a sign between them", span, hint)
     if apart and REMARK.search(excerpt.value):

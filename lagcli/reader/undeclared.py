@@ -216,7 +216,7 @@ def _together(
     words = [(each, match[1], match[2]) for each, match in found if match]
     if not words[1:]:
         return diagnostics
-    keys = ", ".join(meant for _, _, meant in words)
+    keys = ", ".join(dict.fromkeys(meant for _, _, meant in words))
     message = f"unknown keys {', '.join(word for _, word, _ in words)} in the problem"
     whole = replace(words[0][0], message=message, hint=advice.format(keys))
     kept = (whole if each is words[0][0] else each for each, _ in found)

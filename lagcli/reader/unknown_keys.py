@@ -96,7 +96,7 @@ def unknown_key(
         inner = [(key_meant(each.label, names), source_of(part)) for each, part in value.entries]
         lines = ", ".join(f"{each}: {part}" for each, part in inner)
         hint = f"leave it out, and begin lines with {lines}" if all(k for k, _ in inner) else ""
-    if "=" in word and "initial: {" not in hint:
+    if "=" in word and not meant and "initial: {" not in hint:
         hint = f"write {name_meant(word)}"
     elif key.in_flow and value.is_empty:
         hint = "inside { } a comma ends the value: put a text with commas in quotes"
@@ -127,7 +127,7 @@ def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[
     if advice := _advice(word, written, what, names):
         return None, advice
     stem = key_of_stem(word, names)
-    if stem and stem != closest(word, names):
+    if stem and stem != closest(word, names, _NEAR):
         return stem, f"the key is {stem}"
     return None, did_you_mean(word, names, _NEAR)
 

@@ -59,6 +59,14 @@ def slips(problem: Problem) -> list[Diagnostic]:
     if lost is not None and _sign(lost, problem, known) == -1:
         hint = f"it drives the motion; {_FRICTION}"
         found.append(_warning("the dissipation is negative", lost.span, hint))
+    energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
+    roots = (n for formula in energies if formula is not None for n in walk(formula))
+    for node in roots:
+        above = node.numerator if isinstance(node, Quotient) else ZERO
+        last = above.factors[-1] if isinstance(above, Product) else above
+        if isinstance(last, Power) and last.exponent == Number(Fraction(1)):
+            hint = "a root is sqrt(x), or x^(1/2) with parentheses"
+            found.append(_warning("a power of 1 is the base itself", last.span, hint))
     return found
 
 

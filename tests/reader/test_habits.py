@@ -588,7 +588,7 @@ HABITS = [
     (text(expect="{energy: true}"), "write its formula"),
     (text(points="{bob: {position: x, y}}"), "write position: [x, y]"),
     (text(parameters="{m: [kg, 1], k: 2}"), "write {value: 1, unit: kg}"),
-    (text(V="x < 1 ? 0 : k*x"), "write (k*x)*(1 + sign(x - (1)))/2"),
+    (text(V="x < 1 ? 0 : k*x"), "write (k*x)*(1 + sign(x - 1))/2"),
     (
         text(V="Piecewise((k*x, x < 1), (m, True))"),
         "(k*x)*(1 - sign(x - 1))/2 + m*(1 + sign(x - 1))/2",

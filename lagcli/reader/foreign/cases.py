@@ -36,7 +36,8 @@ def without_cases(text: str) -> str:
     if found is None:
         return _GROUP.sub(_within, text)
     left, right = found["left"].strip(), found["right"].strip()
-    difference = left if right == "0" else f"{left} - ({right})"
+    right = right if re.fullmatch(r"[\w.]+'*", right) else f"({right})"
+    difference = left if right == "0" else f"{left} - {right}"
     signs = "+-" if found["sign"] in ">≥" else "-+"
     cases = zip((found["then"], found["other"] or "0"), signs, strict=True)
     terms = [(value.strip(), sign) for value, sign in cases if value.strip() not in {"0", "0.0"}]

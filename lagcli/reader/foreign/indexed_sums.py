@@ -39,6 +39,13 @@ def written_out(text: str, names: Vocabulary) -> str:
             return text
         terms = _terms(inside.groupdict().get("term", within), inside, names)
         text = text[: called.start()] + terms + text[end + 1 :]
+    while (bare := re.search(r"[Σ∑](?!\s*_)\s*", text)) and "Σ" not in names.known:
+        end = _end_of_product(text, bare.end())
+        index = _INDEXED.search(text, bare.end(), end)
+        if index is None:
+            return text
+        terms = _terms(text[bare.end() : end].strip(" *"), index, names)
+        text = f"{text[: bare.start()]}{terms} {text[end:]}".rstrip()
     while signed := _SIGN.search(text):
         end = _end_of_product(text, signed.end())
         terms = _terms(text[signed.end() : end].strip(" *"), signed, names)

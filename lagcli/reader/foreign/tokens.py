@@ -10,7 +10,7 @@ from typing import NamedTuple
 from lagcli.notation.greek import BY_LETTER, BY_NAME
 from lagcli.reader.foreign.indexed_sums import written_out
 from lagcli.reader.foreign.vector_products import vector_product
-from lagcli.reader.foreign.words import UnclearText, Vocabulary, parts_of
+from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant, parts_of
 from lagcli.reader.habits import REMARK, foreign_function, is_angle, unit_behind
 
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻½⅓⅔¼¾⅛"
@@ -79,7 +79,7 @@ _RELATIONS = (
     (re.compile(r"\s+(?:is\s+equal\s+to|is|equals?)\s+(?=[-\w(])"), "="),
 )
 #: `self.` before a name.
-_OWNER = re.compile(r"\b([A-Za-z]\w*)\.(?=[A-Za-z_](?!iff\b))")
+_OWNER = re.compile(r"\b([A-Za-z]\w*)\.(?=(?!diff\b)([A-Za-z_]\w*))")
 
 
 class Token(NamedTuple):
@@ -93,6 +93,7 @@ class Token(NamedTuple):
 def prepared(text: str, names: Vocabulary) -> str:
     """With the marks of web pages, v² and Leibniz' derivatives in the notation of a file."""
     text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
+    text = re.sub(r"(\w)\u20d7", r"\\vec{\1}", text)
     text = re.sub(r"\\(?:begin|end)\s*\{\w+\*?\}|\\[()\[\]]", " ", text)
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
     along_z = vector_product(text, names.coordinates, {*names.known})
@@ -122,7 +123,12 @@ def prepared(text: str, names: Vocabulary) -> str:
         forms = [name, *({f"{axis}_{point}", f"{point}_{axis}"} - {*names.known})]
         spelled = "|".join(map(re.escape, forms))
         text = re.sub(rf"(?<![\w.])(?:{spelled})(?!\w)", f"({component})", text)
-    return _OWNER.sub(lambda m: m[0] if m[1] in names.known else "", text)
+
+    def without_owner(found: re.Match[str]) -> str:
+        is_name = meant(found[2], names)[0] in names.known
+        return "" if is_name and found[1] not in names.known else found[0]
+
+    return _OWNER.sub(without_owner, text)
 
 
 def _by_components(found: re.Match[str]) -> str:
@@ -173,7 +179,7 @@ def _square_of_speed(text: str, names: Vocabulary) -> str:
     """The sum of squares for v², in Cartesian coordinates."""
     if len(names.coordinates) < 2 or "v" in names.known:
         return text
-    if squares := _polar_speed(names.coordinates):
+    if squares := polar_speed(names.coordinates):
         return _SPEED.sub(f" ({squares}) ", text)
     if not {*names.coordinates} <= {*"xyz"}:
         return text
@@ -186,7 +192,7 @@ def _square_of_speed(text: str, names: Vocabulary) -> str:
     return text
 
 
-def _polar_speed(coordinates: tuple[str, ...]) -> str:
+def polar_speed(coordinates: tuple[str, ...]) -> str:
     """The square of the speed in polar, cylindrical or spherical coordinates; else nothing."""
     r, *others = coordinates
     angles = [x for x in others if is_angle(x)]

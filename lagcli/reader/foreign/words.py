@@ -24,6 +24,10 @@ VELOCITIES = frozenset({"v", "velocity", "speed", "omega", "ω"})
 _LONGEST, _LETTERS = 40, 8
 
 
+#: A dot in the words of other languages, behind its coordinate.
+_DOT_WORDS = ("punkt", "point", "punto", "ponto", "kropka", "punt", "tochka", "vel", "rate")
+
+
 class UnclearText(Exception):
     """The text means nothing that is known, or may mean two things."""
 
@@ -143,6 +147,7 @@ def _rates(x: str) -> tuple[set[str], set[str]]:
     stem, _, index = x.partition("_")
     first = {f"{x}{dot}" for dot in ("dot", "_dot", "_d", "d", "p", "_t", "Dot", "_prime")}
     first |= {f"{dot}{x}" for dot in ("d", "D", "d_", "dot_", "dot", *_SPEEDS)}
+    first |= {f"{x}{gap}{word}" for word in _DOT_WORDS for gap in ("", "_")}
     second = {f"{x}{dot}" for dot in ("ddot", "_ddot", "dd", "_dd", "pp", "_tt")}
     second |= {f"{dot}{x}" for dot in ("dd", "a", "a_", "ddot_", "ddot")}
     if index:
