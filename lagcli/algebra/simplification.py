@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from functools import partial
 
-from sympy import Expr, Mul
+from sympy import Add, Expr, Mul, Pow, S, Symbol, sqrt
 
 from lagcli.algebra.cancellation import cancelled
 from lagcli.algebra.division import commonest_ratio
@@ -38,6 +38,7 @@ _OF_LONG = 2  # ... no more than these equal forms are shaped
 _EQUAL = 3  # numerators that are shaped
 _GIVEN_ROOT = 4  # operations that a formula may have more with sqrt(1 - v²/c²) as it was put in
 _FLAT = 1.3  # times as long as nested fractions are a formula without any may be
+_REMOVED = 1.5  # times as long a formula may be that has a value where the other is 0/0
 _MAX_SHAPED = 1500  # terms; beyond, a formula is written as it was found
 
 
@@ -80,6 +81,34 @@ def shaped(
 
     The tree is None where the expression has no normal form and stays as it is.
     """
+    found = _shaped(expression, order, relations)
+    rooted = {} if relations else _letters_under_roots(expression)
+    if not rooted:
+        return found
+    whole, _ = _shaped(expression.subs({x: r**2 for x, r in rooted.items()}), (), None)
+    by_roots = whole.subs({r: sqrt(x) for x, r in rooted.items()})
+    # sqrt(k) − sqrt(h) over sqrt(k) + sqrt(h), and not its square over k − h
+    equal = dict.fromkeys(rooted, S.One)
+    removed = found[0].as_numer_denom()[1].subs(equal) == 0
+    removed = removed and by_roots.as_numer_denom()[1].subs(equal) != 0
+    most = _REMOVED * found[0].count_ops() if removed else found[0].count_ops() - 1
+    if by_roots.count_ops() > most:
+        return found
+    return by_roots, to_expression(by_roots, order)
+
+
+def _letters_under_roots(expression: Expr) -> dict[Symbol, Symbol]:
+    """The positive letters that occur under a root and elsewhere: (k - h)/(sqrt(k) - sqrt(h))."""
+    powers = [p for p in expression.atoms(Pow) if p.base.is_Symbol and p.base.is_positive]
+    rooted = {p.base for p in powers if p.exp.is_Rational and p.exp.q == 2}
+    if len(rooted) < 2 or not any(rooted <= each.free_symbols for each in expression.atoms(Add)):
+        return {}
+    return {x: Symbol(f"#{x.name}", positive=True) for x in rooted}
+
+
+def _shaped(
+    expression: Expr, order: Sequence[str], relations: Relations | None
+) -> tuple[Expr, Expression | None]:
     if relations:
         expression = relations.substitute(expression)
     writer = Writer(order)
