@@ -46,6 +46,8 @@ _WORTH = 8
 _OFTEN = 3
 #: What has no more operations with the names in it has none of its own.
 _HARDLY = 2
+#: Occurrences from which a long root is named: in three pairs of results.
+_ROOTS = 6
 #: Occurrences from which a sine or cosine of a difference is named.
 _CIRCULAR = 4
 _MOST_NAMES = 12
@@ -71,8 +73,9 @@ def abbreviated(answers: Answers, taken: Collection[str]) -> Answers:
 
 
 def _has_lines(section: object) -> bool:
-    """Whether a formula fills more than two lines; shorter ones are printed without names."""
-    return any(operation_count(tree) > _TWO_LINES for tree in expressions_in(section))
+    """Whether a formula fills more than two lines, or has a root that others have, too."""
+    trees = [*expressions_in(section)]
+    return any(operation_count(tree) > _TWO_LINES for tree in trees) or bool(_long_roots(trees))
 
 
 def in_steps(explanation: Explanation, taken: Collection[str]) -> Explanation:
@@ -99,10 +102,18 @@ def in_steps(explanation: Explanation, taken: Collection[str]) -> Explanation:
 def _found(parts: Sequence[object], taken: Collection[str]) -> _Abbreviations | None:
     """The names for formulas of which one is long; None where nothing is worth a name."""
     trees = [tree for part in parts for tree in expressions_in(part)]
-    if not any(operation_count(tree) > LONG for tree in trees):
+    if not any(operation_count(tree) > LONG for tree in trees) and not _long_roots(trees):
         return None
     names = _Abbreviations(trees, taken)
     return names if names.where else None
+
+
+def _long_roots(trees: Sequence[Expression]) -> set[Call]:
+    """The long roots that stand in several results, as sqrt(b) of a ± sqrt(b) in each."""
+    roots = Counter(
+        p for t in trees for p in walk(t) if isinstance(p, Call) and p.function == "sqrt"
+    )
+    return {r for r, n in roots.items() if n >= _ROOTS and operation_count(r) >= 2 * _WORTH}
 
 
 class _Abbreviations:
@@ -171,8 +182,9 @@ class _Abbreviations:
             counts.pop(self._alike(tree)[1], None)
             if isinstance(tree, Quotient) and operation_count(tree) <= _TWO_LINES:
                 counts.pop(self._alike(tree.numerator)[1], None)
+        roots = _long_roots(self._trees)
         for which, part in first.items():  # an angle has no name of its own
-            if which in counts and isinstance(part, Call):
+            if which in counts and isinstance(part, Call) and part not in roots:
                 for angle in part.arguments:
                     if (inner := self._alike(angle)[1]) in counts:
                         counts[inner] -= counts[which]
@@ -186,7 +198,9 @@ class _Abbreviations:
         return None if best is None else shapes[best].most_common(1)[0][0]
 
     def _below(self) -> set[int]:
-        return {self._alike(f)[1] for tree in self._trees for f in _sums_below(tree)}
+        """What is named Δ: denominators, and the radicand of all results."""
+        found = {self._alike(f)[1] for tree in self._trees for f in _sums_below(tree)}
+        return found | {self._alike(root.arguments[0])[1] for root in _long_roots(self._trees)}
 
     def _take(self, whole: Expression) -> None:
         its = self._alike(whole)

@@ -16,8 +16,7 @@ from itertools import combinations
 from sympy import Expr, Mul, S, sqrt
 
 from lagcli.algebra import dot, is_zero, nullspace, shape, simplify
-from lagcli.algebra.writing import Writer
-from lagcli.expression import Call, Expression, Number, Power, Sum, operation_count
+from lagcli.expression import Call, Expression, Number, Power, Sum, operation_count, terms_of
 from lagcli.rewriting import rebuilt
 
 _TWO = Number(Fraction(2))
@@ -26,6 +25,7 @@ _LONGER = 1.1
 
 Matrix = Sequence[Sequence[Expr]]
 Rewrite = Callable[[Expression], Expression]
+Build = Callable[[Expression], Expr]
 
 
 def pairs_of(M: Matrix, K: Matrix) -> list[tuple[Matrix, Matrix]]:
@@ -56,6 +56,18 @@ def _block(A: Matrix, i: int, j: int) -> Matrix:
     return [[A[a][b] for b in (i, j)] for a in (i, j)]
 
 
+def with_discriminants(M: Matrix, K: Matrix, order: Sequence[str], build: Build) -> Rewrite:
+    """Writes the radicands of frequencies of these matrices so, and leaves other trees."""
+    found = [Discriminant(*pair, order) for pair in pairs_of(M, K)]
+
+    def rewrite(tree: Expression) -> Expression:
+        for each in found:
+            tree = each.within(tree, build)
+        return tree
+
+    return rewrite
+
+
 class Discriminant:
     """The discriminant of one pair of matrices of order 2; any others leave trees as they are."""
 
@@ -70,7 +82,7 @@ class Discriminant:
             self.coupling = simplify(4 * (a * q - b * p) * (c * q - b * r))
         self._whole = simplify(self.difference**2 + self.coupling)
 
-    def within(self, tree: Expression, build: Callable[[Expression], Expr]) -> Expression:
+    def within(self, tree: Expression, build: Build) -> Expression:
         """The tree with the radicand in this form, where that is not longer."""
         if self.difference == 0 or self.coupling == 0:
             return tree
@@ -80,12 +92,12 @@ class Discriminant:
             case _:
                 return rebuilt(tree, lambda part: self.within(part, build))
 
-    def _radicand(self, tree: Sum, build: Callable[[Expression], Expr]) -> Expression:
+    def _radicand(self, tree: Sum, build: Build) -> Expression:
         ratio = simplify(build(tree) / self._whole)
         root = simplify(sqrt(ratio))
         powers = (factor.as_base_exp() for factor in Mul.make_args(root))
         if any(base.is_Add or not (e.is_Integer or base.is_number) for base, e in powers):
             return tree
         square = Power(shape(root * self.difference, self._order), _TWO)
-        found = Writer(self._order).sum([square, shape(ratio * self.coupling, self._order)])
+        found = Sum((square, *terms_of(shape(ratio * self.coupling, self._order))))
         return found if operation_count(found) <= _LONGER * operation_count(tree) else tree

@@ -34,7 +34,7 @@ from lagcli.algebra.simplification import fraction
 from lagcli.expression import ZERO, Call, Expression, Power, Quotient, length, sum_of, walk
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.oscillations.discriminant import Discriminant, Rewrite, pairs_of
+from lagcli.mechanics.oscillations.discriminant import Rewrite, with_discriminants
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.normal_modes import (
     NormalMode,
@@ -378,12 +378,7 @@ class SmallOscillations:
         if not place.modes:
             return []
         linear = place.near
-        of_two = [Discriminant(*pair, self.system.order) for pair in pairs_of(linear.M, linear.K)]
-
-        def known(tree: Expression) -> Expression:
-            for each in of_two:
-                tree = each.within(tree, self.system.build)
-            return tree
+        known = with_discriminants(linear.M, linear.K, self.system.order, self.system.build)
 
         def positive(tree: Expression) -> Expression:
             return with_positive_factors(known(tree), self.system.build, place.point.positive)

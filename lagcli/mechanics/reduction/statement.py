@@ -46,6 +46,7 @@ from lagcli.mechanics.reduction.one_freedom import free_name
 from lagcli.mechanics.reduction.period import AmplitudeSeries as Found
 from lagcli.mechanics.reduction.period import Periods
 from lagcli.mechanics.reduction.routh import Routh
+from lagcli.notation.ordering import negative_of
 from lagcli.rewriting import put_in, rebuilt
 from lagcli.statements.answers import EquationsSection, LagrangeEquation, ReductionSection
 from lagcli.statements.motions import Irreducible, OneFreedom, PeriodSeries
@@ -265,12 +266,16 @@ class _Statement:
 
         def energy_last(tree: Expression) -> Expression:
             match tree:
-                case Call(function="sqrt", arguments=(Sum() | Quotient() as radicand,)):
+                case Call(
+                    function="sqrt", arguments=(Sum() | Quotient() | Negative() as radicand,)
+                ):
                     whole = build(radicand)
                     slope = simplify(whole.diff(E))
                     if slope == 0 or not free_of(slope, [E]):
                         return rebuilt(tree, energy_last)
                     first = shape(whole.xreplace({E: S.Zero}), order)
+                    if isinstance(first, Negative) and isinstance(first.operand, Sum):
+                        first = negative_of(first.operand)
                     if first == ZERO or isinstance(first, Negative):
                         return tree
                     found = sum_of((*terms_of(first), *terms_of(shape(slope * E, order))))

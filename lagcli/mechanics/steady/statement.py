@@ -21,6 +21,7 @@ from lagcli.algebra.vanishing_factors import squares_divided_by
 from lagcli.expression import Expression, Number, Power, operation_count
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.oscillations.discriminant import Rewrite, with_discriminants
 from lagcli.mechanics.oscillations.family_statement import relation_sides, shown, untied
 from lagcli.mechanics.oscillations.normal_modes import beats, choices, shorter
 from lagcli.mechanics.oscillations.reduced_verdict import judge_on_axes
@@ -159,6 +160,7 @@ class _SteadyStatement:
             else {j: without_moduli(rate, motion.positive) for j, rate in motion.rates.items()},
         )
         matrices: tuple[Matrix, ...] = ()
+        rewrite: Rewrite | None = None
         turning = False
         judged = undecided("the equations of motion are singular there")
         squares: tuple[Expr, ...] = ()
@@ -172,6 +174,9 @@ class _SteadyStatement:
                     matrices = (linear.M, linear.C, linear.K)
                     if linear.dynamics.constraints.equations:
                         displaced = tuple(q.name for q in linear.independent)
+                    rewrite = with_discriminants(
+                        linear.M, linear.K, self.order, linear.system.build
+                    )
                 if motion.family is not None:
                     squares, matrices = self._on_all(motion.family, squares, matrices)
             else:
@@ -206,7 +211,9 @@ class _SteadyStatement:
             rests=self._rests_at_equality(motion),
             verdict=self._verdict(judged, motion, potential, turning=turning),
             frequencies_squared=tuple(
-                self._square(without_moduli(w, motion.positive)) for w in squares
+                rewrite(tree) if rewrite else tree
+                for w in squares
+                for tree in [self._square(without_moduli(w, motion.positive))]
             ),
             mass=self._matrix(matrices[0]) if matrices else (),
             velocity=self._matrix(matrices[1]) if matrices else (),
