@@ -20,6 +20,7 @@ from lagcli.algebra.shaping.shaper import Shaper
 from lagcli.algebra.simplification import shape
 from lagcli.algebra.writing import Writer
 from lagcli.expression import (
+    Call,
     Expression,
     Name,
     Negative,
@@ -45,6 +46,9 @@ _APART = 1.6
 
 #: What is no polynomial in the velocities stays whole as the file has it: -m c² sqrt(1 - v²/c²).
 _GIVEN_WHOLE = 1.6
+
+#: How many times as long as the result the sum of squared components may be that the file has.
+_PROJECTIONS = 0.8
 
 Term = tuple[Monomial, int]
 
@@ -105,7 +109,23 @@ def terms(
     if not growth.is_one():
         one = Fraction(1)
         result = writer.product(one, [(result, one), (shaper.shape(growth), one)])
-    return given if given and length(given) <= length(result) else result
+    if given is None:
+        return result
+    most = _PROJECTIONS * length(result) if _has_projections(given) else length(result)
+    return given if length(given) <= most else result
+
+
+def _has_projections(node: Expression) -> bool:
+    """Whether squares of components are added, of which sin² + cos² = 1 leaves less."""
+
+    def projects(term: Expression) -> bool:
+        return isinstance(term, Power) and any(
+            isinstance(term.base, Sum) and isinstance(p, Call) and p.function in ("sin", "cos")
+            for p in walk(term.base)
+        )
+
+    sums = (part for part in walk(node) if isinstance(part, Sum))
+    return any(sum(map(projects, each.terms)) > 1 for each in sums)
 
 
 def _common_exponential(field: Field, element: Element) -> Element:

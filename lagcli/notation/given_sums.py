@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
-from math import gcd, lcm, prod
+from math import gcd, inf, lcm, prod
 from typing import TypeAlias, cast
 
 from lagcli.expression import (
@@ -28,6 +28,8 @@ from lagcli.expression import (
     children,
     operation_count,
     opposite,
+    power_of,
+    quotient_of,
     sum_of,
     terms_of,
     walk,
@@ -53,7 +55,7 @@ from lagcli.notation.likeness import (
     signed_key,
 )
 from lagcli.notation.ordering import Ordering, is_letter, is_rate, positive_first
-from lagcli.rewriting import rebuilt
+from lagcli.rewriting import put_in, rebuilt
 
 #: How many times as long as the answer's the file's own sum may be.
 _LONGER = 1.4
@@ -82,6 +84,10 @@ class GivenSums:
         self._found: dict[frozenset[Expression], list[tuple[Polynomial, Sum]]] = {}
         self._ordering = ordering
         self._short: list[_Short] = []
+        formulas = [*formulas]
+        divided = (p for node in formulas for p in walk(node) if isinstance(p, Quotient))
+        below = (f for part in divided for f in parts_of(part.denominator)[1])
+        self._below = {_arranged(base, ordering) for base, _ in map(whole_power, below)}
         for whole in energies:
             self._keep(whole, multiplied_out(whole))
         for part in (part for node in formulas for part in walk(node)):
@@ -207,6 +213,8 @@ class GivenSums:
     ) -> tuple[bool, list[Expression], list[Expression]]:
         """The sign and the factors, with the sums of the file for their multiples."""
         number, above, below = self._divided(above, below)
+        other, above, below = self._over_given(above, below)
+        number *= other
         for factors, sign in (above, 1), (below, -1):
             number *= self._joined(factors) ** sign
             for place, factor in enumerate(factors):
@@ -237,6 +245,39 @@ class GivenSums:
         if abs(number.numerator) != 1 or not above:
             above.insert(0, Number(Fraction(abs(number.numerator))))
         return minus ^ (number < 0), above, below
+
+    def _over_given(
+        self, above: list[Expression], below: list[Expression]
+    ) -> tuple[Fraction, list[Expression], list[Expression]]:
+        """A number, and r'²/(1 − rs/r) for r r'²/(r − rs) where the file has such a denominator."""
+        number = Fraction(1)
+        for place, factor in enumerate(below):
+            base, exponent = whole_power(factor)
+            like = self.multiple(base) if isinstance(base, Sum) else None
+            if like is None or not like[1] or like[2] not in self._below:
+                continue
+            letters = {repr(n): n for n in walk(base) if isinstance(n, Name)}
+            left = Counter[Expression](dict(map(whole_power, above)))
+            for letter, power in like[1]:
+                left[letters.get(letter, ONE)] -= power * exponent
+            if ONE in left or min(left.values()) < 0 or len(left) < len(above):
+                continue
+            number /= like[0] ** exponent
+            below[place] = power_of(like[2], exponent)
+            above = [power_of(x, e) for x, e in left.items() if e] or [ONE]
+        return number, above, below
+
+    def with_half(
+        self, above: list[Expression], below: list[Expression]
+    ) -> tuple[list[Expression], list[Expression]]:
+        """(M + 2 m) x'²/2 for (M/2 + m) x'², as energies are written."""
+        powers = map(whole_power, above)
+        squared = any(e == 2 and not self._ordering.is_parameter(b) for b, e in powers)
+        sums = [f for f in above if isinstance(f, Sum) and _denominator(f) == 2]
+        if not squared or len(sums) != 1 or any(isinstance(f, Number) for f in (*above, *below)):
+            return above, below
+        double = self._multiplied(sums[0], 2)
+        return [double if f is sums[0] else f for f in above], [Number(Fraction(2)), *below]
 
     def _multiplied(self, node: Sum, number: int) -> Sum:
         """The sum multiplied by a number, term by term."""
@@ -298,17 +339,32 @@ class GivenPotential:
     """
 
     def __init__(self, potential: Expression | None, ordering: Ordering) -> None:
-        own = None if isinstance(potential, Sum) and has_like_terms(potential) else potential
+        like = isinstance(potential, Sum) and (
+            has_like_terms(potential) or _has_one_function(potential, ordering)
+        )
+        own = None if like else potential
         value = own and multiplied_out(own)
         self._value = value if own and value and _is_tidy_inside(own) else None
+        self._limit = inf if own is not None and _keeps_squares(own) else _LIMIT
         self._node = None if potential is None else _arranged(potential, ordering)
 
     def __call__(self, node: Expression) -> Expression:
-        """The formula with V or −V for all that has neither velocities nor momenta."""
+        """The formula with V or −V for all that has neither velocities nor momenta; E − V."""
+        inside: dict[Expression, Expression] = {
+            part: shown
+            for root in walk(node)
+            if isinstance(root, Call) and root.function == "sqrt"
+            for part in walk(root)
+            if isinstance(part, Sum) and (shown := self._with_potential(part)) is not part
+        }
+        return self._with_potential(put_in(node, inside) if inside else node)
+
+    def _with_potential(self, node: Expression) -> Expression:
         if self._value is None or self._node is None or not _leaves(self._node) <= _leaves(node):
             return node
-        given, terms = self._node, terms_of(node)
-        still = [t for t in terms if not any(map(_is_fast, walk(t)))]
+        given, terms, own = self._node, terms_of(node), _leaves(self._node)
+        still = [t for t in terms if t in own or not isinstance(t, Name)]
+        still = [t for t in still if not any(map(_is_fast, walk(t)))]
         shown = Sum((*still,)) if len(still) > 1 else still[0] if still else None
         value = None if shown is None else multiplied_out(shown)
         if shown is None or value is None or len(value) != len(self._value):
@@ -316,15 +372,39 @@ class GivenPotential:
         ratios = {
             c / self._value[term] if term in self._value else None for term, c in value.items()
         }
-        if ratios not in ({Fraction(1)}, {Fraction(-1)}) or _LIMIT * operation_count(
-            shown
-        ) < operation_count(given):
+        if ratios not in ({Fraction(1)}, {Fraction(-1)}):
             return node
-        own = terms_of(given) if ratios == {Fraction(1)} else map(opposite, terms_of(given))
+        if self._limit * operation_count(shown) < operation_count(given):
+            return node
+        signed = terms_of(given) if ratios == {Fraction(1)} else map(opposite, terms_of(given))
         first = terms.index(still[0])
         before, after = terms[:first], [t for t in terms[first:] if t not in still]
-        found = (*before, *own, *after)
+        found = (*before, *signed, *after)
         return node if isinstance(found[0], Negative) else sum_of(found)
+
+
+def _keeps_squares(node: Expression) -> bool:
+    """Whether there are squared brackets of which every product stays when multiplied out.
+
+    Of q1² + q2² + (q1 − q2)² nothing is gained by it, and the symmetry is lost;
+    (x + y)² + (x − y)² is 2 x² + 2 y².
+    """
+    if not any(isinstance(p, Power) and isinstance(p.base, Sum) for p in walk(node)):
+        return False
+    whole = multiplied_out(node) or {}
+    return all(m in whole for term in terms_of(node) for m in _products(term))
+
+
+def _products(node: Expression) -> Iterator[Monomial]:
+    """The products in each squared bracket of a term, before they are added to others."""
+    _, above, below = parts_of(node)
+    for place, factor in enumerate(above):
+        if isinstance(factor, Sum):
+            for term in factor.terms:
+                rest = [term if k == place else f for k, f in enumerate(above)]
+                yield from _products(quotient_of(rest, below))
+            return
+    yield from multiplied_out(quotient_of(above, below)) or {}
 
 
 def has_like_terms(node: Sum) -> bool:
@@ -335,6 +415,17 @@ def has_like_terms(node: Sum) -> bool:
         if not any(isinstance(p, Power) and isinstance(p.base, Sum) for p in walk(term))
     )
     found = [each for term in plain for each in multiplied_out(term) or ()]
+    return len(set(found)) < len(found)
+
+
+def _has_one_function(node: Sum, ordering: Ordering) -> bool:
+    """Whether two terms differ in parameters alone: m g l cos θ/2 + M g l cos θ."""
+    found = []
+    for term in node.terms:
+        _, above, below = parts_of(term)
+        varying = frozenset(f for f in (*above, *below) if not ordering.is_parameter(f))
+        if varying and not any(isinstance(odd_base(f)[0], Sum) for f in varying):
+            found.append(varying)
     return len(set(found)) < len(found)
 
 

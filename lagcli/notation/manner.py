@@ -37,7 +37,9 @@ from lagcli.notation.angles import (
     with_added_square,
     with_single_angles,
     with_versines,
+    without_halved_sines,
     without_tangents,
+    without_unlike_multiples,
 )
 from lagcli.notation.brackets import NamedMomenta, squares_as_brackets
 from lagcli.notation.factors import (
@@ -51,6 +53,7 @@ from lagcli.notation.factors import (
     whole_power,
     with_base,
     with_conjugates,
+    with_content,
     with_last,
     with_one_root,
     with_whole_powers,
@@ -97,6 +100,8 @@ class Manner:
         self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
         self._fractions = GivenFractions(given(problem), self._ordering)
         self._ratios = ratios_in(given(problem))
+        calls = (p for node in given(problem) for p in walk(node) if isinstance(p, Call))
+        self._angles = {signed_key(x)[1] for call in calls for x in call.arguments}
         self._potential = GivenPotential(problem.potential, self._ordering)
         names = [q.name for q in problem.coordinates]
         self._momenta = NamedMomenta(names, self._positive, self._ordering)
@@ -119,7 +124,8 @@ class Manner:
 
     def __call__(self, node: Expression) -> Expression:
         """The formula as the file would write it; its value stays."""
-        node = self._in_manner(with_single_angles(node), inside=False)
+        node = with_single_angles(without_unlike_multiples(node, self._ordering))
+        node = self._in_manner(node, inside=False)
         terms = self._brackets.spread(node)
         if any(
             isinstance(f, Sum) and any(parts_of(t)[2] for t in f.terms) for f in factors_of(node)
@@ -282,10 +288,19 @@ class Manner:
         """a ± sqrt(b) with one a for both roots of an equation."""
         roots = [term for term in node.terms if any(map(_is_root, walk(term)))]
         rest = [term for term in node.terms if term not in roots]
-        if not roots or len(rest) < 2:
+        if not roots or not rest:
             return node
-        before = terms_of(self._as_before(Sum((*rest,))))
+        before = terms_of(self._as_before(Sum((*positive_first(rest),)))) if rest[1:] else rest
+        if not isinstance(before[0], Negative) and self._ends_with_roots(node, roots):
+            return Sum((*before, *roots))
         return Sum((*roots, *before) if node.terms[0] in roots else (*before, *roots))
+
+    def _ends_with_roots(self, node: Sum, roots: list[Expression]) -> bool:
+        """Whether it is b + sqrt(b² − a c), of constants; c sqrt(p² + m² c²) + F x is not."""
+        calls = (p for root in roots for p in walk(root) if isinstance(p, Call))
+        long = any(_is_root(call) and isinstance(call.arguments[0], Sum) for call in calls)
+        names = [part for part in walk(node) if isinstance(part, Name)]
+        return long and not any(has_rate(x) or self._ordering.is_coordinate(x) for x in names)
 
     def _sum(self, node: Sum) -> Expression:
         """The sum, its brackets as in the denominator above: a - b (u - v), not a + b (v - u)."""
@@ -329,12 +344,15 @@ class Manner:
 
     def _function(self, node: Call, inner: Sum) -> Expression:
         """sin(a − b) = −sin(b − a), cos(a − b) = cos(b − a); sin((a − b)/2) for sin(a/2 − b/2)."""
-        ratio, shown = self._sums.like(inner) or (Fraction(1), inner)
+        ratio, shown = self._sums.like(inner) or with_content(inner)
         if abs(ratio) != 1:
             whole = product_of_powers(abs(ratio), {shown: 1}, self._ordering)
             turned = Call(node.function, (whole,), node.primes)
             return turned if node.function in EVEN or ratio > 0 else Negative(turned)
-        if not self._signs.wrong(inner) or _constant(inner):
+        wrong = self._signs.wrong(inner)
+        if wrong is None and all(map(is_letter, inner.terms)):  # cos(θ − φ) in the file's order
+            wrong = self._signs.begins_worse(inner)
+        if not wrong or _constant(inner):
             return node
         turned = Call(node.function, (negative_of(inner),), node.primes)
         return turned if node.function in EVEN else Negative(turned)
@@ -376,8 +394,9 @@ class Manner:
         letters = (b for b in powers[0] if isinstance(b, Name) and self._ordering.is_parameter(b))
         least = ((base, min(each.get(base, 0) for each in powers)) for base in letters)
         shared = dict[Expression, int]((base, e) for base, e in least if e > 0)
-        fractions = any(below for _, _, below in terms)  # (g² cos θ − g/R) sin θ
-        if not shared or fractions or self._signs.is_given(node):
+        # (g² cos θ − g/R) sin θ
+        fractions = any(not isinstance(f, Number) for _, _, below in terms for f in below)
+        if not shared or fractions or self._signs.is_bracket(node):
             return None
         left = []
         for (minus, above, below), each in zip(terms, powers, strict=True):
@@ -392,8 +411,8 @@ class Manner:
     def _signed(self, node: Expression, *, inside: bool) -> Expression:
         """A product or quotient with every sum in its right sign, the sign of all before it."""
         minus, above, below = self._sums.in_product(*parts_of(self._with_common(node)))
-        above, below = map(with_conjugates, cancelled(above, below))
-        above = without_tangents(above)
+        above, below = map(with_conjugates, cancelled(*self._sums.with_half(above, below)))
+        above, below = without_halved_sines(without_tangents(above), below, self._angles)
         free: list[tuple[list[Expression], int]] = []  # sums that may stand either way
         for factors in (above, below):
             for place, factor in enumerate(factors):

@@ -214,7 +214,21 @@ class Ordering:
 
     def sorted(self, terms: Iterable[Expression]) -> list[Expression]:
         """The terms in their order, a polynomial in one variable by its powers."""
-        return self.in_powers(sorted(terms, key=self.term))
+        return self.in_powers(self._with_letter_first(sorted(terms, key=self.term)))
+
+    def _with_letter_first(self, terms: list[Expression]) -> list[Expression]:
+        """I + m r² where the file has I before m; x² + a², k x + F."""
+        if len(terms) < 2 or any(isinstance(term, Negative) for term in terms):
+            return terms
+        *others, last = terms
+        if not is_letter(last) or not self.is_parameter(last):
+            return terms
+        for each in ([b for b in bases(t) if not isinstance(b, Number)] for t in others):
+            varies = any(map(self.is_coordinate, each)) and not any(map(self._is_fast, each))
+            led = self.is_parameter(each[0]) and self._first(last) < self._first(each[0])
+            if not varies or not led:
+                return terms
+        return [last, *others]
 
     def in_powers(self, terms: list[Expression]) -> list[Expression]:
         """w² + a x + b x², not a x + b x² + w²; r² + 2 a r + 2 a², not 2 a r + r² + 2 a²."""

@@ -73,12 +73,13 @@ class SumSigns:
         self._positive = positive
         self._file: dict[Key, int] = {}  # of a sum: that of the file, 0 where it has both
         self._below = FirstSigns()  # of denominators
-        self._given: set[Key] = set()  # all sums of the file
+        self._brackets: set[Key] = set()  # all sums of the file that are no whole formulas
         for node in formulas:
             for part in walk(node):
                 if isinstance(part, Sum):
                     sign, key = signed_key(part)
-                    self._given.add(key)
+                    if part is not node:
+                        self._brackets.add(key)
                     if _all_negative(part):
                         continue
                     self._file[key] = sign if self._file.get(key, sign) == sign else 0
@@ -87,9 +88,9 @@ class SumSigns:
         """Begin another section."""
         self._below.clear()
 
-    def is_given(self, node: Sum) -> bool:
-        """Whether the file has the sum or its negative."""
-        return signed_key(node)[1] in self._given
+    def is_bracket(self, node: Sum) -> bool:
+        """Whether the sum or its negative stands within a formula of the file."""
+        return signed_key(node)[1] in self._brackets
 
     def is_settled(self, node: Sum) -> bool:
         """Whether the file says which way round it stands, or has it both ways."""

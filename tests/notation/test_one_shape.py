@@ -6,7 +6,7 @@ import pytest
 
 from lagcli.expression import Sum, walk
 from lagcli.formatters import Options
-from lagcli.pipeline import derive, explain, render
+from lagcli.pipeline import Request, derive, explain, render, state
 from lagcli.reader import read_problem
 from lagcli.rewriting import expressions_in
 from tests.solved import solve
@@ -104,9 +104,9 @@ def test_sums_of_angles_of_the_file_are_not_turned_into_others(turned: str, free
     [
         (  # Fetter and Walecka, section 22: two masses and three springs
             "(m1*x'^2 + m2*y'^2)/2", "a*x^2/2 + b*(y - x)^2/2 + c*y^2/2",
-            "4 m₁ m₂ b² + (m₁ (b + c) − m₂ (a + b))²",
+            "(m₁ (b + c) − m₂ (a + b))² + 4 m₁ m₂ b²",
         ),
-        ("(m1*x'^2 + m2*y'^2)/2", "a*x^2/2 + b*x*y + c*y^2/2", "4 m₁ m₂ b² + (m₁ c − m₂ a)²"),
+        ("(m1*x'^2 + m2*y'^2)/2", "a*x^2/2 + b*x*y + c*y^2/2", "(m₁ c − m₂ a)² + 4 m₁ m₂ b²"),
         ("(m1*x'^2 + m2*y'^2)/2 + b*x'*y'", "(a*x^2 + c*y^2)/2", "(m₁ c − m₂ a)² + 4 a b² c"),
     ],
 )  # fmt: skip
@@ -375,3 +375,81 @@ def test_momenta_are_not_subtracted_in_one_row_of_those_that_have_them_first(pow
     found = text("r, s", "m k", physics, "canonical_equations", "reduction", "steady_motions")
     assert "p_s − k" in found
     assert "k − r" not in found
+
+
+def test_squared_brackets_of_a_potential_keep_their_symmetry() -> None:
+    """Two loops with a common condenser: q₁² + q₂² + (q₁ − q₂)², not 2 (q₁ (q₁ − q₂) + q₂²)."""
+    physics = "T: A*(q1'^2 + q2'^2)/2\nV: q1^2/(2*C) + q2^2/(2*C) + (q1 - q2)^2/(2*C)"
+    found = text("q1, q2", "A C", physics, "energy", "hamiltonian")
+    assert found.count("+ q₁²/(2 C) + q₂²/(2 C) + (q₁ − q₂)²/(2 C)") == 2
+
+
+@pytest.mark.parametrize(
+    ("parameters", "inertia"), [("I m k", "I + m r²"), ("m k I", "m r² + I")], ids=["I m", "m I"]
+)
+def test_an_inertia_stands_where_the_file_has_it(parameters: str, inertia: str) -> None:
+    physics = "T: (I + m*r^2)*u'^2/2 + m*r'^2/2\nV: k*r^2/2"
+    found = text("r, u", parameters, physics, "equations", "momenta", "accelerations")
+    other = {"I + m r²": "m r² + I", "m r² + I": "I + m r²"}[inertia]
+    assert f"p_u = ({inertia}) u̇" in found
+    assert other not in found
+
+
+def test_a_hamiltonian_has_the_angles_in_the_order_of_the_coordinates() -> None:
+    """A rod that hangs from a string, whose file has no difference of its angles."""
+    physics = (
+        "definitions: {X: l*sin(u) + b*sin(v), Y: l*cos(u) + b*cos(v)}\n"
+        "T: m*(X'^2 + Y'^2)/2 + m*b^2*v'^2/6\nV: -m*g*Y"
+    )
+    found = text("u, v", "m l b g", physics, "accelerations", "hamiltonian")
+    assert "v − u" not in found
+    assert "u − 2 v" not in found
+    assert "4 sin(u) − 3 sin(v) cos(u − v)" in found
+
+
+def test_no_half_of_a_doubled_angle_where_the_file_has_the_angle() -> None:
+    physics = (
+        "definitions: {X: x + r*sin(u), Y: -r*cos(u)}\n"
+        "T: M*x'^2/2 + m*(X'^2 + Y'^2)/2\nV: k*(r - l)^2/2 + m*g*Y"
+    )
+    found = text("x, r, u", "M m k l g", physics, "accelerations")
+    assert "k (r − l) sin(u) cos(u)/(M r)" in found
+    assert "2 u" not in found
+
+
+def test_the_root_of_an_equation_comes_last() -> None:
+    """An inverted pendulum between two springs; its squared frequencies are in LL, section 23."""
+    physics = "T: m*l^2*u'^2/2\nV: k*a^2*sin(u)^2 + m*g*l*cos(u)"
+    found = text("u", "m l a k g", physics, "reduction")
+    assert "arccos((m g l − √(" in found
+    assert "arccos((m g l + √(" in found
+
+
+def test_a_time_is_written_with_the_potential_as_it_stands_in_the_energy() -> None:
+    """An Atwood machine with a heavy rope, Symon, Mechanics, 3rd ed., chapter 9."""
+    potential = "m₁ g x {0} m₂ g (l − x) {0} s g x²/2 {0} s g (l − x)²/2"
+    physics = "T: (m1 + m2 + s*l)*x'^2/2\nV: -m1*g*x - m2*g*(l - x) - s*g*x^2/2 - s*g*(l - x)^2/2"
+    found = text("x", "m1 m2 s l g", physics, "reduction")
+    assert "− " + potential.format("−") in found
+    assert "E + " + potential.format("+") in found
+
+
+ROTORS = "T: (A*u'^2 + B*v'^2 + C*w'^2)/2\nV: c*(v - u)^2/2 + d*(w - v)^2/2"
+
+
+def test_frequencies_have_one_radicand_in_modes_and_steady_motions() -> None:
+    """Three rotors on a shaft, Thomson, Theory of Vibration with Applications, section 5."""
+    found = text("u, v, w", "A B C c d", ROTORS, "modes", "steady_motions")
+    root = "(A d (B + C) − (A + B) C c)² + 4 A² C² c d"
+    assert " ".join(found.split()).count(root) == 4
+
+
+def test_a_root_in_many_results_is_named() -> None:
+    file = "coordinates: [u, v, w]\nparameters: {" + ", ".join(
+        f"{name}: {{assume: positive}}" for name in "ABCcd"
+    ) + "}\n" + ROTORS  # fmt: skip
+    problem = read_problem("t.yaml", file.encode()).checked()
+    answers = state(derive(problem), Request(sections=("modes",), abbreviate=True))
+    found = render([answers], "text", Options())
+    assert "Δ = (A d (B + C) − (A + B) C c)² + 4 A² C² c d" in found
+    assert found.count("√Δ") == 3
