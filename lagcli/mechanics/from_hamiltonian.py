@@ -61,14 +61,14 @@ def _lagrangian(system: System) -> Expr:
             "the matrix of its second derivatives in the momenta is singular: the velocities "
             "do not determine the momenta",
         )
+    bends = bending(hessian, system.momenta)
+    if bends is not None and -1 in map(sign, at_rest_against_far(bends, system.momenta)):
+        raise NoLagrangian(
+            system.problem,
+            "the determinant of its second derivatives in the momenta takes both signs, so "
+            "the velocities do not determine the momenta",
+        )
     if inversion.inverted is None:
-        bends = bending(hessian, system.momenta)
-        if bends is not None and -1 in map(sign, at_rest_against_far(bends, system.momenta)):
-            raise NoLagrangian(
-                system.problem,
-                "the determinant of its second derivatives in the momenta takes both signs, so "
-                "the velocities do not determine the momenta",
-            )
         raise NoLagrangian(
             system.problem, "q' = dH/dp could not be solved for the momenta in closed form"
         )

@@ -127,7 +127,7 @@ def steep_hamiltonians(rng: Random) -> System:
             "exp(p_x) + exp(p_y - p_x)",
             "exp(p_x + p_y) + p_x^2/(2*m)",
             "p_x^2/(2*m) + sqrt(1 + p_y^2)",
-            "(p_x^2 + p_y^2)/(2*m) + p_x^3/3",
+            "(p_x^2 + p_y^2)/(2*m) + abs(p_x)^3/3",
             "x^2*p_x^2/(2*m) + exp(p_y)",
         ]
     )
