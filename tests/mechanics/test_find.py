@@ -39,6 +39,15 @@ def test_mirror_images_are_listed_once_and_the_note_says_so():
     assert "mirror images" in note
 
 
+@pytest.mark.parametrize(("assume", "departures"), [(", assume: nonnegative", 1), ("", 2)])
+def test_an_angle_of_one_sign_has_one_departure_from_rest(assume, departures):
+    given = BARRELS.replace("theta: {unit: rad", f"theta: {{unit: rad{assume}")
+    note = answers(given)["asked"].note
+    assert ("both departures" in note) is (departures == 2)
+    assert ("mirror images" in note) is (departures == 2)
+    assert roots(given) == formulas("acos(4/7)")
+
+
 def test_the_normal_force_between_barrels():
     assert value(BARRELS, "tension") == formula("m*g*(7*cos(theta) - 4)/3")
 

@@ -320,6 +320,19 @@ def test_henon_and_heiles_at_a_general_value_is_not_decided():
     assert "which does not decide it." in said(text, ALGEBRA, "algebra")
 
 
+@pytest.mark.parametrize(("factor", "at"), [("q*B", "B = … or q = …"), ("B", "B = …")])
+def test_special_values_with_the_same_symmetries_are_named_together(factor, at):
+    """Of a charge without field, and of a field without charge, a free particle is left."""
+    names = ", ".join(f"{name}: {{}}" for name in {"q", "B"} if name in factor)
+    text = (
+        f"coordinates: [x, y, z]\nparameters: {{m: {{assume: positive}}, {names}}}\n"
+        f"L: m*(x'^2 + y'^2 + z'^2)/2 + {factor}*x*y'"
+    )
+    told = said(text, ALGEBRA, "algebra")
+    assert told.count("the same search finds") == 1
+    assert f"For {at} the same search finds" in told
+
+
 @pytest.mark.long
 def test_special_values_are_symmetric_in_three_frequencies():
     text = (

@@ -20,7 +20,13 @@ from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, says
-from lagcli.statements.answers import AlgebraSection, Charge, ChargesSection, Section
+from lagcli.statements.answers import (
+    AlgebraSection,
+    Charge,
+    ChargesSection,
+    Section,
+    SpecialValue,
+)
 from lagcli.statements.wording import PRESCRIBED, conditions, values_of, where_real
 
 #: A table of brackets of more charges than these is not read.
@@ -160,12 +166,16 @@ def _at_special_values(explainer: Explainer, found: AlgebraSection) -> Iterator[
     if found.special:
         lead = "More symmetries" if found.number else "Symmetries"
         yield Heading(f"{lead} for special values of the parameters", 2)
+    alike: dict[object, list[SpecialValue]] = {}
     for case in found.special:
+        alike.setdefault((case.number, tuple(case.charges.items()), case.where), []).append(case)
+    for case, *others in alike.values():
         one = len(case.charges) == 1
         many = f"{case.number} {'symmetry' if case.number == 1 else 'symmetries'}"
         new = "this is no linear combination" if one else "these are no linear combinations"
         beside = f", of which {new} of those above" if found.number else ""
-        yield says("For ", *values_of(case), f" the same search finds {many}{beside}:")
+        at = [*values_of(case), *(part for each in others for part in (" or ", *values_of(each)))]
+        yield says("For ", *at, f" the same search finds {many}{beside}:")
         yield equations_of((Name(name), value) for name, value in case.charges.items())
         yield from where_real(case.where, several=not one)
 

@@ -117,8 +117,11 @@ class WhereSearch:
     def _departing(self, roots: list[Expr], equation: Expr, square: Expr) -> list[Expr]:
         """From rest at an equilibrium: mirror images are listed once."""
         u = self.unknown
-        self.notes.append("the initial state is an equilibrium: both departures from it count")
-        if is_zero(self.along.initially(u)) is not True:
+        at_zero = is_zero(self.along.initially(u)) is True
+        one_side = at_zero and bool(u.is_nonnegative or u.is_nonpositive)
+        counted = "the departure from it counts" if one_side else "both departures from it count"
+        self.notes.append(f"the initial state is an equilibrium: {counted}")
+        if one_side or not at_zero:
             return roots
         mirrored = {u: -u}
         even = is_zero(square - square.xreplace(mirrored)) is True and any(
