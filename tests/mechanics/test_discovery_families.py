@@ -430,3 +430,17 @@ def test_two_terms_may_have_to_be_absent_together(coordinates):
         ("c", 0),
     }
     assert case.number > len(derivation.discovery.charges)
+
+
+@pytest.mark.parametrize("sign", "+-")
+def test_powers_in_the_inertia_are_dilated_and_turn_where_they_are_equal(sign):
+    """Kasner's metrics: homothetic for all exponents, with a rotation for two equal ones.
+
+    Stephani, Kramer, MacCallum, Hoenselaers, Herlt, *Exact Solutions*, 2nd ed., section 13.3.2.
+    """
+    given = f"coordinates: {{u: {POS}, x: {{}}, y: {{}}}}\nparameters: {{p: {{}}, q: {{}}}}\n"
+    derivation = derive(f"{given}L: ({sign}u'^2 + u^(2*p)*x'^2 + u^(2*q)*y'^2)/2\n")
+    assert [c.name for c in derivation.discovery.charges] == ["energy", "p_x", "p_y", "dilation"]
+    cases = {(str(c.parameter), str(c.value)): c.charges for c in derivation.special_cases}
+    assert set(cases) == {("p", "0"), ("q", "0"), ("q", "p")}
+    assert [c.name for c in cases["q", "p"]] == ["L_z"]

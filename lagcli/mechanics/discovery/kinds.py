@@ -148,14 +148,15 @@ def _has_twin(x: Symbol, equations: SlotEquations, L: Expr) -> bool:
 def _is_of_no_circle(inertia: Expr, q: Sequence[Symbol]) -> bool:
     """Whether it is no square of a radius: where a circle shrinks to a point it falls as r^2.
 
-    1 + x^2 vanishes nowhere.
+    1 + x^2 vanishes nowhere, and r^(2 p) falls so for p = 1 alone.
     """
     above, below = sympy.fraction(sympy.together(inertia))
     if not free_of(below, q) or any(not free_of(e, q) for e in inertia.atoms(sympy.exp)):
         return True
     inside = [x for x in q if x in above.free_symbols]
     if not above.is_polynomial(*inside):
-        return False
+        base, exponent = above.as_independent(*q, as_Add=False)[1].as_base_exp()
+        return base in q and exponent != 2
     if len(inside) == 1 and bool(sympy.discriminant(above, *inside).is_negative):
         return True
     return all(sympy.degree(above, x) != 2 for x in inside)

@@ -144,14 +144,27 @@ def exchanged(dynamics: Dynamics) -> list[Value]:
     return [(b, a) for b, a in found if _admissible(b, a)]
 
 
-def linear_powers(equations: SlotEquations) -> list[Expr]:
-    """What vanishes where a power of coordinates in the forcing is constant, or of degree one.
+def special_powers(equations: SlotEquations) -> list[Expr]:
+    """What vanishes where powers of coordinates are what others are not.
 
-    Then the equation may be linear, with functions of time that no other exponent suggests.
+    One in the forcing is constant or of degree one, so that the equation may be linear; one in the
+    inertia is a square, so that it may be that of a circle, or two are equal, and may turn into
+    each other (Kasner's metrics).
     """
-    powers = {p for f in equations.forcing for p in f.atoms(sympy.Pow)}
-    open_ = {p.exp for p in powers if p.exp.free_symbols and not free_of(p.base, equations.q)}
-    return [e - k for e in sorted(open_, key=sympy.default_sort_key) for k in (0, 1)]
+    q, inertia = equations.q, [m for row in equations.mass for m in row]
+    squares = _open_exponents(inertia, q)
+    return [
+        *(e - k for e in _open_exponents(equations.forcing, q) for k in (0, 1)),
+        *(e - 2 for e in squares),
+        *(e - f for e, f in combinations(squares, 2)),
+    ]
+
+
+def _open_exponents(formulas: Sequence[Expr], q: Sequence[Symbol]) -> list[Expr]:
+    """Those with parameters, of powers of coordinates."""
+    powers = {p for f in formulas for p in f.atoms(sympy.Pow)}
+    found = {p.exp for p in powers if p.exp.free_symbols and not free_of(p.base, q)}
+    return sorted(found, key=sympy.default_sort_key)
 
 
 def damped_powers(

@@ -30,9 +30,9 @@ from lagcli.mechanics.discovery.special import (
     candidates,
     damped_powers,
     exchanged,
-    linear_powers,
     new_charges,
     problem_at,
+    special_powers,
 )
 from lagcli.mechanics.discovery.spectrum import Exponent
 from lagcli.mechanics.noether import NoetherCharge
@@ -70,7 +70,7 @@ def special_cases(
         else:
             lower, pairs = _factors(searched, allowed)
             together = both_vanish(pairs, lower, system.parameters)
-            factors = lower + linear_powers(searched.equations)
+            factors = lower + special_powers(searched.equations)
             linear = searched.accelerations or (), searched.time_functions.exponents, system.q
             factors += damped_powers(*linear)
             if len(system.q) == 1 or searched.time_functions.exponents:
