@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
-from itertools import chain, islice
+from itertools import chain, combinations, islice
 
 from lagcli.diagnostics import Diagnostic, Severity, Span
 from lagcli.dimensions.demands import LAGRANGIAN
@@ -13,6 +13,7 @@ from lagcli.dimensions.inference import Inference, gives_units, quantities
 from lagcli.dimensions.kinds import kind
 from lagcli.dimensions.system import Incoherent, dimension_of
 from lagcli.dimensions.terms import Group, Reader, Term, representative
+from lagcli.dimensions.usual import is_usual
 from lagcli.expression import Expression, Name, Negative, walk
 from lagcli.problem_data import JACOBI_FUNCTION, Problem, Quantity
 from lagcli.record import replace
@@ -23,6 +24,8 @@ _ENERGIES: tuple[Form, ...] = (ENERGY, {"m": Fraction(2), "s": Fraction(-2)}, {"
 #: A term longer than this is quoted by its beginning.
 _QUOTED = 40
 _NAMES_IN_HINT = 5
+#: Wrong units that are looked for at once, and the sets of them that are tried.
+_MOST_UNITS, _MOST_SETS = 3, 60
 
 
 def check_dimensions(problem: Problem, limit: int) -> list[Diagnostic]:
@@ -44,8 +47,10 @@ def energies_in(problem: Problem) -> int:
     return [inference.form(term.form) for term in terms].count(ENERGY)
 
 
-def one_wrong_unit(problem: Problem, first: Diagnostic) -> Diagnostic | None:
-    """The only unit without which every term fits, with the one that then follows for it.
+def wrong_units(problem: Problem, first: Diagnostic) -> list[Diagnostic]:
+    """The fewest units without which every term fits, with those that then follow for them.
+
+    A unit that is the usual one of its letter, as m/s^2 of g, is not a wrong one.
 
     Parameters
     ----------
@@ -53,30 +58,47 @@ def one_wrong_unit(problem: Problem, first: Diagnostic) -> Diagnostic | None:
         A problem with terms that do not fit.
     first
         The first of its mistakes.
+
+    Returns
+    -------
+    list of Diagnostic
+        One for each unit; empty where none explain the mistakes, or several sets do.
     """
-    found = []
-    for place, quantity in enumerate(quantities(problem)):
-        if quantity.unit is None:
-            continue
-        number = len(problem.coordinates)
-        bare = replace(quantity, unit=None)
-        if place < number:
-            kept = (*problem.coordinates[:place], bare, *problem.coordinates[place + 1 :])
-            changed = replace(problem, coordinates=kept)
-        else:
-            rest = problem.parameters
-            kept = (*rest[: place - number], bare, *rest[place - number + 1 :])
-            changed = replace(problem, parameters=kept)
-        inference = Inference(changed)
-        checker = _Checker(inference)
-        if any(chain(checker.incoherent(), checker.odd_terms(), checker.no_energy())):
-            continue
-        unit = inference.unit(inference.demands.names[quantity.name])
-        if unit is not None:
-            found.append((quantity, unit))
-    if len(found) != 1:
+    suspected = [q for q in quantities(problem) if q.unit and not is_usual(q.name, q.unit)]
+    for size in range(1, _MOST_UNITS + 1):
+        sets = islice(combinations(suspected, size), _MOST_SETS)
+        found = [units for chosen in sets if (units := _units_that_fit(problem, chosen))]
+        better = [each for each in found if all(is_usual(q.name, unit) for q, unit in each)]
+        best = better or found
+        if best:
+            return [_wrong_unit(*each, first) for each in best[0]] if len(best) == 1 else []
+    return []
+
+
+def _units_that_fit(
+    problem: Problem, chosen: Sequence[Quantity]
+) -> list[tuple[Quantity, str]] | None:
+    """The units that follow for some quantities with which every term fits; None without them."""
+    names = {each.name for each in chosen}
+    changed = replace(
+        problem,
+        coordinates=tuple(
+            replace(q, unit=None) if q.name in names else q for q in problem.coordinates
+        ),
+        parameters=tuple(
+            replace(q, unit=None) if q.name in names else q for q in problem.parameters
+        ),
+    )
+    inference = Inference(changed)
+    checker = _Checker(inference)
+    if any(chain(checker.incoherent(), checker.odd_terms(), checker.no_energy())):
         return None
-    [(quantity, unit)] = found
+    units = [inference.unit(inference.demands.names[each.name]) for each in chosen]
+    pairs = [(one, str(unit)) for one, unit in zip(chosen, units, strict=True) if unit is not None]
+    return pairs if len(pairs) == len(chosen) else None
+
+
+def _wrong_unit(quantity: Quantity, unit: str, first: Diagnostic) -> Diagnostic:
     message = f"the unit of '{quantity.name}' does not fit the terms of the file"
     related = ((first.span, first.message),)
     return Diagnostic(message, quantity.unit_span, f"write {unit}", related=related)

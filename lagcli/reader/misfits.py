@@ -34,7 +34,7 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
     """
     if all(quantity.unit is None for quantity in (*problem.coordinates, *problem.parameters)):
         return []
-    from lagcli.dimensions.check import check_dimensions, energies_in, one_wrong_unit
+    from lagcli.dimensions.check import check_dimensions, energies_in, wrong_units
 
     found = check_dimensions(problem, MISTAKES)
     if read is None or not any(each.is_error for each in found):
@@ -60,7 +60,10 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
         return few[0] if len(few) == 1 else None
 
     place = only(_other_primes(problem, text, found), [])
-    unit = one_wrong_unit(problem, found[0])
+    units = wrong_units(problem, found[0])
+    if units[1:] and place is None:
+        return units
+    unit = units[0] if units else None
     if not found[1:]:
         if place is not None:
             return [_with_term(found[0], place, text)]
@@ -105,21 +108,29 @@ def _prime_elsewhere(first: Diagnostic, place: _Place, text: SourceText) -> Diag
 def _with_term(
     mistake: Diagnostic, place: _Place | None, text: SourceText, unit: Diagnostic | None = None
 ) -> Diagnostic:
-    """The mistake with its term or the unit as they fit in the hint."""
+    """The mistake with its term, or with the unit, as it fits.
+
+    A unit that the quantity has in most books comes before another term, any other one after.
+    """
     begin, stop = text.offsets(mistake.span)
     written = text.source.text
-    fitting = []
+    fitting = ""
     if place is not None and begin <= place[0] <= place[1] <= stop:
-        fitting.append(written[begin : place[0]] + place[2] + written[place[1] : stop])
-    if unit is not None:
+        fitting = written[begin : place[0]] + place[2] + written[place[1] : stop]
+    if unit is not None and (not fitting or _is_usual(unit)):
         given = written[slice(*text.offsets(unit.span))]
         quantity = unit.message.split("'")[1]
         better = unit.hint.removeprefix("write ")
         is_torque = better == "J" and "must be a torque" in mistake.message
-        fitting.append(f"{'N m' if is_torque else better} for the unit {given} of {quantity}")
-    if not fitting:
-        return mistake
-    return replace(mistake, hint=f"write {', or '.join(fitting)}: {mistake.hint}")
+        fitting = f"{'N m' if is_torque else better} for the unit {given} of {quantity}"
+    return replace(mistake, hint=f"write {fitting}: {mistake.hint}") if fitting else mistake
+
+
+def _is_usual(unit: Diagnostic) -> bool:
+    """Whether the unit in a hint is the usual one of its quantity, as m/s^2 of g."""
+    from lagcli.dimensions.usual import is_usual
+
+    return is_usual(unit.message.split("'")[1], unit.hint.removeprefix("write "))
 
 
 def _other_primes(problem: Problem, text: SourceText, mistakes: list[Diagnostic]) -> list[_Place]:

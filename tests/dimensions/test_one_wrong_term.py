@@ -19,14 +19,14 @@ def errors(written):
 
 @pytest.mark.parametrize(
     ("unit", "kinetic", "potential", "wrong", "hint"),
-    [("N", "m*x'^2/2", "k*x^2/2", "'k*x^2/2'", "write k*x/2, or N/m for the unit N of k: "),
+    [("N", "m*x'^2/2", "k*x^2/2", "'k*x^2/2'", "write N/m for the unit N of k: "),
      ("kg", "m*x'^2/2", "k*x^2/2 - m*g*x", "'k*x^2/2'", "write N/m for the unit kg of k: "),
-     ("N/m", "m*x'^2/2", "k*x/2 - m*g*x", "'k*x/2'", "write k*x^2/2, or N for the unit N/m of k: "),
+     ("N/m", "m*x'^2/2", "k*x/2 - m*g*x", "'k*x/2'", "write k*x^2/2: "),
      ("N/m", "m*x'/2", "k*x^2/2 - m*g*x", "'m*x'/2'", "write m*x'^2/2: "),
      ("N/m", "x'^2/2", "k*x^2/2 - m*g*x", "'x'^2/2'", "write m*x'^2/2: "),
      ("N/m", "m*x'^2/2", "k*x^2/2 - m*x", "'m*x'", "write g*m*x: "),
      ("N/m", "m*x^2/2", "k*x^2/2", "'m*x^2/2'", "write m*x'^2/2: "),
-     ("N/m", "m*x'^2/2", "k*x^2/2 - g*x", "'g*x'", "write m*g*x, or N for the unit m/s^2 of g: ")],
+     ("N/m", "m*x'^2/2", "k*x^2/2 - g*x", "'g*x'", "write m*g*x: ")],
 )  # fmt: skip
 def test_a_coordinate_without_a_unit_is_a_length(unit, kinetic, potential, wrong, hint):
     [only] = errors(SPRING.format(unit, kinetic, potential))
@@ -93,3 +93,24 @@ def test_no_factor_is_guessed_where_a_unit_may_be_wrong_as_well():
         " k: {unit: N/m}}\nT: I*phi'^2/2\nV: -m*g*s*cos(phi) + k*phi^2/2\n"
     )
     assert not [each.hint for each in errors(written) if "write" in each.hint]
+
+
+WRONG_UNITS = [
+    ("m*x'^2/2", "k*x^2/2 + m*g*x", {"m": "kg", "k": "N", "g": "m/s"}),
+    ("m*x'^2/2", "k*x^2/2 + m*g*x", {"m": "N", "k": "N", "g": "m/s^2"}),
+    ("m*l^2*theta'^2/2", "-m*g*l*cos(theta)", {"m": "kg", "l": "s", "g": "N"}),
+    ("m*l^2*theta'^2/2", "-m*g*l*cos(theta)", {"m": "N", "l": "m^2", "g": "m/s^2"}),
+]
+USUAL = {"m": "kg", "k": "N/m", "g": "m/s^2", "l": "m"}
+
+
+@pytest.mark.parametrize(("kinetic", "potential", "units"), WRONG_UNITS)
+def test_each_of_several_wrong_units_is_named(kinetic, potential, units):
+    coordinate = "theta: {unit: rad}" if "theta" in kinetic else "x: {unit: m}"
+    given = ", ".join(f"{name}: {{unit: {unit}}}" for name, unit in units.items())
+    found = errors(
+        f"coordinates: {{{coordinate}}}\nparameters: {{{given}}}\nT: {kinetic}\nV: {potential}\n"
+    )
+    wrong = {name: USUAL[name] for name, unit in units.items() if USUAL[name] != unit}
+    named = {each.message.split("'")[1]: each.hint.removeprefix("write ") for each in found}
+    assert named == wrong
