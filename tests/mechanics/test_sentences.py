@@ -323,7 +323,7 @@ def test_henon_and_heiles_at_a_general_value_is_not_decided():
 @pytest.mark.parametrize(("factor", "at"), [("q*B", "B = … or q = …"), ("B", "B = …")])
 def test_special_values_with_the_same_symmetries_are_named_together(factor, at):
     """Of a charge without field, and of a field without charge, a free particle is left."""
-    names = ", ".join(f"{name}: {{}}" for name in {"q", "B"} if name in factor)
+    names = ", ".join(f"{name}: {{}}" for name in ("q", "B") if name in factor)
     text = (
         f"coordinates: [x, y, z]\nparameters: {{m: {{assume: positive}}, {names}}}\n"
         f"L: m*(x'^2 + y'^2 + z'^2)/2 + {factor}*x*y'"

@@ -557,6 +557,28 @@ def test_rest_is_not_denied_for_each_function_of_time(force):
     assert "in general there is no equilibrium" in said(text, "Equilibria", "equilibria")
 
 
+@pytest.mark.parametrize(
+    ("constraint", "exceptions"),
+    [
+        ("x = z*tan(a)", []),
+        ("x*cos(a) = z*sin(a)", ["cos(a)"]),
+        ("z = x/tan(a)", ["cos(a)"]),
+        ("z = x*tan(a)", ["sin(a)"]),
+    ],
+)
+def test_an_exception_needs_a_value_of_the_parameter_that_the_file_allows(constraint, exceptions):
+    """On a line at the angle a to the vertical a weight rests for cos(a) = 0: tan(a) is infinite."""
+    text = (
+        "{coordinates: [x, z], parameters: {m: {assume: positive}, g: {assume: positive}, a: {}}, "
+        f'T: "m*(x\'^2 + z\'^2)/2", V: m*g*z, constraints: {{line: "{constraint}"}}}}'
+    )
+    found = state(derive(text), Request(sections=("equilibria", "steady_motions")))
+    for name in ("equilibria", "steady_motions"):
+        assert list(map(to_grammar, found.sections[name].unless)) == exceptions
+    several = "there is no equilibrium" + (" unless" if exceptions else ".")
+    assert several in said(text, "Equilibria", "equilibria")
+
+
 @pytest.mark.parametrize(("g", "verdict"), [("{}", None), ("{assume: positive}", True)])
 def test_rest_of_a_mass_that_grows_with_time(g, verdict):
     """m e^(g t) (x'' + g x' + w^2 x) = 0: damped for g > 0, growing for g < 0 (Caldirola, Kanai)."""

@@ -32,9 +32,9 @@ from lagcli.mechanics.rest.equilibria import (
     RestPoints,
     not_specified,
 )
-from lagcli.mechanics.rest.exceptions import without_unknowns
+from lagcli.mechanics.rest.exceptions import with_a_value, without_unknowns
 from lagcli.mechanics.rest.held import held
-from lagcli.mechanics.rest.rest_conditions import RestPoint
+from lagcli.mechanics.rest.rest_conditions import RestPoint, given_formulas
 from lagcli.mechanics.rest.singular import singular
 
 _UNSOLVED = "no closed solution of the conditions of a steady motion was found"
@@ -142,9 +142,10 @@ class SteadyMotions:
     @property
     def unless(self) -> tuple[Expr, ...] | None:
         """What only values of the parameters make 0, so that there may be a steady motion."""
-        return without_unknowns(
+        found = without_unknowns(
             (*self.balance, *self.rest.sums), (*self.system.q, *self.routh.momenta)
         )
+        return with_a_value(found, given_formulas(self.routh.given.dynamics))
 
     @property
     def acting(self) -> tuple[str, ...]:

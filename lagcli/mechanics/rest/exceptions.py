@@ -38,6 +38,27 @@ def without_unknowns(
     return _at_zero(conditions, unknowns) if decided == () else decided
 
 
+def with_a_value(
+    vanishing: tuple[Expr, ...] | None, given: Sequence[Expr]
+) -> tuple[Expr, ...] | None:
+    """Without those whose roots the given expressions exclude: cos(a) beside tan(a)."""
+    if vanishing is None:
+        return None
+    return tuple(e for e in vanishing if not _has_no_value(e, given))
+
+
+def _has_no_value(vanishing: Expr, given: Sequence[Expr]) -> bool:
+    """Whether any of them has no value at each root of one parameter."""
+    if len(vanishing.free_symbols) != 1:
+        return False
+    [p] = vanishing.free_symbols
+    at = [f for f in given if p in f.free_symbols]
+    solved = solve_system([vanishing], [p]) if at else SolvedSystem()
+    return bool(solved.solutions and solved.complete) and all(
+        any(f.xreplace(dict(each.values)).has(*NO_VALUE) for f in at) for each in solved.solutions
+    )
+
+
 def _decided_by_parameters(
     conditions: Sequence[Expr], unknowns: Sequence[Symbol]
 ) -> tuple[Expr, ...] | None:

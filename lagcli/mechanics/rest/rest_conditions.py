@@ -30,7 +30,7 @@ from lagcli.algebra.place import NO_VALUE, at, nearly_vanishes, vanishes, where_
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.rest.exceptions import without_unknowns
+from lagcli.mechanics.rest.exceptions import with_a_value, without_unknowns
 from lagcli.mechanics.translations import constant_nullspace
 from lagcli.record import record
 
@@ -56,6 +56,12 @@ class RestPoint:
     def depends_on_time(self, t: Symbol) -> bool:
         """Whether it is there while a condition with the time holds: an open contact moves."""
         return any(x.has(t) for x in self.positive)
+
+
+def given_formulas(dynamics: Dynamics) -> tuple[Expr, ...]:
+    """What the motion follows from: L, the constraints and the forces that are not in L."""
+    constraints = (e.f for e in dynamics.constraints.equations)
+    return (dynamics.system.L, *constraints, *dynamics.system.applied_forces)
 
 
 class RestConditions:
@@ -257,7 +263,8 @@ class RestConditions:
         None where special values were not excluded.
         """
         timed = [self.system.t] if self.depends_on_time else []
-        return without_unknowns((*self.at_all_times, *self.sums), (*self.system.q, *timed))
+        found = without_unknowns((*self.at_all_times, *self.sums), (*self.system.q, *timed))
+        return with_a_value(found, given_formulas(self.dynamics))
 
     @property
     def edge(self) -> tuple[str, ...]:
