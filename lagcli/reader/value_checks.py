@@ -26,6 +26,7 @@ from lagcli.expression import (
 )
 from lagcli.reader.constants import rational_value
 from lagcli.reader.foreign.words import Vocabulary, rate_meant
+from lagcli.reader.friction_slips import friction_slips
 from lagcli.reader.misshapen import as_rayleigh
 from lagcli.reader.names import derivative_order
 from lagcli.reader.text import SourceText
@@ -59,6 +60,9 @@ def slips(problem: Problem) -> list[Diagnostic]:
     if lost is not None and _sign(lost, problem, known) == -1:
         hint = f"it drives the motion; {_FRICTION}"
         found.append(_warning("the dissipation is negative", lost.span, hint))
+    signs = {p.name: -1 if p.assume == "negative" else 1 for p in problem.parameters}
+    signs |= {name: (value > 0) - (value < 0) for name, value in known.items()}
+    found += friction_slips(problem.forces, tuple(x.name for x in problem.coordinates), signs)
     energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
     roots = (n for formula in energies if formula is not None for n in walk(formula))
     for node in roots:

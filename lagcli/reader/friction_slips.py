@@ -1,0 +1,121 @@
+"""Warnings of forces that look like friction and are none: of the wrong sign, or along another x.
+
+Friction along x has the sign of -x' and takes power, x' F < 0.  A force along x that depends on y'
+does so in magnetic fields and rotating frames, with the opposite sign along y.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from lagcli.diagnostics import Diagnostic
+from lagcli.expression import (
+    Call,
+    Expression,
+    Name,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    folded,
+    walk,
+)
+
+
+def friction_slips(
+    forces: Mapping[str, Expression], coordinates: tuple[str, ...], signs: Mapping[str, int]
+) -> Iterator[Diagnostic]:
+    """A warning for each force that drives where friction would brake, or brakes another motion.
+
+    Parameters
+    ----------
+    forces
+        By coordinate.
+    coordinates
+        Their names.
+    signs
+        Of the parameters: 1, 0 or -1.
+    """
+    laws = {x: [*_laws(force, coordinates, signs)] for x, force in forces.items()}
+    for x, found in laws.items():
+        own = [law for law in found if law.along == x]
+        is_alone = len(own) == 1 and _rates(forces[x]) == {x}
+        for law in own if is_alone else ():
+            if law.sign > 0:
+                message = f"this force along {x} drives the motion: it has the sign of {x}'"
+                yield _warning(message, law.term, f"friction is opposite to it, as in -c*{x}'")
+        others = [law for law in found if law.along != x]
+        for law in others if not own and len(others) == 1 and _rates(forces[x]) != {x} else ():
+            back = [each for each in laws.get(law.along, ()) if each.along == x]
+            is_swapped = bool(back) and back[0].sign == law.sign == -1
+            if is_swapped or (law.is_dry and not back):
+                message = f"this force along {x} is against the velocity {law.along}'"
+                hint = f"friction along {x} depends on {x}'"
+                yield _warning(message, law.term, hint)
+
+
+class _Law(NamedTuple):
+    """A term that is odd in one velocity, times constants."""
+
+    term: Expression
+    along: str  #: the coordinate with that velocity
+    sign: int  #: of the term where the velocity is positive
+    is_dry: bool  #: with sign(x')
+
+
+def _laws(
+    force: Expression, coordinates: tuple[str, ...], signs: Mapping[str, int]
+) -> Iterator[_Law]:
+    terms = force.terms if isinstance(force, Sum) else (force,)
+    for term in terms:
+        names = [node for node in walk(term) if isinstance(node, Name)]
+        rates = {each.name for each in names if each.primes}
+        known = all(each.name in signs for each in names if not each.primes)
+        if len(rates) != 1 or not known or not rates <= {*coordinates}:
+            continue
+        [along] = rates
+        forward, backward = _sign(term, signs, 1), _sign(term, signs, -1)
+        if forward and forward == -backward:
+            dry = any(isinstance(node, Call) and node.function == "sign" for node in walk(term))
+            yield _Law(term, along, forward, dry)
+
+
+def _sign(term: Expression, signs: Mapping[str, int], velocity: int) -> int:
+    """The sign of a term where all velocities have this one; 0 where that is not plain to see."""
+
+    def sign(node: Expression, parts: list[int]) -> int:
+        match node:
+            case Number(value=value):
+                return (value > 0) - (value < 0)
+            case Name(name=name, primes=primes):
+                return velocity if primes else signs.get(name, 0)
+            case Negative():
+                return -parts[0]
+            case Sum():
+                return parts[0] if len(set(parts)) == 1 else 0
+            case Product() | Quotient():
+                return math.prod(parts)
+            case Power(exponent=Number(value=power)) if power.denominator == 1:
+                return int(parts[0] ** abs(power))
+            case Call(function=function) if function in {"sign", "tanh", "atan"}:
+                return parts[0]
+            case Call(function="abs"):
+                return abs(parts[0])
+            case Call(function="cos" | "sin" | "tan"):
+                return 1 if parts[0] == 1 else 0  # of an angle of a slope
+            case _:
+                return 0
+
+    return folded(term, sign)
+
+
+def _rates(force: Expression) -> set[str]:
+    return {node.name for node in walk(force) if isinstance(node, Name) and node.primes}
+
+
+def _warning(message: str, term: Expression, hint: str) -> Diagnostic:
+    return Diagnostic(message, term.span, hint, severity="warning")

@@ -1,0 +1,39 @@
+"""A force that drives, or that brakes another motion, is warned of; laws of books are not."""
+
+import pytest
+
+from lagcli.reader import read_problem
+
+FILE = (
+    "coordinates: [x, y]\nparameters: {{m: 1, c: 0.1, mu: 0.2, q: 1, B: 2, k: 1}}\n"
+    "T: m*(x'^2 + y'^2)/2\nforces: {{x: {}, y: {}}}\n"
+)
+
+
+def warned(along_x, along_y):
+    found = read_problem("p.yaml", FILE.format(along_x, along_y).encode()).diagnostics
+    assert not any(each.is_error for each in found)
+    return [each.message for each in found]
+
+
+@pytest.mark.parametrize(
+    ("along_x", "along_y"),
+    [("-c*x'", "-c*y'"), ("-mu*sign(x')", "-c*abs(y')*y'"), ("q*B*y'", "-q*B*x'"),
+     ("-c*(x' - y')", "c*(x' - y')"), ("mu*(1 - x^2)*x'", "0"), ("mu*x' - c*x'^3", "0"),
+     ("-k*y'", "0"), ("c*x'^2", "0"), ("-2*m*B*y'", "2*m*B*x'")],
+)  # fmt: skip
+def test_a_law_of_a_book_is_accepted(along_x, along_y):
+    assert warned(along_x, along_y) == []
+
+
+@pytest.mark.parametrize("law", ["c*x'", "mu*m*sign(x')", "c*abs(x')*x'", "k*x + c*x'^3"])
+def test_a_force_that_has_the_sign_of_its_velocity_drives(law):
+    [only] = warned(law, "0")
+    assert only == "this force along x drives the motion: it has the sign of x'"
+
+
+@pytest.mark.parametrize(("along_x", "along_y"), [("-c*y'", "-c*x'"), ("-c*y'^3", "-mu*sign(x')")])
+def test_frictions_of_exchanged_velocities_are_each_named(along_x, along_y):
+    x, y = warned(along_x, along_y)
+    assert x == "this force along x is against the velocity y'"
+    assert y == "this force along y is against the velocity x'"
