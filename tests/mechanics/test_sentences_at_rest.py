@@ -1054,3 +1054,12 @@ def test_without_a_force_what_touches_a_wall_rests_beside_it_too(rest, beside, g
 def test_what_is_not_specified_is_named(lagrangian, functions, named):
     text = f'{{coordinates: [x], functions: {{{functions}}}, L: "{lagrangian}"}}'
     assert equilibria(derive(text).dynamics).reason.startswith(named)
+
+
+@pytest.mark.parametrize("V", ["U(sqrt(x^2 + y^2))", "x*W(0) + U(sqrt(x^2 + 2*y^2))"])
+def test_a_function_that_is_not_specified_is_named_before_its_kink(V):
+    functions = ", ".join(f"{name}: [d]" for name in "UW" if f"{name}(" in V)
+    text = f'{{coordinates: [x, y], functions: {{{functions}}}, T: "(x\'^2 + y\'^2)/2", V: "{V}"}}'
+    reason = equilibria(derive(text).dynamics).reason
+    assert reason.startswith("the function")
+    assert reason.endswith("not specified")

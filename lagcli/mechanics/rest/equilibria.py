@@ -139,9 +139,9 @@ class RestPoints(RestConditions):
             )
             found += evident
             if not found:
-                self.is_unsolved = not kinks
-                unsolved = not_specified(self.system, equations) or _NO_CLOSED_SOLUTION
-                self.reason = _AT_A_KINK if kinks else unsolved
+                unknown = not_specified(self.system, equations)
+                self.is_unsolved = bool(unknown) or not kinks
+                self.reason = unknown or (_AT_A_KINK if kinks else _NO_CLOSED_SOLUTION)
                 self.reason = _AT_AN_OPEN_POWER if self.at_open_powers else self.reason
                 self.reason = _AT_A_JUMP if self.at_jumps else self.reason
                 self.reason = TIMED if self.depends_on_time else self.reason
