@@ -38,6 +38,7 @@ _OF_LONG = 2  # ... no more than these equal forms are shaped
 _EQUAL = 3  # numerators that are shaped
 _GIVEN_ROOT = 4  # operations that a formula may have more with sqrt(1 - v²/c²) as it was put in
 _FLAT = 1.3  # times as long as nested fractions are a formula without any may be
+_SHORTER = 0.8  # times as long as before it must be otherwise
 _REMOVED = 1.5  # times as long a formula may be that has a value where the other is 0/0
 _MAX_SHAPED = 1500  # terms; beyond, a formula is written as it was found
 
@@ -91,7 +92,7 @@ def shaped(
     equal = dict.fromkeys(rooted, S.One)
     removed = found[0].as_numer_denom()[1].subs(equal) == 0
     removed = removed and by_roots.as_numer_denom()[1].subs(equal) != 0
-    most = _REMOVED * found[0].count_ops() if removed else found[0].count_ops() - 1
+    most = (_REMOVED if removed else _SHORTER) * found[0].count_ops()
     if by_roots.count_ops() > most:
         return found
     return by_roots, to_expression(by_roots, order)

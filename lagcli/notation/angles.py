@@ -12,6 +12,7 @@ from lagcli.expression import (
     ONE,
     Call,
     Expression,
+    Name,
     Negative,
     Number,
     Power,
@@ -75,7 +76,7 @@ def without_halved_sines(
     for place, factor in enumerate(above if number % 2 == 0 else ()):
         if isinstance(factor, Call) and factor.function == "sin":
             half = _half(factor.arguments[0])
-            if half is None or signed_key(factor.arguments[0])[1] in given:
+            if not isinstance(half, Name) or signed_key(factor.arguments[0])[1] in given:
                 continue
             waves = [Call(name, (half,)) for name in ("sin", "cos")]
             left = [Number(number / 2)] if number > 2 else []

@@ -394,8 +394,10 @@ class Manner:
         letters = (b for b in powers[0] if isinstance(b, Name) and self._ordering.is_parameter(b))
         least = ((base, min(each.get(base, 0) for each in powers)) for base in letters)
         shared = dict[Expression, int]((base, e) for base, e in least if e > 0)
-        # (g² cos θ − g/R) sin θ
-        fractions = any(not isinstance(f, Number) for _, _, below in terms for f in below)
+        # (g² cos θ − g/R) sin θ, (m x'²/2 + k x²/2) exp(c t), but m g a (1 − 3 cos θ/8)
+        fractions = all(below for _, _, below in terms) or any(
+            not isinstance(f, Number) for _, _, below in terms for f in below
+        )
         if not shared or fractions or self._signs.is_bracket(node):
             return None
         left = []
