@@ -61,10 +61,6 @@ def order_of_parameters(problem: Problem) -> list[str]:
     for name, made_of in constants.items():  # mu before m1 and m2, others after what they are of
         places = [k for k, other in enumerate(names) if other in made_of]
         names.insert(places[0] if name[0] in "mM" else places[-1] + 1, name)
-    weight = names.index("g") if "g" in names else 0
-    lead = [k for k, name in enumerate(names[:weight]) if name[0] in "mM"]
-    if lead:
-        names.insert(lead[-1] + 1, names.pop(weight))
     masses = {name for name in names if name[0] in "mM"}  # g (m1 x1 + m2 x2), but m1 g
     before: set[tuple[str, str]] = set()
     products = (p for node in given(problem) for p in walk(node) if isinstance(p, Product))
@@ -72,6 +68,11 @@ def order_of_parameters(problem: Problem) -> list[str]:
         letters = dict.fromkeys(name for name in row if name in names)
         pairs = (pair for pair in combinations(letters, 2) if pair[::-1] not in before)
         before.update((a, b) for a, b in pairs if not inner or a != "g" or b not in masses)
+    names = _behind_masses(names, masses, before)
+    weight = names.index("g") if "g" in names else 0
+    lead = [k for k, name in enumerate(names[:weight]) if name in masses]
+    if lead:
+        names.insert(lead[-1] + 1, names.pop(weight))
     before |= {(a, c) for c, made_of in constants.items() for a, b in before
                if b in made_of and a not in made_of and (c, a) not in before}  # fmt: skip
     ordered: dict[str, None] = {}
@@ -90,6 +91,16 @@ def order_of_parameters(problem: Problem) -> list[str]:
     return list(ordered)
 
 
+def _behind_masses(names: list[str], masses: set[str], before: set[tuple[str, str]]) -> list[str]:
+    """The names with those that follow one mass in a product behind all masses: m g R with M R²."""
+    ahead = {a for a, b in before if b in masses} | masses | {"g"}
+    follow = {b for a, b in before if a in masses} - ahead
+    last = max((k for k, name in enumerate(names) if name in masses), default=-1)
+    early = [name for name in names[: last + 1] if name in follow]
+    kept = [name for name in names[: last + 1] if name not in follow]
+    return [*kept, *early, *names[last + 1 :]]
+
+
 def _letters(node: Expression) -> Iterator[str]:
     """The names among the factors of a product, from left to right."""
     return (base.name for base in bases(node) if isinstance(base, Name))
@@ -99,10 +110,17 @@ def _multiplied(node: Product) -> Iterator[list[str]]:
     """The names that it multiplies, also into a sum or its square: k, r and k, l of k (r − l)²."""
     yield [*_letters(node)]
     for factor in node.factors:
-        base = factor.base if isinstance(factor, Power) else factor
-        for term in base.terms if isinstance(base, Sum) else ():
+        for term in _terms_inside(factor):
             parts = (term if part is factor else part for part in node.factors)
             yield [name for part in parts for name in _letters(part)]
+
+
+def _terms_inside(factor: Expression) -> Iterator[Expression]:
+    """The terms of a sum, of its square, and of such squares in it."""
+    base = factor.base if isinstance(factor, Power) else factor
+    for term in base.terms if isinstance(base, Sum) else ():
+        inner = [*_terms_inside(term)] if isinstance(term, Power) else []
+        yield from inner or [term]
 
 
 def is_constant(problem: Problem, name: str) -> bool:
