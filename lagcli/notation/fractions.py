@@ -224,6 +224,8 @@ class Brackets:
         brackets = [f for f in above if isinstance(f, Sum)]
         if len(brackets) != 1 or any(self._degree(each) != 1 for each in brackets[0].terms):
             return [term]
+        if any(not isinstance(f, Number) for f in below):
+            return [term]  # p_v/J − (p_u − p_v)/(m l²)
         outside = _Monomial.product(minus, [f for f in above if f is not brackets[0]], below)
         parts = [_Monomial.of(each) for each in brackets[0].terms]
         single = not any(isinstance(base, Sum) for part in parts for base in part.powers)

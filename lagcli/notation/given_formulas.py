@@ -13,6 +13,7 @@ from lagcli.expression import (
     Number,
     Power,
     Product,
+    Quotient,
     Sum,
     walk,
 )
@@ -68,7 +69,7 @@ def order_of_parameters(problem: Problem) -> list[str]:
         letters = dict.fromkeys(name for name in row if name in names)
         pairs = (pair for pair in combinations(letters, 2) if pair[::-1] not in before)
         before.update((a, b) for a, b in pairs if not inner or a != "g" or b not in masses)
-    names = _behind_masses(names, masses, before)
+    names = _behind_masses(names, masses, before, _divisors(problem))
     weight = names.index("g") if "g" in names else 0
     lead = [k for k, name in enumerate(names[:weight]) if name in masses]
     if lead:
@@ -91,10 +92,26 @@ def order_of_parameters(problem: Problem) -> list[str]:
     return list(ordered)
 
 
-def _behind_masses(names: list[str], masses: set[str], before: set[tuple[str, str]]) -> list[str]:
-    """The names with those that follow one mass in a product behind all masses: m g R with M R²."""
+def _divisors(problem: Problem) -> set[str]:
+    """The names that formulas are divided by, R of I/R², and that stand above no other ones."""
+    below, above = set[str](), set[str]()
+    for node in given(problem):
+        for part in walk(node):
+            if isinstance(part, Quotient):
+                below.update(_letters(part.denominator))
+                above.update(_letters(part.numerator))
+    return below - above
+
+
+def _behind_masses(
+    names: list[str], masses: set[str], before: set[tuple[str, str]], divisors: set[str]
+) -> list[str]:
+    """The names with those that follow one mass in a product behind all masses: m g R with M R².
+
+    So does R of I/R².
+    """
     ahead = {a for a, b in before if b in masses} | masses | {"g"}
-    follow = {b for a, b in before if a in masses} - ahead
+    follow = ({b for a, b in before if a in masses} | divisors) - ahead
     last = max((k for k, name in enumerate(names) if name in masses), default=-1)
     early = [name for name in names[: last + 1] if name in follow]
     kept = [name for name in names[: last + 1] if name not in follow]
