@@ -224,9 +224,9 @@ class Ordering:
         if not is_letter(last) or not self.is_parameter(last):
             return terms
         for each in ([b for b in bases(t) if not isinstance(b, Number)] for t in others):
-            varies = any(map(self.is_coordinate, each)) and not any(map(self._is_fast, each))
-            led = self.is_parameter(each[0]) and self._first(last) < self._first(each[0])
-            if not varies or not led:
+            if not any(map(self.is_coordinate, each)) or any(map(self._is_fast, each)):
+                return terms
+            if not self.is_parameter(each[0]) or self._first(last) > self._first(each[0]):
                 return terms
         return [last, *others]
 
