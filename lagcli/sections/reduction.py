@@ -155,6 +155,10 @@ def _period(period: PeriodSeries, coordinate: str, potential: Formula) -> Iterat
     yield Equations((Row(Label("T"), period.period, note),))
     if period.where:
         yield Paragraph(("where ", *conditions(period.where), "."))
+    if period.by_energy is not None:
+        yield Equations((Row(Label("T"), period.by_energy, "at every amplitude"),))
+        if period.energies:
+            yield Paragraph(("where ", *conditions(period.energies), "."))
 
 
 def json(section: ReductionSection) -> Object:
@@ -184,7 +188,8 @@ def _one_freedom_json(motion: OneFreedom | None) -> Object | None:
 def _period_json(period: PeriodSeries) -> Object:
     place = fields_of(period, "at" if period.root_of is None else "root_of")
     amplitude = {"amplitude": period.amplitude or None}
-    return place | amplitude | fields_of(period, "order isochronous period where")
+    by_energy = fields_of(period, "by_energy energies") if period.by_energy is not None else {}
+    return place | amplitude | fields_of(period, "order isochronous period where") | by_energy
 
 
 _EXPECTED = with_constants(

@@ -61,6 +61,7 @@ class PeriodSeries:
     Where the motion is `isochronous`, it is the same at every amplitude: the arc, or its square
     where that is `squared`, is that of a harmonic oscillator.
     A minimum that is not solved for is where `root_of` vanishes, `at` is empty then.
+    `by_energy` is T as a function of the constant energy, where each of `energies` holds.
     """
 
     at: Mapping[str, Expression]
@@ -71,6 +72,8 @@ class PeriodSeries:
     squared: bool = False
     root_of: Expression | None = None
     where: tuple[Above, ...] = ()
+    by_energy: Expression | None = None
+    energies: tuple[Above, ...] = ()
 
 
 @record

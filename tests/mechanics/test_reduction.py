@@ -573,6 +573,58 @@ V: {V}
     assert all(each.squared == each.isochronous == alike for each in section.one_freedom.periods)
 
 
+#: V, T, energies, and where the well is for m = 1.3, k = 1, b = 0.8.
+BY_ENERGY = (
+    # Landau, Lifshitz, Mechanics, 3rd ed., section 11, problem 2 (b), (c); section 15 for the last
+    ("-k/cosh(b*x)^2", "pi*sqrt(2*m)/(b*sqrt(-E))", (-0.2, -0.7), (-9, 0, 9)),
+    ("k*tan(b*x)^2", "pi*sqrt(2*m)/(b*sqrt(E + k))", (0.3, 4), (-1.9, 0, 1.9)),
+    ("k*(1 - exp(-b*x))^2", "pi*sqrt(2*m)/(b*sqrt(k - E))", (0.2, 0.8), (-3, 0, 20)),
+    ("k/sin(b*x)^2", "pi*sqrt(2*m)/(b*sqrt(E))", (2, 5), (0.01, 1.9, 3.9)),
+    ("b/x^2 - k/x", "pi*k*sqrt(m/2)/(-E)^(3/2)", (-0.1, -0.2), (0.2, 1.6, 90)),
+)
+
+
+@pytest.mark.parametrize(("V", "expected", "energies", "well"), BY_ENERGY)
+def test_the_period_by_the_energy_is_the_integral(V, expected, energies, well):
+    section, _ = reduced(f"""
+coordinates: {{x: {"POSITIVE" if well[0] > 0 else "{}"}}}
+parameters: {{m: POSITIVE, k: POSITIVE, b: POSITIVE}}
+T: m*x'^2/2
+V: {V}
+""")
+    [period] = section.one_freedom.periods
+    known = {"m": 1.3, "k": 1, "b": 0.8}
+
+    def of(text, **more):
+        read = sympy.sympify(text.replace("^", "**"), locals={"E": Symbol("E")})
+        return float(read.subs({**known, **more}))
+
+    for E in energies:
+        given = of(to_grammar(period.by_energy), E=E)
+        assert given == pytest.approx(of(expected, E=E), rel=1e-12)
+        rise = sympy.lambdify("x", sympy.sympify(V.replace("^", "**")).subs(known) - E, "mpmath")
+        low, high = (
+            mpmath.findroot(rise, (well[1], end), solver="anderson") for end in (well[0], well[2])
+        )
+        half = (high - low) / 2
+
+        def pace(s, low=low, half=half, rise=rise):
+            below = abs(rise(low + half * (1 + mpmath.sin(s))))
+            return half * mpmath.cos(s) * mpmath.sqrt(2 * 1.3 / below)
+
+        angles = [mpmath.pi * (k + 0.5) / 200 - mpmath.pi / 2 for k in range(200)]
+        integral = sum(map(pace, angles)) * mpmath.pi / 200
+        assert given == pytest.approx(float(integral), rel=1e-6)
+
+
+@pytest.mark.parametrize("V", ["-k*cos(x)", "k*(x^2 + x^4)", "k*cosh(x)"])
+def test_no_function_of_the_energy_where_the_action_is_not_elementary(V):
+    section, _ = reduced(
+        f"coordinates: [x]\nparameters: {{m: POSITIVE, k: POSITIVE}}\nT: m*x'^2/2\nV: {V}\n"
+    )
+    assert all(each.by_energy is None for each in section.one_freedom.periods)
+
+
 @pytest.mark.parametrize(
     ("V", "turning", "energies"),
     [

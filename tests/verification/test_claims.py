@@ -561,6 +561,24 @@ def test_a_period_is_kept_where_letters_may_have_any_sign(wave: str) -> None:
     assert len(found.one_freedom.periods) == len(answers.sections["reduction"].one_freedom.periods)
 
 
+def test_a_period_by_the_energy_that_is_another_function_is_refuted() -> None:
+    text = (
+        "coordinates: [x]\nparameters: {m: {assume: positive}, k: {assume: positive}}\n"
+        "T: m*x'^2/2\nV: -k/cosh(x)^2\n"
+    )
+    problem = read_problem("wells", text.encode()).problem
+    answers = state(derive(problem), Request(sections=("reduction",)))
+    section = answers.sections["reduction"]
+    [period] = section.one_freedom.periods
+    assert period.by_energy is not None
+    assert verified(problem, answers).sections["reduction"].one_freedom is not None
+    small = replace(period, by_energy=parse_text("2*pi*sqrt(m/(2*k))"), energies=())
+    false = replace(section, one_freedom=replace(section.one_freedom, periods=(small,)))
+    found = verified(problem, replace(answers, sections={"reduction": false}))
+    assert found.sections["reduction"].one_freedom is None
+    assert any("not that function of the energy" in each for each in found.warnings)
+
+
 @pytest.mark.parametrize("squared", [False, True])
 @pytest.mark.parametrize("V", ["-k*cos(x - 1)", "k*((x - 1)^2 + (x - 1)^4)", "k*cosh(x - 1)"])
 def test_a_period_that_grows_is_not_kept_as_isochronous(V: str, squared: bool) -> None:

@@ -166,6 +166,11 @@ def _one_freedom(motion: OneFreedom, potential: Part) -> Iterator[Block]:
         yield says("It has no turning point.")
     for each in once(motion.periods):
         yield from _period(each, potential)
+        if each.by_energy is not None:
+            yield says("As a function of the energy it is, at every amplitude,")
+            yield shows(Label("T", ("period",)), each.by_energy)
+            if each.energies:
+                yield says("for ", *conditions(each.energies), ".")
 
 
 def _period(each: PeriodSeries, potential: Part) -> Iterator[Block]:

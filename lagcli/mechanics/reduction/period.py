@@ -22,9 +22,14 @@ obeys
 
     h' = 6 U'/(w^2 - D^2 U).
 
+Where W with W' = p = sqrt(2 M (E - U)) is elementary, the action J = 2 (W(q_2) - W(q_1)) between
+the turning points, where p = 0, comes from c arctan(X/p) alone, which is c pi/2 times the sign of X
+there.  Then T = dJ/dE, compared with the integral as well.
+
 References
 ----------
-Landau, Lifshitz, *Mechanics*, 3rd ed., section 11 (problem 1 for the pendulum) and 28.
+Landau, Lifshitz, *Mechanics*, 3rd ed., section 11 (problem 1 for the pendulum), 28 and 49
+(T = dJ/dE).
 Chalykh, Veselov, J. Nonlinear Math. Phys. 12 Suppl. 1 (2005) 179 (which potentials those are).
 """
 
@@ -50,6 +55,8 @@ from lagcli.algebra.signs import sign
 from lagcli.mechanics.inequalities import never_together
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom
+from lagcli.mechanics.reduction.quadrature import closed_forms
+from lagcli.mechanics.reduction.root_integrals import ROOT
 from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.rest.rest_conditions import RestPoint
 from lagcli.record import record, replace
@@ -74,7 +81,8 @@ class AmplitudeSeries:
 
     `point` None: about every place at which the derivative of U_eff vanishes.  Where the motion is
     `isochronous` the period is 2 pi root at every amplitude: the arc, or its square where that is
-    `squared`, is that of a harmonic oscillator.
+    `squared`, is that of a harmonic oscillator.  The period `by_energy` holds for positive
+    `energies`.
     """
 
     point: RestPoint | None
@@ -83,6 +91,8 @@ class AmplitudeSeries:
     where: tuple[Expr, ...]
     isochronous: bool = False
     squared: bool = False
+    by_energy: Expr | None = None
+    energies: tuple[Expr, ...] = ()
 
 
 def _of_either_sign(one: AmplitudeSeries, other: AmplitudeSeries) -> AmplitudeSeries | None:
@@ -245,7 +255,7 @@ class Periods:
         series = AmplitudeSeries(point, root, tuple(coefficients), where, alike, squared)
         agrees = self._agrees(series)
         if agrees:
-            return series
+            return series if alike else self._with_energy(series)
         if agrees is None:
             self.reason = "no values were found at which a series could be compared"
             return None
@@ -263,6 +273,64 @@ class Periods:
         left = simplify(w2 - U.diff(q, 2) / M + U.diff(q) * M.diff(q) / (2 * M**2))
         square = (3 * U.diff(q) / left) ** 2 / M
         return is_zero(square.diff(q) - 6 * U.diff(q) / left) is True
+
+    # -- by the energy ----------------------------------------------------------------------------
+
+    def _with_energy(self, series: AmplitudeSeries) -> AmplitudeSeries:
+        """The same with T = dJ/dE, where the action is elementary and agrees with the integral."""
+        motion = self.motion
+        assert series.point is not None
+        [place] = series.point.values.values()
+        if motion.pace is not None or not free_of(self._mass, [motion.E]):
+            return series
+        momentum = sympy.sqrt(2 * self._mass * (motion.E - motion.potential))
+        for form in closed_forms(_as_one_root(momentum, motion.q), motion.q, series.where):
+            angles = _arctangents(form.terms)
+            energies = tuple(x for x in form.positive if free_of(x, [motion.q]))
+            local = [at(x, {motion.q: place}) for x in form.positive if x not in energies]
+            if angles is None or any(sign(x, series.where) != 1 for x in local):
+                continue
+            found = self._by_energy(series, angles, energies)
+            if found is not None:
+                return replace(series, by_energy=found, energies=energies)
+        return series
+
+    def _by_energy(
+        self,
+        series: AmplitudeSeries,
+        angles: Sequence[tuple[Expr, Expr]],
+        energies: Sequence[Expr],
+    ) -> Expr | None:
+        """dJ/dE, None where it is not the integral."""
+        motion = self.motion
+        inside = Evaluator([x for _, x in angles], _WORKING)
+        held = Evaluator(list(energies), _WORKING)
+        for values in admissible_values(motion.system, _TRIED):
+            with mpmath.workdps(_WORKING):
+                try:
+                    swing = self._swing(series, values)
+                    known = {**values, motion.E: swing.energy}
+                    if not all(x > 0 for x in held(known)):
+                        continue
+                    ends = [
+                        inside({**known, motion.q: q, ROOT: _AMPLITUDE**8})
+                        for q in (swing.middle - swing.half, swing.middle + swing.half)
+                    ]
+                    turns = [
+                        int(mpmath.sign(b) - mpmath.sign(a)) for a, b in zip(*ends, strict=True)
+                    ]
+                    action = sympy.pi * sympy.Add(
+                        *(n * c for n, (c, _) in zip(turns, angles, strict=True))
+                    )
+                    period = _simplified(action.diff(motion.E), energies)
+                    [stated] = Evaluator([period], _WORKING)(known)
+                    off = abs(swing.period / abs(stated) - 1)
+                except (ArithmeticError, ValueError, TypeError):
+                    continue  # no real motion there
+                if off > _AMPLITUDE**5:
+                    return None
+                return -period if stated < 0 else period
+        return None
 
     # -- the integral itself ----------------------------------------------------------------------
 
@@ -282,6 +350,12 @@ class Periods:
         return None
 
     def _ratio(self, series: AmplitudeSeries, values: Mapping[Symbol, mpf]) -> mpf:
+        swing = self._swing(series, values)
+        a = swing.half
+        stated = swing.root * (1 + sum(c * a ** (k + 1) for k, c in enumerate(swing.coefficients)))
+        return swing.period / (2 * mpmath.pi * stated)
+
+    def _swing(self, series: AmplitudeSeries, values: Mapping[Symbol, mpf]) -> _Swing:
         motion = self.motion
         assert series.point is not None
         [place] = series.point.values.values()
@@ -295,9 +369,6 @@ class Periods:
         if min([*others[n:], mpf(1)]) <= mpf(10) ** -6:
             raise ValueError
         a = _AMPLITUDE
-        stated = (
-            2 * mpmath.pi * root * (1 + sum(c * a ** (k + 1) for k, c in enumerate(others[:n])))
-        )
         potential_of, mass_of = (Evaluator([f], _WORKING) for f in (motion.potential, self._mass))
 
         def potential(q: mpf) -> mpf:
@@ -316,7 +387,53 @@ class Periods:
             q = middle + a * mpmath.sin(s)
             [mass] = mass_of({**values, motion.q: q, motion.E: energy})
             total += mpmath.sqrt(mass / (2 * (energy - potential(q)))) * a * mpmath.cos(s)
-        return 2 * total * mpmath.pi / _NODES / stated
+        period = 2 * total * mpmath.pi / _NODES
+        return _Swing(middle, a, energy, period, root, tuple(others[:n]))
+
+
+@record
+class _Swing:
+    """A motion between middle - half and middle + half, and the numbers of its series."""
+
+    middle: mpf
+    half: mpf
+    energy: mpf
+    period: mpf
+    root: mpf
+    coefficients: tuple[mpf, ...]
+
+
+def _as_one_root(momentum: Expr, q: Symbol) -> Expr:
+    """The momentum with the whole radicand under one root, a factor without q before it."""
+    factor, radicand = simplify(momentum**2).as_independent(q, as_Add=False)
+    return sympy.sqrt(factor) * sympy.sqrt(sympy.expand(radicand))
+
+
+def _arctangents(terms: Sequence[Expr]) -> list[tuple[Expr, Expr]] | None:
+    """(c, X/p) of each c arctan(X/p); None where something else stays where p is 0."""
+    found = []
+    for term in terms:
+        factors = sympy.Mul.make_args(term)
+        angles = [f for f in factors if isinstance(f, sympy.atan)]
+        if term.has(sympy.log) or len(angles) > 1:
+            return None
+        if angles:
+            found.append((term / angles[0], angles[0].args[0]))
+        elif is_zero(term.xreplace({ROOT: S.Zero})) is not True:
+            return None
+    return found
+
+
+def _simplified(period: Expr, positive: Sequence[Expr]) -> Expr:
+    """The same in its shortest form, where -E or D - E is positive by that."""
+    for condition in positive:
+        for symbol in sorted(condition.free_symbols, key=str):
+            slope = condition.diff(symbol)
+            if slope in (1, -1) and symbol.is_positive is not True:
+                size = sympy.Dummy(positive=True)
+                value = slope * (size - condition.xreplace({symbol: S.Zero}))
+                return simplify(period.xreplace({symbol: value})).xreplace({size: condition})
+    return simplify(period)
 
 
 def _follows(value: Expr, vanishing: Expr) -> bool:

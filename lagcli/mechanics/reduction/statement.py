@@ -312,6 +312,8 @@ class _Statement:
             squared=found.squared,
             period=period,
             where=conditions(found.where, self.order),
+            by_energy=None if found.by_energy is None else self._shape(found.by_energy),
+            energies=conditions(found.energies, self.order),
         )
 
 

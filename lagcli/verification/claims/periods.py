@@ -103,6 +103,9 @@ class Well:
             if not self._agrees(known, series, places[0], q0.mid()):
                 x.refute(what, "it is not that of the motion near the minimum")
                 return False
+            if not self._is_by_energy(known, series, what, q0.mid()):
+                x.refute(what, "it is not that function of the energy")
+                return False
             if tried > 1:
                 break
         if not tried:
@@ -169,6 +172,26 @@ class Well:
         # beyond the printed powers the error falls with a higher one, whatever its factor
         near = self._error(known, series, place, q0, _AMPLITUDE / 4)
         return near is None or 2 * near * 4**series.order < far
+
+    def _is_by_energy(self, known: Environment, series: PeriodSeries, what: str, q0: arb) -> bool:
+        """Whether the printed function of the energy is the integral, not only near the minimum."""
+        if series.by_energy is None:
+            return True
+        printed = self.x.places(what, [series.by_energy])
+        energies = conditions(self.x, what, series.energies)
+        if printed is None:
+            return False
+        for step in (_AMPLITUDE, abs(q0) / 64 + arb(2) ** -9):
+            energy = self._value(known, self.U, q0 + step)
+            at = self.x.reference.values({**known, (self.one.constant, 0): energy})
+            low = self._turning(known, q0 - step, energy)
+            if low is None or not all(at(each) > 0 for each in energies):
+                continue
+            a, middle = (q0 + step - low) / 2, (q0 + step + low) / 2
+            true = self._integral(known, middle.mid(), a.mid(), energy)
+            if not size(at(printed[0]) - true) < _SAME * size(true):
+                return False
+        return True
 
     def _error(
         self, known: Environment, series: PeriodSeries, place: int, q0: arb, step: arb
