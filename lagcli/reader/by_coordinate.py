@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.reader.foreign.vector_products import along_z, vector_product
 from lagcli.reader.foreign.words import Vocabulary, rate_meant
-from lagcli.reader.misshapen import as_list, behind_words, is_sentence
+from lagcli.reader.misshapen import as_list, behind_words, is_sentence, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 
 if TYPE_CHECKING:
@@ -41,6 +41,8 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
         number = re.search(r"\d+(?:\.\d+)?", node.value)
         begin = f"write {{{names[0]}: {number[0]}}}" if number else "leave it out"
         return f"{begin}: what is not given is 0"
+    if isinstance(node, Sequence) and (stated := _of_maps(node, names)):
+        return _pairs(stated)
     known = scope.kinds.keys()
     products = vector_product(node.value, (*names,), known) if isinstance(node, Scalar) else []
     if isinstance(node, Scalar) and products and len(products) == len(names):
@@ -66,6 +68,19 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
         names = moving
     fits = len(values) == len(names)
     return _pairs([*zip(names, values if fits else ["…"], strict=False)], braces=False)
+
+
+def _of_maps(node: Sequence, names: list[str]) -> list[tuple[str, str]]:
+    """`x` and `-c*x'` for each `{coordinate: x, expression: -c*x'}`; empty for other lists."""
+    found = []
+    for item in node.items:
+        parts = [source_of(v) for _, v in item.entries] if isinstance(item, Mapping) else []
+        along = [part for part in parts if part in names]
+        others = [part for part in parts if part not in names]
+        if len(parts) != 2 or len(along) != 1:
+            return []
+        found.append((along[0], others[0]))
+    return found
 
 
 def _values(node: DocumentNode, scope: Scope) -> list[str]:

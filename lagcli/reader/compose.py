@@ -105,7 +105,12 @@ class _Composer:
             case yaml.DocumentStartEvent():
                 self._documents += 1
                 if self._documents > 1:
-                    self._stop(start, end, "a second document begins here", "one problem, one file")
+                    self._stop(
+                        start,
+                        end,
+                        "a second document begins here",
+                        "leave out '---': one problem, one file",
+                    )
             case yaml.ScalarEvent():
                 tagged = self._has_tag(event)
                 node = Scalar(

@@ -14,6 +14,7 @@ from lagcli.reader.growth import growth
 from lagcli.reader.habits import (
     LISTS,
     MAPS,
+    habits,
     key_meant,
 )
 from lagcli.reader.headings import SECTIONS, section_meant
@@ -54,7 +55,7 @@ UNREADABLE = ZERO
 _NUMERIC = (VALUES, INITIAL)
 #: The words for it, and what they mean.
 YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
-_WORDS = frozenset({"none", "null", *YES_OR_NO})
+_WORDS = frozenset({"none", "null", *YES_OR_NO, *habits()["nothing"]})
 _FREQUENCIES = "write [sqrt(g/l)]"
 _RELATION = re.compile("[=<>≤≥]")
 _OF_RELATIONS = frozenset({"holds_while", "where", "always", "reaches"})
@@ -139,7 +140,11 @@ class FileReader:
                 hint = "leave out the key"
             if isinstance(node, Sequence) and (named := by_its_name(node)):
                 hint = f"write {named}, without '-'"
-            elif isinstance(node, Sequence) and all(isinstance(x, Mapping) for x in node.items):
+            elif (
+                isinstance(node, Sequence)
+                and all(isinstance(x, Mapping) for x in node.items)
+                and ("…" in hint or not hint.startswith("write {"))
+            ):
                 flow = node.text.source.text[node.start : node.end].strip()
                 hint = f"write {{{flow[1:-1]}}}" if flow[:1] == "[" else WITHOUT_HYPHENS
             first = node.items[0] if isinstance(node, Sequence) and node.items else None

@@ -50,7 +50,7 @@ _WITH_UNIT = re.compile(
 _ANGLES = frozenset("theta phi psi alpha beta gamma varphi angle θ φ ϕ ψ α β γ".split())
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 RATES = frozenset("Derivative derivative D ddt dt Dt der deriv diff dot".split())
-POWERS = frozenset("pow power Pow Power".split())
+POWERS = frozenset("POWER POTENZ PUISSANCE pow power Pow Power".split())
 SQUARES = frozenset("square sqr sq".split())
 FOREIGN = RATES | POWERS | SQUARES | {"norm", "hypot", "Subscript"}
 _VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "⅛": "1/8"}
@@ -196,8 +196,11 @@ def _named_unit(text: str) -> tuple[str, str] | None:
 
 def spoken_unit(text: str) -> str:
     """`kg*m/s^2` for `Kilogramm Meter pro Sekunde quadrat`; other words as they are."""
-    words = [meanings("units").get(each.casefold(), each) for each in text.split()]
-    spoken = re.sub(r"\s*\b(?:per|pro|par|por|al|na)\b\s*", "/", " ".join(words))
+    table = meanings("units")
+    words = re.sub(
+        r"[^\W\d_²³]+", lambda m: table.get(m[0].casefold(), m[0]), " ".join(text.split())
+    )
+    spoken = re.sub(r"\s*\b(?:per|pro|par|por|al|na)\b\s*", "/", words)
     squared = re.sub(r"\s+(?:squared|quadrat|hoch 2|au carré|al cuadrado)\b", "^2", spoken)
     return re.sub(r"(?<=\w)\s+(?=\w)", "*", squared) if squared != text else text
 

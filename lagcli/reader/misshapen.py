@@ -58,6 +58,8 @@ def behind_words(text: str, known: Container[str]) -> str:
 
 def as_list(written: str) -> str:
     """`[x, y]` for `x, y` and for `(x, y)`."""
+    if re.fullmatch(r"\[[^\[\]]*\]", written.strip()):
+        return written.strip()
     within = re.fullmatch(r"\s*\((.*)\)\s*", written, re.DOTALL)
     outer = within[1] if within else ""
     while (inner := re.sub(r"\([^()]*\)", "", outer)) != outer:

@@ -162,9 +162,15 @@ def _renamed(entries: list[tuple[Scalar, DocumentNode]]) -> str:
 def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> CanonicalTransformation:
     what = f"the transformation '{key.label}'"
     entries = list(file.entries(node, what, _WRITE))
+    if not isinstance(node, Mapping):
+        return CanonicalTransformation(name=key.label, coordinates={}, momenta={}, span=key.span)
     labels = {name.label for name, _ in entries} - _KINDS.keys()
     capital = [name for name, _ in entries if re.fullmatch(r"P_?\d*", name.label)]
-    if 2 * len(capital) == len(labels) and not any(each.startswith("p_") for each in labels):
+    if (
+        capital
+        and 2 * len(capital) == len(labels)
+        and not any(each.startswith("p_") for each in labels)
+    ):
         message = f"'{capital[0].label}' is not the name of a new momentum"
         file.error(message, capital[0].span, f"write {key.label}: {{{_renamed(entries)}}}")
         return CanonicalTransformation(name=key.label, coordinates={}, momenta={}, span=key.span)

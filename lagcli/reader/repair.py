@@ -224,6 +224,7 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     for each in scope.refused:
         if re.search(r"\w[ .-]\w", each):
             value = re.sub(rf"(?<!\w){re.escape(each)}(?!\w)", name_meant(each, one=True), value)
+    value = re.sub(r"&\s*=|=\s*&", "=", re.sub(r"\\\\\s*$", "", value))  # of an alignment
     sides = re.split("==?", value)
     if equation and len(sides) == 3 and re.fullmatch(r"\s*\w+\([\w, ]*\)\s*", sides[0]):
         return ["=".join(sides[1:])]  # f(x, y) = … = 0

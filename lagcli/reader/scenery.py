@@ -66,6 +66,12 @@ def _pairs(
         hint = f"write [{', '.join(f'[{one}, {other}]' for one, other in ends_meant)}]"
         file.error(f"{key} is a list of pairs", node.span, hint)
         return ()
+    placed = [each for each in inner if isinstance(each, Sequence) and _is_place(each)]
+    if len(inner) == 2 and len(placed) == len(ends_alone) == 1:  # [[0, 0], bob]
+        place = source_of(placed[0])
+        whole = f"picture: {{places: {{O: {place}}}, {key}: [[O, {ends_alone[0]}]]}}"
+        file.error(f"{key} join points and places by their names", node.span, f"write {whole}")
+        return ()
     hint = "write [[O, bob], [bob, ball]]"
     if isinstance(node, Mapping) and all(isinstance(v, Scalar) for _, v in node.entries):
         pairs = ", ".join(f"[{k.label}, {source_of(v)}]" for k, v in node.entries)
@@ -79,6 +85,12 @@ def _pairs(
         if len(pair) == 2 and pair[0] and pair[1]:
             found.append((pair[0], pair[1]))
     return tuple(found)
+
+
+def _is_place(node: Sequence) -> bool:
+    """Whether a list has numbers, not names."""
+    numbers = [each.value for each in node.items if isinstance(each, Scalar)]
+    return len(numbers) == len(node.items) and all(re.fullmatch(r"-?[\d.]+", x) for x in numbers)
 
 
 def _name(file: FileReader, node: DocumentNode, what: str, names: list[str]) -> str:

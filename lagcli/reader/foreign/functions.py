@@ -84,7 +84,7 @@ class Functions(Sums):
         within = self.sign() == "(" and self.ends_list()
         self.at += within
         found = [self.sum().text]
-        while self.sign() == ",":
+        while self.sign() in {",", ";"}:
             self.at += 1
             found.append(self.sum().text)
         for _ in range(1 + within):

@@ -170,8 +170,8 @@ def _dotted(found: re.Match[str], names: Vocabulary) -> str:
 
 
 def _on_the_keyboard(character: str) -> str:
-    """`*` for its full-width form, `^` for the accent."""
-    is_wide = "！" <= character <= "～"
+    """`*` for its full-width form, m for the italic 𝑚 of formulas, `^` for the accent."""
+    is_wide = "！" <= character <= "～" or "\U0001d400" <= character <= "\U0001d7ff"
     return unicodedata.normalize("NFKC", character) if is_wide else character.replace("ˆ", "^")
 
 
