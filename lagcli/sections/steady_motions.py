@@ -86,6 +86,7 @@ def blocks(section: SteadySection, answers: Answers) -> Iterator[Block]:
     yield from in_polar_coordinates(section)
     if section.everywhere:
         yield Paragraph((f"{capitalized(section.reason)}.",))
+        yield from in_moving_frames(section)
         return
     if section.motions is None:
         yield Paragraph((f"Not found: {section.reason}.",))

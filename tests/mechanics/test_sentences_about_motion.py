@@ -366,3 +366,30 @@ def test_an_assumed_sign_is_not_called_a_one_sided_constraint(n, sided, subject)
         f"constraints: {{floor: {{equation: y = c*cos(th){while_}}}}}\n"
     )
     assert subject in words(explain(derive(text), ["reduction"]), "The reduction")
+
+
+@pytest.mark.parametrize(("walls", "moving"), [("", True), ("k*x^2/2", False)])
+@pytest.mark.parametrize("mass", ["m", "k"])
+def test_what_a_rod_joins_moves_along_freely(walls, moving, mass):
+    """Landau and Lifshitz, section 3: the laws are the same in each inertial frame."""
+    text = (
+        f"coordinates: [x, y, u, v]\n{_POSITIVE}\n"
+        f"T: m*(x'^2 + y'^2)/2 + {mass}*(u'^2 + v'^2)/2\nV: {walls or 0}\n"
+        "constraints: {rod: (x - u)^2 + (y - v)^2 = c^2}\n"
+    )
+    told = words(explain(derive(text), ["steady_motions"]), "Steady motions")
+    assert ("at any constant x' = u'" in told) is moving
+    assert "at any constant y' = v'" in told
+
+
+@pytest.mark.long
+def test_a_triangle_of_rods_moves_along_freely():
+    text = (
+        "coordinates: [a, b, c, d, e, f]\nT: (a'^2 + b'^2 + c'^2 + d'^2 + e'^2 + f'^2)/2\n"
+        "constraints:\n  one: (a - c)^2 + (b - d)^2 = 1\n  two: (c - e)^2 + (d - f)^2 = 1\n"
+        "  three: (e - a)^2 + (f - b)^2 = 1\n"
+    )
+    told = words(explain(derive(text), ["steady_motions"]), "Steady motions")
+    assert "every position that the constraints allow is an equilibrium" in told
+    assert "at any constant a' = c' = e'" in told
+    assert "at any constant b' = d' = f'" in told

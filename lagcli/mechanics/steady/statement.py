@@ -107,6 +107,9 @@ class _SteadyStatement:
                     acting=steady.acting,
                     momenta=cyclic,
                     resting=resting,
+                    frames=self._frames
+                    if steady.everywhere and not steady.full.problem.contacts
+                    else (),
                     plane=plane,
                     everywhere=steady.everywhere,
                 ),
