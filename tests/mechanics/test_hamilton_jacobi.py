@@ -10,6 +10,7 @@ from sympy import Float, Symbol, diff, lambdify, symbols
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import Builder, symbol
+from lagcli.expression import Call, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.separation_statement import hamilton_jacobi
@@ -333,3 +334,21 @@ def test_the_equation_of_a_hamiltonian_of_the_time_is_stated(L, said):
     """Goldstein, Poole, Safko, 3rd ed., equation 10.3: it has the term dS/dt, whatever H is."""
     told = explain(derive(f'{{coordinates: [x], parameters: [w], L: "{L}"}}'), ["hamilton_jacobi"])
     assert said in words(told, "The Hamilton-Jacobi equation")
+
+
+def test_a_logarithm_has_no_constant_factor():
+    """ln(F x + E + sqrt(Q)) for ln(F (F x + E + sqrt(Q))): a constant more in W."""
+    text = (
+        "coordinates: {x: {}}\nparameters: {m: {assume: positive}, F: {}}\n"
+        "H: sqrt(m^2 + p_x^2) - F*x\n"
+    )
+    found, _ = hamilton_jacobi(derive(text))
+    forms = [form for each in found.cases.values() for form in each]
+    inside = [
+        to_grammar(part.arguments[0])
+        for form in forms
+        for part in walk(form.function)
+        if isinstance(part, Call) and part.function == "log"
+    ]
+    assert inside
+    assert not any(each.startswith(("abs(F*(", "F*(")) for each in inside)

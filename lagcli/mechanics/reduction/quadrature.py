@@ -109,7 +109,9 @@ def _by_substitution(
     return tuple(
         ElementaryAction(
             tuple(
-                (direction * _with_moduli(term, where)).xreplace({u: sub.value, ROOT: scale * ROOT})
+                (direction * _with_moduli(_without_constants(term, u), where)).xreplace(
+                    {u: sub.value, ROOT: scale * ROOT}
+                )
                 for term in terms
             ),
             inside,
@@ -278,6 +280,16 @@ def _linear(below: Expr, u: Symbol) -> tuple[Expr, Expr, int] | None:
         return None
     c, a = polynomial.all_coeffs()
     return c**exponent, simplify(-a / c), int(exponent)
+
+
+def _without_constants(term: Expr, u: Symbol) -> Expr:
+    """ln(u + sqrt(Q)) for ln(F u + F sqrt(Q)), which differs by a constant."""
+
+    def variable(e: Expr) -> Expr:
+        whole = sympy.factor_terms(e.args[0])
+        return sympy.log(whole.as_independent(u, ROOT, as_Add=False)[1])
+
+    return term.replace(lambda e: isinstance(e, sympy.log), variable)
 
 
 def _with_moduli(term: Expr, positive: Sequence[Expr]) -> Expr:
