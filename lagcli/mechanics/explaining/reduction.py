@@ -182,13 +182,13 @@ def _period(each: PeriodSeries, potential: Part) -> Iterator[Block]:
         yield vanishing((each.root_of,))
     if each.amplitude:
         a, order = Name(each.amplitude), Number(Fraction(each.order))
-        yield says(f"{_TWICE} With ", a, " half their distance it is, to the order ",
+        yield says(f"{_TWICE} In terms of ", a, ", half their distance, it is to the order ",
                    Power(a, order), ",")  # fmt: skip
     elif each.isochronous:
         why = "The motion is that of a harmonic oscillator in the arc"
         if each.squared:
             why = "The square of the arc from a fixed point oscillates harmonically"
-        yield says(f"{_TWICE} {why}, so it is the same at every amplitude:")
+        yield says(f"{_TWICE} {why}, so the period is the same at every amplitude:")
     elif each.order:
         yield says(f"{_TWICE} To the order {each.order} in half their distance it is constant:")
     else:
