@@ -31,7 +31,7 @@ from lagcli.sections._expected import expected_of
 from lagcli.statements.answers import Answers, ModesOfFrequency, ModesSection
 from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.plus_minus import is_pair, modes_in_pairs, pairs
-from lagcli.statements.wording import alike_blocks, conditions, in_any_direction
+from lagcli.statements.wording import alike_blocks, conditions, in_any_direction, real_and_positive
 
 if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
@@ -105,8 +105,8 @@ def _by_state(
         yield at, [replace(mode, at={}) for mode in group]
 
 
-_WHERE_REAL = "an oscillation where this is real and positive"
-_NO_OSCILLATION = {True: "negative: no oscillation", False: _WHERE_REAL}
+def _where_real(value: Expression) -> str:
+    return f"an oscillation where this is {real_and_positive(value)}"
 
 
 def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
@@ -121,10 +121,11 @@ def _mode(mode: ModesOfFrequency) -> Iterator[Row]:
         yield from [Row(delta, mode.decay)] if damped else []
         note = ""
     if mode.frequency is not None:
-        yield Row(omega, mode.frequency, _WHERE_REAL if mode.open_sign else note)
+        yield Row(omega, mode.frequency, _where_real(mode.frequency) if mode.open_sign else note)
     elif mode.frequency_squared is not None:
         squared = Power(omega, Number(Fraction(2)))
-        yield Row(squared, mode.frequency_squared, note or _NO_OSCILLATION[mode.negative])
+        sign = "negative: no oscillation" if mode.negative else _where_real(mode.frequency_squared)
+        yield Row(squared, mode.frequency_squared, note or sign)
     yield from _shape(mode.shape or {})
 
 

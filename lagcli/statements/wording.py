@@ -10,6 +10,7 @@ from itertools import groupby
 from lagcli.document import Block, Equations, Formula, Label, Matrix, Paragraph, Row, equations_of
 from lagcli.expression import (
     ZERO,
+    Call,
     Expression,
     Name,
     Negative,
@@ -129,6 +130,12 @@ def constraints_named(kind: str, names: Sequence[str]) -> str:
 def enumerated(words: Sequence[str]) -> str:
     """a, b and c."""
     return " and ".join([part for part in (", ".join(words[:-1]), *words[-1:]) if part])
+
+
+def real_and_positive(value: Expression) -> str:
+    """What a frequency, or its square, is where a displacement oscillates."""
+    rooted = any(isinstance(part, Call) and part.function == "sqrt" for part in walk(value))
+    return "real and positive" if rooted else "positive"
 
 
 def values_of(case: SpecialValue) -> list[Part]:

@@ -393,3 +393,19 @@ def test_a_triangle_of_rods_moves_along_freely():
     assert "every position that the constraints allow is an equilibrium" in told
     assert "at any constant a' = c' = e'" in told
     assert "at any constant b' = d' = f'" in told
+
+
+@pytest.mark.parametrize(
+    ("V", "said_so"),
+    [
+        ("m*g*y", "It oscillates only where this is positive."),  # ω² = -g/y
+        ("(a*x^2 + 2*b*x*y + c*y^2)/2", "It oscillates only where this is real and positive."),
+    ],
+)
+def test_only_a_root_may_not_be_real(V, said_so):
+    rod = "constraints: {rod: x*x' + y*y' = 0}, " if "g" in V else ""
+    text = (
+        "{coordinates: [x, y], parameters: {m: {assume: positive}, g: {assume: positive}, a: {}, "
+        f"b: {{}}, c: {{}}}}, T: m*(x'^2 + y'^2)/2, {rod}V: {V}}}"
+    )
+    assert said_so in words(explain(derive(text), ("modes",)), "Small oscillations")

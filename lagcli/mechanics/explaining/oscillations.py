@@ -35,7 +35,13 @@ from lagcli.mechanics.rest.singular import AtPole
 from lagcli.mechanics.stability.near import Near
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Section
 from lagcli.statements.plus_minus import modes_in_pairs
-from lagcli.statements.wording import conditions, in_any_direction, linear_equations, place_rows
+from lagcli.statements.wording import (
+    conditions,
+    in_any_direction,
+    linear_equations,
+    place_rows,
+    real_and_positive,
+)
 
 if TYPE_CHECKING:
     from lagcli.mechanics.oscillations.small_oscillations import Place
@@ -174,7 +180,7 @@ def _mode(
     if mode.negative:
         yield says("This is negative: the displacement does not oscillate, it grows exponentially.")
     elif mode.frequency is None or mode.open_sign:
-        yield says("It oscillates only where this is real and positive.")
+        yield says(f"It oscillates only where this is {real_and_positive(value)}.")
     if value == ZERO:
         if 0 < len(shapes) < mode.multiplicity:
             yield says(*_with_fewer_shapes(explainer, place))
