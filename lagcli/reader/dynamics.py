@@ -311,7 +311,7 @@ def read_by_coordinate(
         hint += f"; write V: {potential}" if "V" not in file.sections else ""
     entries = list(file.entries(node, section, hint))
     if whole := forces_without_headings(node, coordinates):
-        [heading, *_] = [key for key, value in entries if isinstance(value, Mapping)]
+        [heading, *_] = [key for key, value in entries if not isinstance(value, Scalar)]
         message = f"'{heading.label}' in {section} is not a coordinate"
         file.error(message, heading.span, whole)
         return {}

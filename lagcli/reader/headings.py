@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.reader.habits import unit_behind
@@ -141,7 +141,7 @@ def _number_of(node: DocumentNode) -> str:
     return given["value"] + "*pi/180" * (unit in {"deg", "°", "degree", "degrees"})
 
 
-def forces_without_headings(node: DocumentNode, coordinates: Iterable[str]) -> str:
+def forces_without_headings(node: DocumentNode, coordinates: Collection[str]) -> str:
     """`{y: -m*g - c*y'}` for `{weight: {y: -m*g}, drag: {y: -c*y'}}`; nothing for others."""
     entries = node.entries if isinstance(node, Mapping) else []
     known = {*coordinates}
@@ -149,6 +149,9 @@ def forces_without_headings(node: DocumentNode, coordinates: Iterable[str]) -> s
     for heading, value in entries:
         if heading.label in known and isinstance(value, Scalar):
             sums.setdefault(heading.label, []).append(value.value)
+        elif isinstance(value, Sequence) and len(value.items) == len(known):
+            for x, each in zip(coordinates, value.items, strict=True):
+                sums.setdefault(x, []).append(source_of(each))
         elif heading.label in known or not isinstance(value, Mapping) or not value.entries:
             return ""
         else:

@@ -64,6 +64,13 @@ def _with_blanks(line: str) -> str:
     return re.sub(r"(?<=[{,\s])(\w+):(?=[\w.-])", r"\1: ", begun) if begun != line else line
 
 
+def _with_points(line: str) -> str:
+    """`{x: 1.5, y: 0}` for `{x: 1,5; y: 0}`."""
+    if not re.search(r"\{.*;.*\}", line):
+        return line
+    return re.sub(r"(?<=\d),(?=\d)", ".", line).replace(";", ",")
+
+
 def _separated(line: str) -> str:
     """`{m: 1, k: 2}` for `{m: 1 k: 2}`."""
     return re.sub(r"([\w.)\]'\"])\s+(?=[\"']?[^\W\d]\w*[\"']?:\s)", r"\1, ", line)
@@ -124,6 +131,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"\s+#\s*([^\]}#]*)([\]}]+)\s*$", r"\2  # \1", line),
     lambda line: re.sub(r"(?<=[\w)])\s+\[[\w*/^ ]+\](?=\s*[,}])", "", line),
     _paired,
+    _with_points,
     lambda line: line.replace(";", ",") if re.search(r"[\[{].*;", line) else line,
     lambda line: re.sub(r"\s+(?:%|--|;)\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^([^{]*?)\s*[;,]\s+(?=[^\W\d]\w*:\s)", r"\1\n", line, count=1),

@@ -20,6 +20,7 @@ from lagcli.reader.habits import (
 )
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import unit_mistake
+from lagcli.reader.suggest import closest
 
 #: What is found without a question.
 FOUND = frozenset(
@@ -191,7 +192,8 @@ def key_by_shape(value: DocumentNode, problem: Mapping) -> str | None:
     the initial state where the names are those of coordinates, and values of parameters else.
     """
     others = ((key.label, node) for key, node in problem.entries if node is not value)
-    given = {key_meant(label, tuple(MAPS)) or label: node for label, node in others}
+    keys = tuple(MAPS)
+    given = {key_meant(label, keys) or closest(label, keys, 0.8) or label: v for label, v in others}
     if isinstance(value, Sequence) and value.items:
         names = [each.value for each in value.items if isinstance(each, Scalar)]
         if len(names) == len(value.items) and all(map(str.isidentifier, names)):

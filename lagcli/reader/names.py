@@ -311,6 +311,8 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
             for part in walk(each)
         ):
             hint = f"{written} is taken at the time t; there are no delays"
+        elif scope.kinds.get(name) == "parameter" and node.arguments == (Name("t"),):
+            hint = f"a function of time is declared as such: functions: {{{name}: [t]}}"
         yield Diagnostic(message, node.span, hint)
     elif not scope.refused or instead(name) or foreign_function(name):
         functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]

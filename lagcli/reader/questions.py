@@ -100,6 +100,11 @@ def _state_name(
             hint = f"an end of the run stands under simulation: write simulation: {{{inner}}}"
         said = advised("state", key.label).replace("VELOCITY", f"{coordinates[0]}'")
         hint = said or hint
+        if (kind := file.scope.kinds.get(letters)) == "definition":
+            hint = "leave it out: it follows from its definition"
+        elif kind == "parameter":
+            entry = f"{letters}: {source_of(value)}"
+            hint = f"a constant stands under parameters: write parameters: {{{entry}}}"
         file.error(f"'{key.label}' in initial is not a coordinate", key.span, hint)
         return None
     primes = sum(2 if prime == "″" else 1 for prime in key.label[len(letters) :])

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, Source
-from lagcli.expression import Equation, Expression
+from lagcli.expression import Equation, Expression, Sum
 from lagcli.problem_data import Inequality
 from lagcli.reader.expressions import read_equation, read_expression, sides_of
 from lagcli.reader.foreign.cases import without_cases
@@ -15,10 +15,10 @@ from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary
 from lagcli.reader.habits import name_meant
 from lagcli.reader.misshapen import behind_words, is_sentence
-from lagcli.reader.momenta_meant import with_velocities
+from lagcli.reader.momenta_meant import with_momenta, with_velocities
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.positions import Excerpt
-from lagcli.reader.text import Mistake
+from lagcli.reader.text import Mistake, SourceText
 from lagcli.reader.undeclared import UNDECLARED
 from lagcli.record import replace
 
@@ -35,6 +35,11 @@ _LONGEST_EXCHANGED = 160
 _MATRIX = re.compile(
     r"(?<!\w)(?P<one>[^\W\d]\w*)'*\s*(?:\^\s*\{?(?:T|\\top|\\intercal)\}?(?!\w)|\.T(?!\w))"
     r"|(?:\.transpose\(|\b[tT]ranspose[(\[])"
+)
+#: The multiplier that is named behind a constraint.
+_MULTIPLIER = re.compile(
+    r"\s*[,;]?\s*\(?(?:with|where|and|mit|avec|con)\s+(?:the\s+)?(?:Lagrange\s+)?(?:multiplier\s+)?"
+    r"(?:lambda|lam|λ)\w*\)?\s*$"
 )
 #: A term of Lagrange's equation.
 _LAGRANGE = re.compile(r"(?:d|∂|\\partial)\s*[LTV]\s*/\s*(?:d|∂|\\partial)")
@@ -71,6 +76,9 @@ def with_whole(
     """
     if what in {"T", "L"} and (energy := _energy_meant(found, node, what, scope, role)):
         return [energy]
+    by_momenta = _hamiltonian_meant(node.value) if what == "H" else ""
+    if by_momenta and _is_read(by_momenta, scope, role, what):
+        return [replace(found[0], hint=f"write {by_momenta}: {found[0].hint}")]
     stated = what == "dissipation" and "=" in node.value  # as a force: -c*x'
     too_large = "the limit is" in found[0].hint
     in_lines = any(each.message.startswith("two lines without") for each in found)
@@ -184,6 +192,19 @@ def _energy_meant(
     return Diagnostic(f"the momentum '{momenta[0]}' cannot stand in {what}", node.span, hint)
 
 
+def _hamiltonian_meant(text: str) -> str:
+    """`m*(p_x/m)^2/2 + k*x^2/2` for `m*x'^2/2 + k*x^2/2`; nothing without squares of velocities."""
+    source = SourceText.of(Source("", text))
+    try:
+        formula = read_expression(Excerpt.whole(source.source))
+    except Mistake:
+        return ""
+    terms = formula.terms if isinstance(formula, Sum) else (formula,)
+    moving = [each for each in terms if "'" in text[slice(*source.offsets(each.span))]]
+    kinetic = Sum(tuple(moving)) if moving[1:] else next(iter(moving), None)
+    return "" if kinetic is None else with_momenta(text, kinetic, source)
+
+
 def _is_read(text: str, scope: Scope, role: Role, what: str) -> bool:
     """Whether a text is a formula whose names are all known."""
     try:
@@ -224,6 +245,7 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     for each in scope.refused:
         if re.search(r"\w[ .-]\w", each):
             value = re.sub(rf"(?<!\w){re.escape(each)}(?!\w)", name_meant(each, one=True), value)
+    value = _MULTIPLIER.sub("", value) if equation else value
     value = re.sub(r"&\s*=|=\s*&", "=", re.sub(r"\\\\\s*$", "", value))  # of an alignment
     sides = re.split("==?", value)
     if equation and len(sides) == 3 and re.fullmatch(r"\s*\w+\([\w, ]*\)\s*", sides[0]):

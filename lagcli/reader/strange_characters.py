@@ -25,6 +25,7 @@ _MEANT = [
     (r"\\int\b", instead("int")),
     (r"\\(?:sum|prod)\b", instead("sum")),
     (r"\[\s*[\w'.]+(?:\s+[-\w'.]+)+\s*\]", "a vector is written by its components"),
+    (r"(?:\.\.\.|…)\s*[-+*]", instead("sum")),
     (r"\.\.\.|…", "leave it out: a line that continues the one above begins with blanks"),
     (r"\.subs\b", "leave out what begins with '.subs': values stand under 'parameters'"),
     (r"\.(?:evalf|simplify|expand|n|doit|replace|rewrite)\b", "leave out what begins with '.'"),

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 #: The likeness of a key and its misspelling: another word of as many letters is less like it.
 _NEAR = 0.7
+#: That of a key and its slip of a letter.
+_SLIP = 0.8
 _PROBLEM = "the problem"
 _WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
 _FRICTION = "friction"
@@ -129,7 +131,9 @@ def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[
     stem = key_of_stem(word, names)
     if stem and stem != closest(word, names, _NEAR):
         return stem, f"the key is {stem}"
-    return None, did_you_mean(word, names, _NEAR)
+    return None, did_you_mean(word, names, _NEAR) or did_you_mean(
+        word.removesuffix("s"), names, _NEAR
+    )
 
 
 def _meant_of_problem(
@@ -144,7 +148,13 @@ def _meant_of_problem(
     shape = None if f"{word}s" in KEYS else key_by_shape(value, around)
     near = meant or closest(word, KEYS)
     is_list = isinstance(value, Sequence) or shape == "parameters"
-    if shape and near != word.casefold() and (not hint or (near in MAPS - {shape} and is_list)):
+    is_slip = bool(closest(word, KEYS, _SLIP))
+    if (
+        shape
+        and not is_slip
+        and near != word.casefold()
+        and (not hint or (near in MAPS - {shape} and is_list))
+    ):
         meant, hint = shape, f"the key is {shape}"
     above = [k.label for k, _ in around.entries if k.start < key.start][-1:]
     if not hint and " " in word and above and above[0] in {"title", "source", "description"}:
