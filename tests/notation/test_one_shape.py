@@ -453,3 +453,64 @@ def test_a_root_in_many_results_is_named() -> None:
     found = render([answers], "text", Options())
     assert "Δ = (A d (B + C) − (A + B) C c)² + 4 A² C² c d" in found
     assert found.count("√Δ") == 3
+
+
+@pytest.mark.parametrize("definition", ["R - R*cos(u)", "R*(1 - cos(u))"])
+def test_a_height_has_its_length_before_the_bracket(definition: str) -> None:
+    physics = f"definitions: {{Y: {definition}}}\nT: m*R^2*u'^2/2\nV: m*g*Y"
+    found = text("u", "m g R", physics, "lagrangian", "energy", "hamiltonian", "reduction")
+    assert found.count("m g R (1 − cos(u))") >= 5
+    assert "R − R" not in found
+
+
+def test_potentials_with_one_function_are_together_in_h() -> None:
+    """A rod with a disk at its end, Goldstein, Classical Mechanics, 3rd ed., exercise 5.20."""
+    physics = "T: (m/3 + M)*l^2*u'^2/2\nV: -m*g*l*cos(u)/2 - M*g*l*cos(u)"
+    found = text("u", "m M l g", physics, "hamiltonian", "reduction")
+    assert found.count("(m/2 + M) g l cos(u)") >= 3
+
+
+@pytest.mark.parametrize("factor", ["1 - 2*M/r", "1 - M/r", "1 + M/r"])
+def test_a_denominator_of_the_file_stays(factor: str) -> None:
+    """Schwarzschild's metric, Hartle, Gravity, section 9.3."""
+    physics = f"L: (-({factor})*u'^2 + r'^2/({factor}) + r^2*v'^2)/2"
+    shown = factor.replace("2*M", "2 M").replace("-", "−")
+    found = text("u, r, v", "M", physics, "lagrangian", "momenta", "hamiltonian")
+    assert f"p_r = ṙ/({shown})" in found
+    assert f"− p_u²/(2 ({shown}))" in found
+    assert f"ṙ²/(2 ({shown}))" in found
+
+
+def test_a_lagrangian_has_squared_velocities_and_no_components() -> None:
+    """A load on an elastic rope under a trolley: M + m together, r'² + r² u'²."""
+    physics = (
+        "definitions: {X: x + r*sin(u), Y: -r*cos(u)}\n"
+        "T: M*x'^2/2 + m*(X'^2 + Y'^2)/2\nV: k*(r - l)^2/2 + m*g*Y"
+    )
+    found = text("x, r, u", "M m k l g", physics, "lagrangian", "energy")
+    assert found.count("(M + m) ẋ²/2") == 2
+    assert found.count("m ṙ²/2 + m r² u̇²/2") == 2
+
+
+def test_what_follows_one_mass_follows_all() -> None:
+    """A cylinder drawn over a table by a hanging mass, with M R² and m g in the file."""
+    physics = (
+        "T: M*x'^2/2 + M*R^2*u'^2/4 + m*y'^2/2\nV: -m*g*y\n"
+        "constraints: {rolling: x - R*u = 0, string: y - x = 0}"
+    )
+    found = text("x, u, y", "M R m g", physics, "constraint_forces", "reduction")
+    assert "M m g R/(3 M + 2 m)" in found
+    assert "R m" not in found
+
+
+def test_momenta_over_one_denominator_stay_together() -> None:
+    """A pendulum with a reaction wheel."""
+    physics = "T: m*l^2*u'^2/2 + J*(u' + v')^2/2\nV: m*g*l*cos(u)"
+    found = text("u, v", "m l J g", physics, "canonical_equations")
+    assert "(p_v − p_u)/(m l²) + p_v/J" in found
+
+
+def test_a_number_beside_a_letter_is_first() -> None:
+    found = text("x", "m k g", "T: (1 + k)*m*x'^2/2\nV: -m*g*x", "accelerations", "momenta")
+    assert "ẍ = g/(1 + k)" in found
+    assert "p_x = (1 + k) m ẋ" in found
