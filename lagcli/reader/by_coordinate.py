@@ -41,8 +41,11 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
         number = re.search(r"\d+(?:\.\d+)?", node.value)
         begin = f"write {{{names[0]}: {number[0]}}}" if number else "leave it out"
         return f"{begin}: what is not given is 0"
-    if isinstance(node, Sequence) and (stated := _of_maps(node, names)):
-        return _pairs(stated)
+    listed = (
+        (_of_maps(node, names) or _of_equations(node, names)) if isinstance(node, Sequence) else []
+    )
+    if listed:
+        return _pairs(listed)
     known = scope.kinds.keys()
     products = vector_product(node.value, (*names,), known) if isinstance(node, Scalar) else []
     if isinstance(node, Scalar) and products and len(products) == len(names):
@@ -80,6 +83,19 @@ def _of_maps(node: Sequence, names: list[str]) -> list[tuple[str, str]]:
         if len(parts) != 2 or len(along) != 1:
             return []
         found.append((along[0], others[0]))
+    return found
+
+
+def _of_equations(node: Sequence, names: list[str]) -> list[tuple[str, str]]:
+    """`x` and 1 for each `x(0) = 1`, `x'` and 0 for `dx/dt(0) = 0`; empty for other lists."""
+    found = []
+    for item in node.items:
+        written = item.value if isinstance(item, Scalar) else ""
+        left, sign, right = written.partition("=")
+        meant = state_meant(left.strip(), names) if sign else ""
+        if not meant or not right.strip():
+            return []
+        found.append((meant, right.strip()))
     return found
 
 

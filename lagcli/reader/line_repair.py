@@ -117,6 +117,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"\s+//\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
     _assumed,
+    lambda line: re.sub(r"^(\s*)[*•·–—+]\s+(?=[^\W\d]\w*\s*$)", r"\1- ", line),
     lambda line: unescape(line) if re.search(r"&\w+;", line) else line,
     lambda line: re.sub(rf"^({'|'.join(KEYS)})\s+(?=[^\s:=])", r"\1: ", line),
     lambda line: re.sub(r"^(\s*\"?[^\W\d]\w*\"?)\s*(?:<-|←|:=|->|→|=>|=)\s*", r"\1: ", line),

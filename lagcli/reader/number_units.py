@@ -17,6 +17,11 @@ _ANGLE = re.compile("deg(/.*|)|rpm")
 _UNIT_WITHIN = re.compile(
     r"([\d.]+)\s+([A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+|kg|[cmk]m|k?Hz|k?N|k?J|k?W|k?Pa)(?![\w(])"
 )
+#: The letter of a quantity by its unit.
+_LETTERS = {
+    "kg": "m", "N": "F", "kN": "F", "N/m": "k", "N/cm": "k", "kg/s": "c", "m/s": "v",
+    "rad/s": "omega", "Hz": "f", "J": "E", "W": "P",
+}  # fmt: skip
 _TIME = (("s", Fraction(1)),)
 
 
@@ -75,7 +80,7 @@ def unit_in_formula(
         return f"the unit '{unit}' cannot stand in {what}", hint
     within = _UNIT_WITHIN.search(text)
     if within and is_unit(within[2]):
-        name = {"kg": "m", "N": "F", "kN": "F"}.get(within[2], "g" if "/" in within[2] else "a")
+        name = _LETTERS.get(within[2], "g" if "/s" in within[2] else "a")
         hint = f"write parameters: {{{name}: {{value: {within[1]}, unit: {within[2]}}}}}"
         return f"the unit '{within[2]}' cannot stand in {what}", hint
     if declared and is_unit(text):

@@ -331,6 +331,9 @@ def _with_unit(key: Scalar, value: DocumentNode | None) -> str:
 
 def _list_advice(text: str) -> str:
     """`[x, y]` for `x, y` and for `symbols("x y")`, and `m: 1` for `m = 1`."""
+    if re.fullmatch(r"(?:\s*\d+[.)]\s*[^\W\d]\w*)+\s*", text):  # 1. x 2. y
+        listed = ", ".join(re.findall(r"[^\W\d]\w*", text))
+        return f"write [{listed}]"
     if declared := _DECLARATION.findall(text):
         pairs = [f"{name}: {value.strip()}" for name, value in declared if value.strip()]
         listed = ", ".join(pairs or [name for name, _ in declared])

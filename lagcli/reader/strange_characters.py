@@ -14,6 +14,10 @@ END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
 #: What begins with the character, and what is written instead.
 _MEANT = [
     (r"\{\s*\w+\s*[-+]\s*\w+\s*\}", "every name in full, such as x_1"),
+    (
+        r"[·⋅]\s*[rv](?!\w)",
+        "a product of vectors is written by its components, as in E_x*x + E_y*y",
+    ),
     (r"!=|:=", "write an equation with '='"),
     (
         r"\[[^\]]*[,;\[]|\\(?:vec|mathbf|boldsymbol|begin|end)",

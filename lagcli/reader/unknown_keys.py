@@ -22,7 +22,7 @@ from lagcli.reader.habits import (
     number_and_unit,
 )
 from lagcli.reader.misplaced import names_in
-from lagcli.reader.misshapen import as_rayleigh, key_by_shape, range_end, source_of
+from lagcli.reader.misshapen import as_rayleigh, entries_of, key_by_shape, range_end, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.text import Mistake
@@ -37,6 +37,7 @@ _SLIP = 0.8
 _PROBLEM = "the problem"
 _WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
 _FRICTION = "friction"
+_FRICTIONS = frozenset({_FRICTION, "coulomb_friction", "dry_friction", "reibung", "frottement"})
 #: The number of a state.
 _STATE = re.compile(r"(?:[-+*/\d.() ]|pi|e(?=[-+\d]))+")
 _MANUAL = "leave it out, or see lagcli help problem-format"
@@ -145,6 +146,19 @@ def _meant_of_problem(
         return None, f"the state at t = 0 stands under initial: write initial: {{{state}}}"
     if written and (force := _force_meant(word, written, around)):
         return None, f"forces stand by coordinate: write forces: {{{force}}}"
+    if (
+        word.casefold() in _FRICTIONS
+        and re.search(r"(?<!\w)(?:mu|μ)", written)
+        and "'" not in written
+    ):
+        along = next(iter(_coordinates(around)), "x")
+        return None, f"write forces: {{{along}: -{written.lstrip('-')}*sign({along}')}}"
+    numbers = [v.value for _, v in getattr(value, "entries", ()) if isinstance(v, Scalar)]
+    has_parameters = "parameters" in {each.label for each, _ in around.entries}
+    all_numbers = numbers and all(is_constant("x", each) for each in numbers)
+    if meant == "points" and has_parameters and all_numbers:
+        scope.refused += names_in(value)
+        return None, f"constants stand under parameters: write parameters: {{{entries_of(value)}}}"
     shape = None if f"{word}s" in KEYS else key_by_shape(value, around)
     near = meant or closest(word, KEYS)
     is_list = isinstance(value, Sequence) or shape == "parameters"
@@ -175,10 +189,15 @@ def _meant_of_problem(
     return meant, hint
 
 
+def _coordinates(around: Mapping) -> list[str]:
+    """The names of the coordinates of a problem."""
+    given = (node for each, node in around.entries if each.label == "coordinates")
+    return names_in(next(given, None))
+
+
 def _state_meant(key: Scalar, written: str, around: Mapping) -> str:
     """`x: 1` for an entry `x(0): 1`, `theta': 0` for `theta_dot: 0`; nothing for others."""
-    given = next((node for each, node in around.entries if each.label == "coordinates"), None)
-    coordinates = names_in(given)
+    coordinates = _coordinates(around)
     source = around.text.source.text
     rest = source[: key.start] + source[key.end :]
     is_used = key.label not in coordinates and re.search(
@@ -191,8 +210,7 @@ def _state_meant(key: Scalar, written: str, around: Mapping) -> str:
 
 def _force_meant(word: str, written: str, around: Mapping) -> str:
     """`x: -c*x'` for an entry `F_x: -c*x'`, `q2: F` for `Q2: F`; nothing for others."""
-    given = next((node for each, node in around.entries if each.label == "coordinates"), None)
-    coordinates = names_in(given)
+    coordinates = _coordinates(around)
     found = re.fullmatch(r"[QF]_?(\w+)", word)
     along = found[1] if found else ""
     if along.isdigit() and 0 < int(along) <= len(coordinates):
@@ -241,7 +259,8 @@ def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
 def _advice_in_problem(word: str, value: str) -> str:
     if said := advised("entries", f"{word}: {value}"):
         return said
-    key = meanings("keys").get(word.replace("-", "_"), word)
+    spelled = re.sub("[- ]", "_", word.casefold())
+    key = meanings("keys").get(spelled, spelled if spelled in meanings("parts") else word)
     part = meanings("parts").get(key)
     if key == "until":
         value = range_end(value) or value

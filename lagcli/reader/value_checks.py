@@ -206,7 +206,11 @@ def _check_dissipation(file: FileReader, problem: Problem) -> None:
         message = "the dissipation changes its sign with the velocities"
         start, end = SourceText.of(problem.source).offsets(formula.span)
         whole = as_rayleigh(problem.source.text[start:end])
-        file.error(message, formula.span, f"write {whole}: {_FRICTION}" if whole else _FRICTION)
+        rates = {node.name for node in walk(formula) if isinstance(node, Name) and node.primes}
+        law = problem.source.text[start:end]
+        hint = f"a law of a force: write forces: {{{''.join(rates)}: {law}}}"
+        hint = hint if len(rates) == 1 and not problem.forces else _FRICTION
+        file.error(message, formula.span, f"write {whole}: {_FRICTION}" if whole else hint)
 
 
 def _parity(formula: Expression, definitions: Mapping[str, Expression]) -> int:

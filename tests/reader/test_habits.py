@@ -214,7 +214,7 @@ HABITS = [
     (text(T=None, points="{bob: {x: x, y: 0, mass: m}}"), "write position: [x, 0]"),
     (text(T=None, points="{bob: {position: [x, 0], mass: 1 kg}}"), "write 1"),
     (text(dissipation="k*x'"), "dissipation: c*x'^2/2"),
-    (text(dissipation="-k*x'^3"), "dissipation: c*x'^2/2"),
+    (text(dissipation="-k*x'^3"), "write forces: {x: -k*x'^3}"),
     (text(dissipation="v", definitions="{v: k*x'}"), "dissipation: c*x'^2/2"),
     (text(dissipation="k*x"), "contains no velocity"),
     (text(forces="{drag: -k*x'}"), "write x: -k*x'"),

@@ -93,6 +93,8 @@ class Token(NamedTuple):
 def prepared(text: str, names: Vocabulary) -> str:
     """With the marks of web pages, v² and Leibniz' derivatives in the notation of a file."""
     text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
+    if "half" not in names.known:
+        text = re.sub(r"\b(?:(?:one|a)[ -])?half\b(?:\s+of\b)?", "1/2", text)
     text = re.sub(r"(\w)\u20d7", r"\\vec{\1}", text)
     text = re.sub(r"\\(?:begin|end)\s*\{\w+\*?\}|\\[()\[\]]", " ", text)
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
@@ -157,6 +159,8 @@ def _products_of_vectors(text: str, names: Vocabulary) -> str:
     def written(found: re.Match[str]) -> str:
         one, two = (components(each) for each in found.groups() if each)
         pairs = [pair for pair in zip(one, two, strict=False) if "0" not in pair]
+        if not pairs and {each for each in found.groups() if each} & {"r", "v"} - {*names.known}:
+            raise UnclearText  # E·r, where E has no components
         return f"({' + '.join(map('*'.join, pairs))})" if pairs else found[0]
 
     return _LETTERS_OF_VECTORS.sub(written, text)
