@@ -327,7 +327,7 @@ def test_why_constraints_leave_no_equation(constraint, why):
     ("L", "said"),
     [
         ("x'^2/2 - x^2*cos(w*t)", "The sum of H and the derivative of … with respect to t is 0"),
-        ("x'^2/2 - x*cos(w*t)", "H is linear in the coordinates"),
+        ("x'^2/2 - x*cos(w*t)", " is linear in the coordinates"),
     ],
 )
 def test_the_equation_of_a_hamiltonian_of_the_time_is_stated(L, said):

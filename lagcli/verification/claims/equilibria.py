@@ -19,6 +19,7 @@ from lagcli.verification.claims.rest import (
     BITS,
     RestPlace,
     conditions,
+    may_lose_contact,
     named,
     not_confirmed,
     with_closed_contacts,
@@ -356,15 +357,10 @@ def _with_momenta(x: Examination, what: str, place: RestPlace, motion: SteadyMot
             x.refute(what, "the matrices are not those of the linear motion near it")
             return False
         swings = len(mass) == 1 and size(velocity[0]) < NOTHING * size(mass[0])
-        if known and not squares and (swings or not mass) and not _may_lose_contact(x):
+        if known and not squares and (swings or not mass) and not may_lose_contact(x):
             x.refute(what, "its frequency is left out")
             return False
     return True
-
-
-def _may_lose_contact(x: Examination) -> bool:
-    """Whether a contact may just touch: the motion near it is not linear then."""
-    return bool(x.problem.contacts) or any(c.holds_while for c in x.problem.constraints)
 
 
 def _matrices(motion: SteadyMotion) -> tuple[tuple[tuple[Expression, ...], ...], ...]:

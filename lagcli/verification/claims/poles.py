@@ -11,7 +11,7 @@ from flint import arb
 
 from lagcli.statements.motions import SteadyMotion
 from lagcli.verification.claims.near import NOTHING, LinearMotion
-from lagcli.verification.claims.rest import RestPlace, conditions, held_at
+from lagcli.verification.claims.rest import RestPlace, conditions, held_at, may_lose_contact
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, size, solve
 
@@ -44,6 +44,8 @@ def refuted_at_a_pole(x: Examination, what: str, motion: SteadyMotion) -> str:
         scale = 1 + max([size(pull), *(size(near.at(square)) for square in squares)])
         if size(pull) > 1e6:
             return "the equations of motion do not let it stay there"
+        if not squares and not may_lose_contact(x):
+            return "its frequency is left out"
         if any(size(near.at(square) - pull) > _AGREE * scale for square in squares):
             return f"its frequency has the square {float(pull):.6g} at a random state"
         if why := _misjudged(x, what, near, motion, float(pull)):

@@ -290,3 +290,8 @@ def named(at: Mapping[str, Expression], on: tuple[Expression, Expression] | None
     if on is not None:
         parts.append(" = ".join(map(to_grammar, on)))
     return ", ".join(parts) or "everywhere"
+
+
+def may_lose_contact(x: Examination) -> bool:
+    """Whether a contact may just touch: the motion near it is not linear then."""
+    return bool(x.problem.contacts) or any(c.holds_while for c in x.problem.constraints)
