@@ -219,7 +219,8 @@ def as_text(node: DocumentNode) -> str:
         return ""
     written = [(_attribute(key.label), source_of(value)) for key, value in entries]
     if len(entries) < 2:
-        return f"write {first[0].value}"
+        inner_ = entries_of(entries[0][1]) if entries else ""
+        return f"write {first[0].value}" + (f": {{{inner_}}}, without '-'" if inner_ else "")
     name, value = written[0]
     said = [f"{key}: {each}" for key, each in written[1:]]
     if name in {"name", "id"}:

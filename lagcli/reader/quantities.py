@@ -370,7 +370,7 @@ def _pairs(node: DocumentNode, section: str) -> str:
         numbers = [v for _, v in node.entries if isinstance(v, Scalar)]
         if len(numbers) == len(node.entries) and all(is_constant("x", v.value) for v in numbers):
             return entries_of(node)
-    elif isinstance(node, Sequence):
+    elif isinstance(node, Sequence) and not any(map(_has_attributes, node.items)):
         source = [item.text.source.text[item.start : item.end] for item in node.items]
         source = [re.sub(r"^\[(\w+),\s*([^,\]]+)\]$", r"\1: \2", text) for text in source]
         given = [re.fullmatch(r"(\w+)\s*[=:]\s*(\S.*?)\s*", text) for text in source]
@@ -384,6 +384,12 @@ def _pairs(node: DocumentNode, section: str) -> str:
     if not given or not all(given):
         return ""
     return ", ".join(f"{each[1]}: {each[2]}" for each in given if each)
+
+
+def _has_attributes(node: DocumentNode) -> bool:
+    """Whether an item is a name with attributes on lines of their own."""
+    inner = [value for _, value in node.entries] if isinstance(node, Mapping) else []
+    return any(isinstance(each, Mapping) and source_of(each)[:1] != "{" for each in inner)
 
 
 def _attributes(

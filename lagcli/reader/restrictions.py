@@ -26,6 +26,10 @@ _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RE
 _MOVED = re.compile(
     r"(\w+)\s*(?:->|→|↦|=>|=)\s*\1\s*([-+])\s*(?:eps(?:ilon)?|ε|s|delta|a|alpha)\b\s*\*?\s*([^,;]*)"
 )
+#: `x -> -x`, and words for it.
+_REFLECTED = re.compile(
+    r"(\w+)\s*(?:->|→|↦|=>|=)\s*[-−]\s*\1\s*$|^(?:mirror|parity|reflection|spiegelung)\b"
+)
 #: `eps*y`, a change with its small parameter, and `x - eps*y` behind x.
 _SCALED = re.compile(
     r"\s*(?P<sign>[-+]?)\s*(?P<parameter>eps(?:ilon)?|ε|s|delta|lambda|lam|alpha|a)"
@@ -247,6 +251,10 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
         if moved := _MOVED.findall(said):
             pairs = [f"{name}: {'-' * (sign == '-')}{change or 1}" for name, sign, change in moved]
             here = f"write {key.label}: {{{', '.join(pairs)}}}"
+        if isinstance(value, Scalar) and _REFLECTED.search(f"{key.label}: {value.value}"):
+            hint = "leave it out: conserved quantities belong to continuous symmetries"
+            file.error(f"{what} is a reflection", value.span, hint)
+            continue
         if scaled := _without_parameter(file, value):
             file.error(f"{what} contains its small parameter", value.span, f"write {scaled}")
             continue
@@ -275,6 +283,8 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
             if bare in {*coordinates, "t"}:
                 hint = f"write {bare}, whose change it is"
             known = f"known are {', '.join(coordinates)}, t and gauge"
+            whole = _usual_change(key.label, coordinates) if is_angle(name.label) else ""
+            known = f"write {key.label}: {whole}" if whole else known
             file.error(message, name.span, hint or known)
         time, gauge = changes.pop("t", None), changes.pop("gauge", None)
         is_said = len(file.diagnostics) > before or file.scope.refused

@@ -182,7 +182,7 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
             message = f"a {missing} is missing behind '{above['key'].split()[0]}'"
             return Diagnostic(message, text.span(start, end), colon_advice(lines[place]))
     span = text.span(offset, offset + 1)
-    if re.search(r"\S\s+\?\s+\S", lines[line - 1]):
+    if re.search(r"\S\s+\?\s+\S|:\s+if\s", lines[line - 1]):
         value = lines[line - 1].partition(":")[2].strip()
         whole = without_cases(value)
         return Diagnostic(

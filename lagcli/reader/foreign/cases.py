@@ -9,6 +9,7 @@ _RELATION = rf"(?P<left>{_SIDE})\s*(?P<sign>[<>≤≥])=?\s*(?P<right>{_SIDE})"
 _FORMS = (
     rf"(?P<then>.+?)\s+(?:if|when)\s+{_RELATION}\s+else\s+(?P<other>.+)",
     rf"\(?{_RELATION}\)?\s*\?\s*(?P<then>[^?]+?)\s*:\s*(?P<other>[^?]+)",
+    rf"if\s+{_RELATION}\s*:\s*(?P<then>.+?)\s*[;,]?\s*else\s*:\s*(?P<other>.+?)",
     rf"if\s+{_RELATION}\s+then\s+(?P<then>.+?)\s+else\s+(?P<other>.+?)",
     rf"(?:np\.where|where|if_else|ifelse|If|IF)[\[(]{_RELATION},(?P<then>[^,]+),(?P<other>[^,]+)[\])]",
     rf"Piecewise\[\{{\{{(?P<then>[^,]+),{_RELATION}\}},\s*(?:\{{(?P<other>[^,]+),[^,]+\}}\}}|(?P<_>)[^,]+)\]",
