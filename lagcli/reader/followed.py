@@ -39,6 +39,55 @@ def followed(source: Source, found: list[Diagnostic], read: Reading) -> list[Dia
     return [*(_followed(source, each, read) for each in found[:_MOST]), *found[_MOST:]]
 
 
+def hidden(
+    source: Source, found: list[Diagnostic], declaring: list[tuple[int, int]], read: Reading
+) -> list[Diagnostic]:
+    """The mistakes that show where the names of the file are declared as its hints say.
+
+    Parameters
+    ----------
+    source
+        The file.
+    found
+        Its mistakes.
+    declaring
+        The first and last lines of the sections that declare names.
+    read
+        The document of a text, and the mistakes in it.
+    """
+    text = SourceText.of(source)
+    edits = []
+    for each in found if len(source.text) <= _LONGEST else ():
+        line, end = each.span.line, each.span.end_line
+        proposed = _PROPOSED.fullmatch(each.hint)
+        if not each.is_error or not any(first <= line <= last for first, last in declaring):
+            continue
+        is_shape = " must be " in each.message  # another name is still used elsewhere
+        if proposed is None or not is_shape or ", or " in proposed[1] or line != end:
+            return []
+        edits.append((*text.offsets(each.span), proposed[1]))
+    changed, before = source.text, len(source.text) + 1
+    for start, stop, written in sorted(edits, reverse=True):
+        if stop > before:
+            return []
+        is_bare = written[:1] not in "[{" and ": " in written
+        changed = changed[:start] + (f"{{{written}}}" if is_bare else written) + changed[stop:]
+        before = start
+    if not edits:
+        return []
+    try:
+        _, mistakes = read(replace(source, text=changed))
+    except Mistake:
+        return []
+    known = {each.span.line for each in found if each.is_error}
+    wrong = [each for each in mistakes if each.is_error]
+    edited = {text.span(start, start).line for start, *_ in edits}
+    if any(each.span.line in edited for each in wrong):
+        return []
+    new = [each for each in wrong if each.span.line not in known]
+    return followed(replace(source, text=changed), new, read)
+
+
 def _followed(source: Source, mistake: Diagnostic, read: Reading) -> Diagnostic:
     proposed = _PROPOSED.fullmatch(mistake.hint)
     if proposed is None or ", or " in proposed[1] or mistake.span.line < 1:

@@ -56,6 +56,10 @@ if TYPE_CHECKING:
     from lagcli.expression import Expression
 
 
+#: The sections without whose names no formula is checked.
+_OF_NAMES = frozenset({"coordinates", "parameters", "functions", "definitions"})
+
+
 @record
 class ProblemReading:
     """What came of a file: the problem, unless a diagnostic is an error."""
@@ -119,9 +123,10 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
     """
     root, problem, mistakes = _composed(source, alone=alone)
     if alone and any(each.is_error for each in mistakes):
-        from lagcli.reader.followed import followed
+        from lagcli.reader.followed import followed, hidden
 
         mistakes = followed(source, mistakes, _document)
+        mistakes += hidden(source, mistakes, _declaring(root), _document)
     by_place = one_for_alike(sorted(mistakes, key=lambda each: each.span))
     declared = one_for_undeclared(by_place, _parameters(root))
     entries = root.entries if isinstance(root, Mapping) else []
@@ -158,6 +163,13 @@ def _document(source: Source) -> tuple[DocumentNode, list[Diagnostic]]:
     """The document of a text, and its mistakes by their place."""
     root, _, mistakes = _composed(source, alone=False)
     return root, sorted(mistakes, key=lambda each: each.span)
+
+
+def _declaring(root: DocumentNode) -> list[tuple[int, int]]:
+    """The first and last line of each section that declares names."""
+    entries = root.entries if isinstance(root, Mapping) else []
+    named = (value for key, value in entries if key_meant(key.label, KEYS) in _OF_NAMES)
+    return [(each.span.line, each.span.end_line) for each in named]
 
 
 def _parameters(root: DocumentNode) -> str:

@@ -277,6 +277,8 @@ def one_for_undeclared(
 
 def _declaration(parameters: str, names: list[str]) -> str:
     """The parameters with further names, or the lines to add; nothing for a long list."""
+    if re.fullmatch(r"\w+(?:\s*,\s*\w+)*", parameters):  # a list without its brackets
+        parameters = f"[{parameters}]"
     begin, inner = parameters[:1] or "[", parameters[1:-1].strip()
     listed = f"{begin}{inner}{', ' * bool(inner)}{', '.join(names)}{']' if begin == '[' else '}'}"
     if begin in {"[", "{"}:
