@@ -49,7 +49,7 @@ class HiddenNames:
     def of(self, functions: Sequence[tuple[Slot, Expr]], charge: NoetherCharge) -> tuple[str, Expr]:
         """The name, empty for none, and the factor that makes the charge the textbook's."""
         if any(self.t in f.free_symbols for _, f in functions):
-            return self._timed(functions), sympy.S.One
+            return self._timed(functions)
         if functions and all(not (f.free_symbols & set(self.q)) for _, f in functions):
             name, factor = self._constant_tensor(functions)
             if name:
@@ -106,31 +106,32 @@ class HiddenNames:
             self._constant_ratio(part, 1 / self._cartesian.radius) is not None
         )
 
-    def _timed(self, functions: Sequence[tuple[Slot, Expr]]) -> str:
-        """The dilation and the conformal integral of one separated coordinate."""
+    def _timed(self, functions: Sequence[tuple[Slot, Expr]]) -> tuple[str, Expr]:
+        """The dilation and the conformal integral of one separated coordinate, with p_x^2."""
         pairs = [(slot, f) for slot, f in functions if slot.kind[0] == "pair"]
         if len(pairs) != 1:
-            return ""
+            return "", sympy.S.One
         [(slot, f)] = pairs
-        x = self._along(slot)
+        x, factor = self._along(slot)
         if not x or f.free_symbols & set(self.q):
-            return ""
+            return "", sympy.S.One
         if f.has(sympy.sin) != f.has(sympy.cos):
-            return f"conformal_{x}_{'sin' if f.has(sympy.sin) else 'cos'}"
+            return f"conformal_{x}_{'sin' if f.has(sympy.sin) else 'cos'}", factor
         degree = sympy.degree(f, self.t) if f.is_polynomial(self.t) else 0
-        return {1: f"dilation_{x}", 2: f"conformal_{x}"}.get(degree, "")
+        return {1: f"dilation_{x}", 2: f"conformal_{x}"}.get(degree, ""), factor
 
-    def _along(self, slot: Slot) -> str:
-        """The Cartesian coordinate whose momentum the slot has squared; empty for none."""
+    def _along(self, slot: Slot) -> tuple[str, Expr]:
+        """The Cartesian x of the slot, empty where it is none, and the factor that leaves p_x^2."""
         square = dot(slot.vector, [dot(row, self.v) for row in self.mass])
         if self._cartesian is not None:
             rates = self._cartesian.moved(self.q, self.v)
             for name, rate in zip(self._cartesian.names, rates, strict=True):
-                if self._constant_ratio(square, rate**2) is not None:
-                    return name
+                ratio = self._constant_ratio(square, rate**2)
+                if ratio is not None:
+                    return name, self._cartesian.mass**2 / ratio
         own = [x for x, part in zip(self.q, slot.vector, strict=True) if part != 0]
         alone = slot.kind[1] == slot.kind[2] and len(own) == 1
-        return own[0].name if alone and free_of(square, self.q) else ""
+        return own[0].name if alone and free_of(square, self.q) else "", sympy.S.One
 
     def _constant_tensor(self, functions: Sequence[tuple[Slot, Expr]]) -> tuple[str, Expr]:
         nothing = ("", sympy.S.One)
