@@ -444,3 +444,27 @@ def test_powers_in_the_inertia_are_dilated_and_turn_where_they_are_equal(sign):
     cases = {(str(c.parameter), str(c.value)): c.charges for c in derivation.special_cases}
     assert set(cases) == {("p", "0"), ("q", "0"), ("q", "p")}
     assert [c.name for c in cases["q", "p"]] == ["L_z"]
+
+
+CHARTS_OF_SPACE = {
+    "[x, y, z]": ("x'^2 + y'^2 + z'^2", "sqrt(x^2 + y^2 + z^2)"),
+    f"{{r: {POS}, phi: {{}}, z: {{}}}}": ("r'^2 + r^2*phi'^2 + z'^2", "sqrt(r^2 + z^2)"),
+    f"{{r: {POS}, theta: {{}}, phi: {{}}}}": (
+        "r'^2 + r^2*(theta'^2 + sin(theta)^2*phi'^2)",
+        "r",
+    ),
+    f"{{u: {POS}, v: {POS}, phi: {{}}}}": (
+        "(u^2 + v^2)*(u'^2 + v'^2) + u^2*v^2*phi'^2",
+        "(u^2 + v^2)",
+    ),
+}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("coordinates", CHARTS_OF_SPACE)
+def test_bertrands_exponents_are_found_in_any_coordinates(coordinates):
+    rates, r = CHARTS_OF_SPACE[coordinates]
+    given = f"{{m: {POS}, k: {POS}, n: {{assume: nonzero}}}}"
+    text = f"coordinates: {coordinates}\nparameters: {given}\nL: m*({rates})/2 - k*{r}^n/n\n"
+    cases = {str(c.value): c.number for c in derive(text).special_cases}
+    assert cases == {"-2": 6, "-1": 7, "2": 17}

@@ -43,13 +43,7 @@ class TimeFunctions:
     exponents: tuple[Exponent, ...]
     forced: tuple[Expr, ...] = ()
     changing: bool = False  # with the solutions of a linear equation whose coefficients change
-    pushed: bool = False  # by forces without q and q', which translations alone take up
     unsolved: bool = False  # no formula is known for solutions of such an equation
-
-    @property
-    def alone(self) -> bool:
-        """Whether translations have functions of time that no other generator has."""
-        return self.pushed or self.changing or any(e.repeated for e in self.exponents)
 
 
 def time_functions(
@@ -84,7 +78,6 @@ def time_functions(
         tuple(found),
         tuple(f for f in forced if f != t),
         bool(changing),
-        bool(forced),
         not solved,
     )
 

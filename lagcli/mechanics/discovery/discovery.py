@@ -172,9 +172,7 @@ class Discovery(Setting):
         """The linear system for the point symmetries, and what its ansatz is in words."""
         equations, isometries = self.equations, self.isometries
         times = self.time_functions
-        if isometries is not None and (
-            isometries.beyond(kinds) or (isometries.flat and times.alone)
-        ):
+        if isometries is not None and (isometries.flat or isometries.beyond(kinds)):
             if isometries.flat:
                 self.cartesian = tuple(isometries.functions)
                 self.cartesian_lead = isometries.what_they_are
@@ -258,15 +256,14 @@ class Discovery(Setting):
                 self.stopped.append("there are too many coordinates for the second degree")
                 return
             self._keep(integrals.found(self.charges))
-        flat = self.isometries if self.isometries and self.isometries.flat else None
         in_lengths = not (self.isometries or self.coordinate_kinds.angles)
-        if (flat or in_lengths) and TimedIntegrals.apply(self.equations, self.point_charges):
+        if (self.flat or in_lengths) and TimedIntegrals.apply(self.equations, self.point_charges):
             timed = TimedIntegrals(
                 self.noether,
                 self.equations,
                 self.centred_kinds,
                 self.time_functions,
-                flat,
+                self.flat,
                 self.allowed,
             )
             if timed.functions:

@@ -22,7 +22,13 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import Field, dot, is_zero, simplify
 from lagcli.algebra.build import free_of
-from lagcli.mechanics.discovery.ansatz import ordered, quadratic, quadratic_unknowns
+from lagcli.mechanics.discovery.ansatz import (
+    ordered,
+    quadratic,
+    quadratic_unknowns,
+    up_to_second_degree,
+)
+from lagcli.mechanics.discovery.isometries import Isometries
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import independent
@@ -34,6 +40,7 @@ from lagcli.mechanics.discovery.slots import (
     Slot,
     SlotEquations,
     combined,
+    linear_slots,
     point_slots,
     quadratic_slots,
 )
@@ -49,26 +56,40 @@ Vector = tuple[Expr, ...]
 
 
 class QuadraticIntegrals:
-    """The integrals of second degree of equations M(q) q'' = forcing without time in them."""
+    """The integrals of second degree of equations M(q) q'' = forcing without time in them.
+
+    K^ab and f^a are components along grad X_a of a T that is `flat`, else along the coordinates.
+    """
 
     def __init__(
-        self, noether: Noether, equations: SlotEquations, kinds: Kinds, allowed: Allowance
+        self,
+        noether: Noether,
+        equations: SlotEquations,
+        kinds: Kinds,
+        allowed: Allowance,
+        flat: Isometries | None = None,
     ) -> None:
         self.noether = noether
         self.equations = equations
         self.allowed = allowed
         self.constants = frozenset(noether.system.parameters)
         n = len(equations.q)
-        self.pairs = quadratic_slots(equations)
-        self.linear = point_slots(equations)[1:] if is_gyroscopic(equations) else []
+        self.flat = flat
+        self.X = equations.q if flat is None else flat.functions
+        self.pairs = quadratic_slots(equations, flat.translations if flat else ())
+        self.shifts = linear_slots(flat.translations) if flat else point_slots(equations)[1:]
+        self.linear = self.shifts if is_gyroscopic(equations) else []
         slots = len(self.pairs) + len(self.linear)
         self.times: tuple[Expr, ...] = (sympy.S.One,)
-        self.X: Sequence[Expr] = equations.q
         self._still = dict.fromkeys(equations.v, sympy.S.Zero)
-        self.functions = quadratic(kinds, MOST_UNKNOWNS // slots)
+        self.functions = self.spaces(kinds, MOST_UNKNOWNS // slots)
         if not self.functions and n * (n + 1) // 2 <= MOST_UNKNOWNS:
             self.functions = [sympy.S.One]
         self.of_field = _of_field(equations) if self.linear else []
+
+    def spaces(self, kinds: Kinds, most: int) -> list[Expr]:
+        """A bounded number of functions of the coordinates."""
+        return quadratic(kinds, most) if self.flat is None else up_to_second_degree(self.X, most)
 
     def found(self, known: Sequence[NoetherCharge]) -> list[tuple[Slots, NoetherCharge]]:
         """The integrals that are no combinations of products of the known ones."""

@@ -176,6 +176,11 @@ class Setting:
         found = Isometries(self.equations, rest, self.allowed)
         return found if found.functions else None
 
+    @property
+    def flat(self) -> Isometries | None:
+        """Those of a flat kinetic energy that depends on the coordinates."""
+        return self.isometries if self.isometries is not None and self.isometries.flat else None
+
     @cached_property
     def spacetime(self) -> Isometries | None:
         """Those of g where L is the length sqrt(g) of the path (t, q), whatever its parameter.

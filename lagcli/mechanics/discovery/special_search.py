@@ -242,14 +242,15 @@ def _searches(discovery: Discovery, allowed: Allowance) -> Iterator[Search | Non
     None for one with too many unknowns.
     """
     equations, found = discovery.equations, discovery.coordinate_kinds
-    t = equations.t
+    t, isometries = equations.t, discovery.isometries
     slots = point_slots(equations)
     for powers in ((sympy.S.One, t, t**2), (sympy.S.One,)):
+        times = TimeFunctions(powers, powers, ())
+        if isometries is not None:
+            yield isometries.search(times, allowed)
+            break
         unknowns = point_unknowns(
-            slots,
-            TimeFunctions(powers, powers, ()),
-            affine(found),
-            time_with_space=not discovery.quadratic_mass,
+            slots, times, affine(found), time_with_space=not discovery.quadratic_mass
         )
         few = len(unknowns) <= _MOST_UNKNOWNS
         yield Search(equations, slots, unknowns, allowed) if few else None
@@ -257,8 +258,9 @@ def _searches(discovery: Discovery, allowed: Allowance) -> Iterator[Search | Non
             break
     if len(equations.q) < 2 or not discovery.quadratic_mass or not discovery.canonical:
         return
-    centred = discovery.centred_kinds
-    integrals = QuadraticIntegrals(discovery.noether, equations, centred, allowed)
+    integrals = QuadraticIntegrals(
+        discovery.noether, equations, discovery.centred_kinds, allowed, discovery.flat
+    )
     size = len(integrals.functions) * (len(integrals.pairs) + len(integrals.linear))
     if size and t not in discovery.equations_symbols:
         yield integrals.search(()) if size <= _MOST_UNKNOWNS else None

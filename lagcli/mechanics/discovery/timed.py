@@ -19,19 +19,14 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, simplify
-from lagcli.mechanics.discovery.ansatz import TimeFunctions, quadratic, up_to_second_degree
+from lagcli.mechanics.discovery.ansatz import TimeFunctions
 from lagcli.mechanics.discovery.boundary import gauge_of
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots
 from lagcli.mechanics.discovery.isometries import Isometries
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.relation import with_gradient
-from lagcli.mechanics.discovery.slots import (
-    SlotEquations,
-    linear_slots,
-    point_slots,
-    quadratic_slots,
-)
+from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.noether import Noether, NoetherCharge
 
 _MOST_UNKNOWNS = 900
@@ -41,10 +36,7 @@ _WAVES = (sympy.sin, sympy.cos, sympy.exp)
 
 
 class TimedIntegrals(QuadraticIntegrals):
-    """Those of equations M(q) q'' = forcing(t, q, q').
-
-    K^ab and f^a are components along grad X_a where T is flat; else the q are lengths.
-    """
+    """Those of equations M(q) q'' = forcing(t, q, q'), of a flat T or in lengths."""
 
     def __init__(
         self,
@@ -55,19 +47,11 @@ class TimedIntegrals(QuadraticIntegrals):
         flat: Isometries | None,
         allowed: Allowance,
     ) -> None:
-        super().__init__(noether, equations, kinds, allowed)
+        super().__init__(noether, equations, kinds, allowed, flat)
         self.times = times.others
-        if flat is None:
-            self.linear = point_slots(equations)[1:]
-        else:
-            self.X = flat.functions
-            self.pairs = quadratic_slots(equations, flat.translations)
-            self.linear = linear_slots(flat.translations)
+        self.linear = self.shifts
         slots = len(self.pairs) + len(self.linear)
-        most = _MOST_UNKNOWNS // (slots * len(self.times))
-        self.functions = (
-            quadratic(kinds, most) if flat is None else up_to_second_degree(self.X, most)
-        )
+        self.functions = self.spaces(kinds, _MOST_UNKNOWNS // (slots * len(self.times)))
 
     @staticmethod
     def apply(equations: SlotEquations, known: Sequence[NoetherCharge]) -> bool:
