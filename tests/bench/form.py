@@ -80,8 +80,8 @@ def nested_fractions(node: Expression) -> Iterator[Expression]:
         if isinstance(part, Quotient):
             above, below = part.numerator, part.denominator
             holds_sum = any(isinstance(p, Sum) for p in outside_functions(below))
-            if _has_fraction(below):
-                yield below
+            if _has_fraction(below):  # of 2 (1 − 2 M/r) the bracket may be the file's
+                yield from filter(_has_fraction, _factors(below))
             elif holds_sum:
                 yield from (f for f in _factors(above) if isinstance(f, Sum) and _has_fraction(f))
 
