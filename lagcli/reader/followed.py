@@ -39,10 +39,10 @@ def followed(source: Source, found: list[Diagnostic], read: Reading) -> list[Dia
     return [*(_followed(source, each, read) for each in found[:_MOST]), *found[_MOST:]]
 
 
-def hidden(
+def with_hidden(
     source: Source, found: list[Diagnostic], declaring: list[tuple[int, int]], read: Reading
 ) -> list[Diagnostic]:
-    """The mistakes that show where the names of the file are declared as its hints say.
+    """The mistakes, the rest of them as in a file that declares its names as the hints say.
 
     Parameters
     ----------
@@ -64,28 +64,27 @@ def hidden(
             continue
         is_shape = " must be " in each.message  # another name is still used elsewhere
         if proposed is None or not is_shape or ", or " in proposed[1] or line != end:
-            return []
+            return found
         edits.append((*text.offsets(each.span), proposed[1]))
     changed, before = source.text, len(source.text) + 1
     for start, stop, written in sorted(edits, reverse=True):
         if stop > before:
-            return []
+            return found
         is_bare = written[:1] not in "[{" and ": " in written
         changed = changed[:start] + (f"{{{written}}}" if is_bare else written) + changed[stop:]
         before = start
     if not edits:
-        return []
+        return found
     try:
         _, mistakes = read(replace(source, text=changed))
     except Mistake:
-        return []
-    known = {each.span.line for each in found if each.is_error}
+        return found
     wrong = [each for each in mistakes if each.is_error]
     edited = {text.span(start, start).line for start, *_ in edits}
     if any(each.span.line in edited for each in wrong):
-        return []
-    new = [each for each in wrong if each.span.line not in known]
-    return followed(replace(source, text=changed), new, read)
+        return found
+    kept = [each for each in found if each.span.line in edited]
+    return [*kept, *followed(replace(source, text=changed), wrong, read)]
 
 
 def _followed(source: Source, mistake: Diagnostic, read: Reading) -> Diagnostic:

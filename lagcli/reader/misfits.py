@@ -112,6 +112,8 @@ def _with_term(
 
     A unit that the quantity has in most books comes before another term, any other one after.
     """
+    if mistake.hint.startswith(("write ", "give ")):  # of units that do not go together
+        return mistake
     begin, stop = text.offsets(mistake.span)
     written = text.source.text
     fitting = ""

@@ -123,10 +123,10 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
     """
     root, problem, mistakes = _composed(source, alone=alone)
     if alone and any(each.is_error for each in mistakes):
-        from lagcli.reader.followed import followed, hidden
+        from lagcli.reader.followed import followed, with_hidden
 
         mistakes = followed(source, mistakes, _document)
-        mistakes += hidden(source, mistakes, _declaring(root), _document)
+        mistakes = with_hidden(source, mistakes, _declaring(root), _document)
     by_place = one_for_alike(sorted(mistakes, key=lambda each: each.span))
     declared = one_for_undeclared(by_place, _parameters(root))
     entries = root.entries if isinstance(root, Mapping) else []
