@@ -357,7 +357,9 @@ def _with_momenta(x: Examination, what: str, place: RestPlace, motion: SteadyMot
             x.refute(what, "the matrices are not those of the linear motion near it")
             return False
         swings = len(mass) == 1 and size(velocity[0]) < NOTHING * size(mass[0])
-        if known and not squares and (swings or not mass) and not may_lose_contact(x):
+        shape = {*names} - {*(motion.rates or ())}
+        missing = shape and not squares and (swings or not mass)
+        if known and missing and not may_lose_contact(x):
             x.refute(what, "its frequency is left out")
             return False
     return True
