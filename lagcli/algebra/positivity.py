@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 import sympy
-from sympy import Expr, S
+from sympy import Expr, Integer, S
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.factors import factors_of
@@ -44,7 +44,7 @@ def deciding(expression: Expr, positive: Sequence[Expr] = ()) -> Expr:
         elif even:
             nonzero |= {_without_logarithms(factor): None} if power > 0 else {}
         else:
-            odd.append(_without_logarithms(factor))
+            odd.append(factor.args[0] if factor.func is sympy.sign else _without_logarithms(factor))
     for factor in tuple(odd):  # 1 + cos(x) beside sin(x), which is not 0 either
         known = sign_of_circle(factor)
         turned = factor.as_independent(sympy.cos, sympy.sin)[1]
@@ -156,11 +156,16 @@ def _by_factors(
 
 
 def without_moduli(expression: Expr, positive: Sequence[Expr]) -> Expr:
-    """The expression with x or -x for |x| where x has one sign beside 0."""
+    """The expression with x or -x for |x| where x has one sign beside 0, and its sign put in."""
     put_in = {
         modulus: known * modulus.args[0]
         for modulus in expression.atoms(sympy.Abs)
         if (known := weak_sign(modulus.args[0], positive)) is not None
+    }
+    put_in |= {
+        jump: Integer(known)
+        for jump in expression.atoms(sympy.sign)
+        if (known := sign_of(jump.args[0], positive)) is not None
     }
     return simplify(expression.xreplace(put_in)) if put_in else expression
 

@@ -19,6 +19,7 @@ from lagcli.mechanics.oscillations.small_oscillations import (
 )
 from lagcli.mechanics.reduction.statement import reduction
 from lagcli.mechanics.rest.equilibria import _finite_where
+from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.pipeline import Request, explain, state
 from tests.marks import mostly_long
 
@@ -1063,3 +1064,18 @@ def test_a_function_that_is_not_specified_is_named_before_its_kink(V):
     reason = equilibria(derive(text).dynamics).reason
     assert reason.startswith("the function")
     assert reason.endswith("not specified")
+
+
+def test_an_orbit_on_a_kink_may_be_one_more_steady_motion():
+    """V = k |r - a|: circles with r > a have omega^2 = 3 k/(m r), and that on r = a is left open."""
+    section = steady_motions(
+        derive(
+            "coordinates: {r: {assume: positive}, phi: {}}\n"
+            "parameters: {m: {assume: positive}, k: {assume: positive}, a: {assume: positive}}\n"
+            "T: m*(r'^2 + r^2*phi'^2)/2\nV: k*abs(r - a)\n"
+        )
+    )[0]
+    [motion] = section.motions or ()
+    [square] = motion.frequencies_squared
+    assert to_grammar(square) == "3*k/(m*r)"
+    assert not section.complete

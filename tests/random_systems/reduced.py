@@ -73,6 +73,7 @@ def steady_motions(judge, printed):
         for name in motion.coordinates:
             names[name] = mpf(motion.rng.randint(200, 1500)) / 777
             names[f"p_{name}"] = mpf(motion.rng.randint(200, 1500)) / 777
+            names[f"{name}'"] = mpf(motion.rng.randint(200, 1500)) / 777
         if "on" in each or each["rates"] is None:
             continue
         try:

@@ -154,7 +154,7 @@ def _conditions(judge, each, linear_, s, q, where, decided):
         holds = _all_above(judge, each[name], names)
         if (holds and certainly_not) or (not holds and certainly and name != "minimum"):
             judge.say("wrong", "equilibria", f"{where}, {name} {each[name]} is {holds}")
-    grows = any(_all_above(judge, [text], names) for text in each.get("unstable", ()))
+    grows = any(_all_above(judge, text.split(" and "), names) for text in each.get("unstable", ()))
     if grows and all(mp.re(x) < -CLEAR for x in s):
         judge.say("wrong", "equilibria", f"{where}, unstable where {each['unstable']}")
     if decided and not grows and not any(name in each for name in tests):

@@ -124,8 +124,9 @@ class _SteadyStatement:
                     self.steady.full.parameters,
                     self._shape,
                 ),
-                # those along a closed contact are not sought
-                complete=steady.complete and not (found and steady.full.problem.contacts),
+                # those along a closed contact, and on a kink of V, are not sought
+                complete=steady.complete
+                and not (found and (steady.full.problem.contacts or self._is_kinked)),
                 singular_where=()
                 if steady.complete
                 else tuple(map(self._shape, CoincidingAxes(self.routh).singular_where)),
@@ -139,6 +140,12 @@ class _SteadyStatement:
             ),
             [],
         )
+
+    @property
+    def _is_kinked(self) -> bool:
+        """Whether a force jumps where coordinates that do not turn have some value."""
+        jumps = {u for f in self.steady.rest.forces_at_rest for u in f.atoms(sympy.sign)}
+        return any(not free_of(u.args[0], self.steady.system.q) for u in jumps)
 
     @property
     def _frames(self) -> tuple[dict[str, Expression], ...]:
