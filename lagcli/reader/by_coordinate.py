@@ -9,19 +9,20 @@ from lagcli.reader.foreign.vector_products import along_z, vector_product
 from lagcli.reader.foreign.words import Vocabulary, rate_meant
 from lagcli.reader.misshapen import as_list, behind_words, is_sentence, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.regex import regex
 
 if TYPE_CHECKING:
     from lagcli.reader.scope import Scope
 
 #: `x' = 0` and `x(0): 1`, several of them.
-_GIVEN = re.compile(
+_GIVEN = regex(
     r"([^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]>|[=:→])\s*([^,;=:→]+?)"
     r"(?=\s*(?:$|[,;]|[^\W\d]\w*'*(?:\(0\))?\s*(?:[-=]>|[=:→])))"
 )
 #: `x 1, x' 0`.
-_SIDE_BY_SIDE = re.compile(r"(?:^|[,;])\s*([^\W\d]\w*'*)\s+([-+]?[\d.]+)\s*(?=$|[,;])")
+_SIDE_BY_SIDE = regex(r"(?:^|[,;])\s*([^\W\d]\w*'*)\s+([-+]?[\d.]+)\s*(?=$|[,;])")
 #: A state that is 0.
-_AT_REST = re.compile(
+_AT_REST = regex(
     r"^(?:\w+\.)?zeros\b|\b(?:rest|equilibrium|standard|default|Ruhe|repos)\b", re.IGNORECASE
 )
 

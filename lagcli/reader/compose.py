@@ -17,14 +17,15 @@ from lagcli.reader.flow import mend_commas
 from lagcli.reader.headings import SECTIONS
 from lagcli.reader.limits import EXPANDED_SIZE, YAML_LEVELS
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
 
 #: An entry of a map in braces that YAML reads as a key: `t; 1`, `mass= m`, `t :1`, `x 1`, `y x`.
-_WITHOUT_COLON = re.compile(
+_WITHOUT_COLON = regex(
     r"(?P<key>[^\W\d]\w*'*)(?:\s*[;=](?!>)\s*|\s*:(?=\S)|\s+(?=[.\d])|\s+(?=[-\w.+*/^'()]+$))"
     r"(?P<value>[^:;]+)"
 )
-_ATTRIBUTE = re.compile(r"(?P<key>\w+)\s+(?:=\s*)?(?P<value>[^=:;\s][^:;]*)")
+_ATTRIBUTE = regex(r"(?P<key>\w+)\s+(?:=\s*)?(?P<value>[^=:;\s][^:;]*)")
 _PROSE = frozenset({"title", "source", "description", "symbol"})
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 

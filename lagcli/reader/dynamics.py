@@ -16,6 +16,7 @@ from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.misshapen import as_list, source_of
 from lagcli.reader.names import depends_on_time, derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.regex import regex
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Growth, Role
 from lagcli.reader.suggest import did_you_mean
 
@@ -26,12 +27,12 @@ if TYPE_CHECKING:
 
 _CARTESIAN = "write [x, y], in polar coordinates [r*cos(phi), r*sin(phi)]"
 #: A unit vector of polar coordinates.
-_POLAR = re.compile(
+_POLAR = regex(
     r"(?<!\w)(?:e_?|\\hat\s*\{?\\?|\\vec\s*\{?e\}?_\{?\\?)(?:r|rho|phi|varphi|theta|[ρφϕθ])(?!\w)\}?"
     r"|[rρφϕθ]\u0302|(?<!\w)(?:r|rho|phi|theta)_?hat(?!\w)"
 )
 #: `-grad(V)`, a force with a potential.
-_GRADIENT = re.compile(
+_GRADIENT = regex(
     r"\s*-\s*(?:grad|gradient|nabla|∇|\\nabla)\s*(?:\((?P<whole>.*)\)|\s+(?P<name>\w+)|(?<=∇)\w+)\s*"
 )
 _POINT_ATTRIBUTES = ("position", "mass", "force")

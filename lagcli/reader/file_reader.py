@@ -35,6 +35,7 @@ from lagcli.reader.misshapen import (
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import unit_in_formula
+from lagcli.reader.regex import regex
 from lagcli.reader.scope import INITIAL, VALUES, Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import closest
 from lagcli.reader.text import Mistake
@@ -57,12 +58,10 @@ _NUMERIC = (VALUES, INITIAL)
 YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
 _WORDS = frozenset({"none", "null", *YES_OR_NO, *habits()["nothing"]})
 _FREQUENCIES = "write [sqrt(g/l)]"
-_RELATION = re.compile("[=<>≤≥]")
+_RELATION = regex("[=<>≤≥]")
 _OF_RELATIONS = frozenset({"holds_while", "where", "always", "reaches"})
 #: An entry of a map that has no colon, and the sections in which it is no equation.
-_ASSIGNED = re.compile(
-    r"(?P<key>[^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]?>|:?=|→)\s*(?P<value>[^=<>]+?)\s*"
-)
+_ASSIGNED = regex(r"(?P<key>[^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]?>|:?=|→)\s*(?P<value>[^=<>]+?)\s*")
 _ASSIGNABLE = frozenset({"initial", "forces", "definitions", "simulation"})
 _NO_EQUATION = Equation(ZERO, ZERO)
 

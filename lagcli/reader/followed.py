@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 
 from lagcli.diagnostics import Diagnostic, Source
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
 from lagcli.reader.undeclared import COORDINATE, UNDECLARED
 from lagcli.record import replace
@@ -17,7 +18,7 @@ from lagcli.record import replace
 #: Longer files are not tried, nor more mistakes of a file, nor more mistakes inside of a hint.
 _LONGEST, _MOST, _DEEPEST = 20_000, 8, 4
 #: The text that a hint proposes.
-_PROPOSED = re.compile(r"(?:.*: )?(?:write|did you mean) (\S.*?)\??")
+_PROPOSED = regex(r"(?:.*: )?(?:write|did you mean) (\S.*?)\??")
 
 Reading = Callable[[Source], tuple[DocumentNode, list[Diagnostic]]]
 

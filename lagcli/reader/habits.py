@@ -13,6 +13,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from lagcli.reader.regex import regex
+
 #: The keys of a problem.
 KEYS = (
     "title", "source", "description", "coordinates", "parameters", "functions", "definitions",
@@ -35,15 +37,15 @@ COMMENT = "a comment begins with '#'"
 PROGRAM = "a problem has keys with their values, as in coordinates: [x], and no program"
 CASES = frozenset("if for when where else otherwise piecewise Piecewise".split())
 #: At least three words with one that is no quantity, at the end of a formula.
-REMARK = re.compile(
+REMARK = regex(
     r"[-+*/^)\d'’]\s+(?=.*\b(?:of|the|for|in|with|is|energy|force|der|die|das|des|von|und|de|la|le|du|et)\b)"
     r"(?:[-–—:]\s+)?[^\W\d]{2,}(?:\s+[^\W\d]+){2,}\.?\s*$"
     r"|(?<=[\w)'’])\s+in\s+[\[(]?[^\W\d][^\s()]*[\])]?\s*$"
 )
 CASE = "(1 + sign(x))/2 is 1 for x > 0, else 0"
-_NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
+_NUMBER = regex(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
 #: A number with a unit behind it, as in `10 kg` and `9.81 m/s^2`.
-_WITH_UNIT = re.compile(
+_WITH_UNIT = regex(
     r"[-+]?[\d.]+(?:[eE][-+]?\d+|/\d+)?\s*(?:[,;]\s+)?"
     r"(?P<unit>(?:[kmcµu]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa)|rad|deg|rpm|min|h|mol)(?:[ \^*/].*)?)"
 )

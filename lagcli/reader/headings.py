@@ -9,12 +9,13 @@ from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.reader.habits import unit_behind
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.regex import regex
 
 #: Longer maps are not repeated in a hint.
 _LONGEST = 120
 #: Words for velocities and for places.
-RATE = re.compile(r"veloc|speed|rate|dot|geschw|vitesse|prędk|скорост|^v$", re.IGNORECASE)
-PLACE = re.compile(
+RATE = regex(r"veloc|speed|rate|dot|geschw|vitesse|prędk|скорост|^v$", re.IGNORECASE)
+PLACE = regex(
     r"(?:initial_?|start_?|anfangs|init_?)?(?:pos|posi[cçtz]|place|displ|angle|angul|ángul|winkel|auslenk|ort$|lage$|полож|угол)",
     re.IGNORECASE,
 )

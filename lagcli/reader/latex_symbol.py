@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import re
 
+from lagcli.reader.regex import regex
+
 _LETTERS = """alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa
 lambda mu nu xi pi varpi rho varrho sigma varsigma tau upsilon phi varphi chi psi omega
 Gamma Delta Theta Lambda Xi Pi Sigma Upsilon Phi Psi Omega
@@ -22,7 +24,7 @@ left right quad"""
 _MACROS = frozenset((_LETTERS + " " + _ACCENTS).split()) - {"left", "right", "quad"}
 
 #: A macro, a space macro, or one harmless character.
-_TOKEN = re.compile(r"\\([A-Za-z]+)|\\[,;: ]|[A-Za-z0-9_^{}' ,.+\-*/()=]|[^\W\d_]")
+_TOKEN = regex(r"\\([A-Za-z]+)|\\[,;: ]|[A-Za-z0-9_^{}' ,.+\-*/()=]|[^\W\d_]")
 
 
 def symbol_mistake(symbol: str) -> str:

@@ -15,21 +15,20 @@ from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic, Source, Span
 from lagcli.reader.habits import KEYS, SIGNS, colon_advice, habits
+from lagcli.reader.regex import regex
 
 #: Longer files are not tried, nor more lines of a file.
 _LONGEST, _MOST = 20_000, 8
 #: Of the lines in one hint.
 _SHOWN = 5
 #: A key with its value.
-_ENTRY = re.compile(r"(?P<key>\s*(?:- )?[^\W\d][\w ']*:\s+)(?P<value>\S.*)")
+_ENTRY = regex(r"(?P<key>\s*(?:- )?[^\W\d][\w ']*:\s+)(?P<value>\S.*)")
 #: What other languages put before a formula: `@(x)`, `lambda x:`, and marks that YAML keeps.
-_BEFORE = re.compile(r"^(?:@\([\w, ]*\)|lambda\b[\w, ]*:|[`@%&!*>=]+(?=[\w( ]))\s*")
+_BEFORE = regex(r"^(?:@\([\w, ]*\)|lambda\b[\w, ]*:|[`@%&!*>=]+(?=[\w( ]))\s*")
 #: A formula that begins with a group in brackets or quotes.
-_GROUP = re.compile(
-    r"(?:\[([^\]]*)\]|\{([^}:]*)\}|\"([^\"]*)\"|'([^']*)')(?P<rest>\s*[-+*/^(\w].*)"
-)
+_GROUP = regex(r"(?:\[([^\]]*)\]|\{([^}:]*)\}|\"([^\"]*)\"|'([^']*)')(?P<rest>\s*[-+*/^(\w].*)")
 #: The formula in a hint.
-_PROPOSED = re.compile(r"(?:write|did you mean) (.*?)\??")
+_PROPOSED = regex(r"(?:write|did you mean) (.*?)\??")
 #: Keys with a text that is no formula.
 _TEXTS = frozenset({"title", "source", "description"})
 _PAIRS = {"[": "]", "{": "}", '"': '"', "'": "'"}

@@ -9,9 +9,10 @@ from lagcli.diagnostics import Diagnostic
 from lagcli.reader.habits import KEYS, MAPS, key_meant
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.regex import regex
 
 _ENERGIES = frozenset("TVLH")
-_RELATION = re.compile("[=<>]")
+_RELATION = regex("[=<>]")
 #: Sections whose entries are called by names of the user's, never by these keys.
 _SECTIONS = frozenset(
     "coordinates parameters points constraints contacts forces symmetries initial find".split()

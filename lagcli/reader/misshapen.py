@@ -20,6 +20,7 @@ from lagcli.reader.habits import (
 )
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import unit_mistake
+from lagcli.reader.regex import regex
 from lagcli.reader.suggest import closest
 
 #: What is found without a question.
@@ -34,13 +35,13 @@ WITHOUT_HYPHENS = "leave out the '-' before each key"
 
 
 #: At least two words.
-_WORDS = re.compile(r"[^\W\d_]+(?:[ ,]+[^\W\d_]+)+[.,: ]*")
+_WORDS = regex(r"[^\W\d_]+(?:[ ,]+[^\W\d_]+)+[.,: ]*")
 #: Words of relations: y is 0, N is positive.
 _OF_RELATIONS = frozenset(
     "is equals equal to positive nonnegative greater larger less than".split()
 )
 #: Words before a formula: the force of `a harmonic force F0*cos(w*t)`.
-_BEFORE_FORMULA = re.compile(r"\s*((?:[^\W\d_]+[ ,:]+)+)(?=[\w.]+'*\s*[*/^(])")
+_BEFORE_FORMULA = regex(r"\s*((?:[^\W\d_]+[ ,:]+)+)(?=[\w.]+'*\s*[*/^(])")
 
 
 def is_sentence(text: str, known: Container[str]) -> bool:

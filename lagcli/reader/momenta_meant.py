@@ -11,13 +11,14 @@ from lagcli.diagnostics import Source
 from lagcli.expression import Expression, Name, Number, Power, Product, Quotient, Sum, walk
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.positions import Excerpt
+from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
 
 #: Factors above and below of the square of a velocity.
 _Factors = tuple[list[str], list[str]]
 #: `p_r^2/(2*m)`, a kinetic energy by a momentum.
-_SQUARE = re.compile(r"p_(?P<name>\w+)\^2/\(?(?P<below>(?:\w+(?:\^\d)?\*)*\w+(?:\^\d)?)\)?")
-_HALF = re.compile(r"0\.5|\(\w+/2\)")
+_SQUARE = regex(r"p_(?P<name>\w+)\^2/\(?(?P<below>(?:\w+(?:\^\d)?\*)*\w+(?:\^\d)?)\)?")
+_HALF = regex(r"0\.5|\(\w+/2\)")
 
 
 def with_momenta(text: str, kinetic: Expression, source: SourceText) -> str:

@@ -7,14 +7,15 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from lagcli.reader.habits import number_and_unit, unit_at_end, unit_behind
+from lagcli.reader.regex import regex
 
 if TYPE_CHECKING:
     from collections.abc import Container
 
-_COUNT = re.compile(r"([\d.]+(?:[eE][-+]?\d+)?)\s*(?![eE]\d+$)([^\W\d]\w*)")
-_ANGLE = re.compile("deg(/.*|)|rpm")
+_COUNT = regex(r"([\d.]+(?:[eE][-+]?\d+)?)\s*(?![eE]\d+$)([^\W\d]\w*)")
+_ANGLE = regex("deg(/.*|)|rpm")
 #: A quantity within a formula: the 9.81 m/s² of `m*9.81 m/s²*x`.
-_UNIT_WITHIN = re.compile(
+_UNIT_WITHIN = regex(
     r"([\d.]+)\s+([A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+|kg|[cmk]m|k?Hz|k?N|k?J|k?W|k?Pa)(?![\w(])"
 )
 #: The letter of a quantity by its unit.

@@ -7,9 +7,9 @@ found again by reading the writing from left to right.
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
+from lagcli.reader.regex import regex
 from lagcli.reader.text import SourceText
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ Style = Literal["", "'", '"', "|", ">"]
 BLANKS = frozenset(" \t\n\x85\u2028\u2029")
 
 #: An anchor or a tag before the value belongs to the scalar's stretch of the file.
-_PROPERTIES = re.compile(r"(?:[&!]\S*[ \t\n]+)*")
+_PROPERTIES = regex(r"(?:[&!]\S*[ \t\n]+)*")
 
 #: How many hexadecimal digits follow an escape of a double-quoted scalar.
 _ESCAPE_DIGITS = {"x": 2, "u": 4, "U": 8}

@@ -20,6 +20,7 @@ from lagcli.reader.headings import system_meant, without_headings
 from lagcli.reader.misshapen import entries_of, source_of
 from lagcli.reader.names import NO_VALUE
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
+from lagcli.reader.regex import regex
 from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.suggest import closest, did_you_mean
 
@@ -42,24 +43,24 @@ class _Said(TypedDict, total=False):
 
 _COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
 _PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
-_RANGE = re.compile(r"\s*[\[(]?\s*(-?[\d.]*\d)\s*(?:\.\.+|…|to|bis|:|–)\s*-?[\d.:]+\s*[\])]?\s*")
+_RANGE = regex(r"\s*[\[(]?\s*(-?[\d.]*\d)\s*(?:\.\.+|…|to|bis|:|–)\s*-?[\d.:]+\s*[\])]?\s*")
 #: A number with words behind it.
-_NUMBER_WITH_WORDS = re.compile(
+_NUMBER_WITH_WORDS = regex(
     r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)(?:\s*[(:;,]|\s+[-–—]|\s)\s*"
     r"([^\W\d_]{3,}(?:[ -][^\W\d_]+)*)\s*\)?\s*"
 )
-_WORDS = re.compile(r"[^\W\d_]{4,}(?: [^\W\d_]+)*")
+_WORDS = regex(r"[^\W\d_]{4,}(?: [^\W\d_]+)*")
 #: `m = 1 kg`, `k: 2`, `l 3`, several of them.
-_VALUES = re.compile(
+_VALUES = regex(
     r"(\w+)(?:\s*[=:]\s*|\s+(?=[\d.]))"
     r"((?:[^\s,;()}]|\([^()]*\))+(?: [A-Za-z][\w/^]*(?=\s*(?:[,;]|$)))?)"
 )
 #: `Real x(start=1);`, `parameter Real m = 2 "mass";` of Modelica, `double m = 2;`.
-_DECLARATION = re.compile(
+_DECLARATION = regex(
     r"(?:\b(?:parameter|constant|const|final|var|let)\s+)*\b(?:Real|real|float|double|int|Integer)\s+"
     r"(\w+)(?:\([^()]*\))?\s*(?:=\s*([^;\"]+))?"
 )
-_ONE_NAME = re.compile(r"write (\w+)(?:, without .*)?")
+_ONE_NAME = regex(r"write (\w+)(?:, without .*)?")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 
 

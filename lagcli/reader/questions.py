@@ -22,6 +22,7 @@ from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end, source_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar
 from lagcli.reader.number_units import run_mistake
+from lagcli.reader.regex import regex
 from lagcli.reader.scope import INITIAL, NUMBERS, POSITION, QUESTION, Role
 from lagcli.reader.suggest import did_you_mean
 
@@ -41,7 +42,7 @@ _PARTNERS = {
 _SIMULATION_ATTRIBUTES = ("until", "accuracy", "method")
 
 #: An event for an end: `x = 0`, `y < 0`.
-_ENDS = re.compile(r"([^<>=≤≥]+)(?:[<>=]=?|≤|≥)([^<>=≤≥]+)")
+_ENDS = regex(r"([^<>=≤≥]+)(?:[<>=]=?|≤|≥)([^<>=≤≥]+)")
 _REACHES = "as in reaches: theta = pi"
 
 #: What a question can be answered for.

@@ -18,6 +18,7 @@ from lagcli.reader.misshapen import behind_words, is_sentence
 from lagcli.reader.momenta_meant import with_momenta, with_velocities
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.positions import Excerpt
+from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
 from lagcli.reader.undeclared import UNDECLARED
 from lagcli.record import replace
@@ -32,23 +33,23 @@ _LONGEST, _LONGEST_GIVEN = 600, 1800
 _LONGEST_EXCHANGED = 160
 #: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
 #: `q'^T*M*q'`, transpose(q)*M*q.
-_MATRIX = re.compile(
+_MATRIX = regex(
     r"(?<!\w)(?P<one>[^\W\d]\w*)'*\s*(?:\^\s*\{?(?:T|\\top|\\intercal)\}?(?!\w)|\.T(?!\w))"
     r"|(?:\.transpose\(|\b[tT]ranspose[(\[])"
 )
 #: The multiplier that is named behind a constraint.
-_MULTIPLIER = re.compile(
+_MULTIPLIER = regex(
     r"\s*[,;]?\s*\(?(?:with|where|and|mit|avec|con)\s+(?:the\s+)?(?:Lagrange\s+)?(?:multiplier\s+)?"
     r"(?:lambda|lam|λ)\w*\)?\s*$"
 )
 #: A term of Lagrange's equation.
-_LAGRANGE = re.compile(r"(?:d|∂|\\partial)\s*[LTV]\s*/\s*(?:d|∂|\\partial)")
+_LAGRANGE = regex(r"(?:d|∂|\\partial)\s*[LTV]\s*/\s*(?:d|∂|\\partial)")
 #: `d(x - R*phi)/dt` and `d/dt (x - R*phi)`.
-_TOTAL_RATE = re.compile(
+_TOTAL_RATE = regex(
     r"(?<![\w.])d\s*\((?P<inner>(?:[^()]|\([^()]*\))+)\)\s*/\s*\(?dt\)?(?!\w)"
     r"|(?<![\w.])d\s*/\s*dt\s*\(?\((?P<behind>(?:[^()]|\([^()]*\))+)\)"
 )
-_LEFT_SIDE = re.compile(r"^\s*(?:T\s*[-−]\s*V|[^\W\d][\w ]*(?:\(\w+\))?)\s*:?=(?!=)")
+_LEFT_SIDE = regex(r"^\s*(?:T\s*[-−]\s*V|[^\W\d][\w ]*(?:\(\w+\))?)\s*:?=(?!=)")
 
 
 def with_whole(

@@ -12,6 +12,7 @@ from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitu
 from lagcli.reader.habits import is_angle, name_meant
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.regex import regex
 from lagcli.reader.scope import QUESTION, STATE
 from lagcli.reader.suggest import did_you_mean
 
@@ -23,24 +24,24 @@ if TYPE_CHECKING:
 _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION,
                           "acts_as")  # fmt: skip
 #: `x -> x - eps*y`, and so on.
-_MOVED = re.compile(
+_MOVED = regex(
     r"(\w+)\s*(?:->|→|↦|=>|=)\s*\1\s*([-+])\s*(?:eps(?:ilon)?|ε|s|delta|a|alpha)\b\s*\*?\s*([^,;]*)"
 )
 #: `x -> -x`, and words for it.
-_REFLECTED = re.compile(
+_REFLECTED = regex(
     r"(\w+)\s*(?:->|→|↦|=>|=)\s*[-−]\s*\1\s*$|^(?:mirror|parity|reflection|spiegelung)\b"
 )
 #: `eps*y`, a change with its small parameter, and `x - eps*y` behind x.
-_SCALED = re.compile(
+_SCALED = regex(
     r"\s*(?P<sign>[-+]?)\s*(?P<parameter>eps(?:ilon)?|ε|s|delta|lambda|lam|alpha|a)"
     r"(?:\s*\*\s*(?P<change>\S.*?))?\s*"
 )
 #: `x*cos(alpha)`, of a finite rotation.
-_TURNED = re.compile(r"\b(?:cos|sin|cosh|sinh|exp)\(\s*-?([^\W\d]\w*)\s*\)")
-_FRICTION = re.compile("fric|drag|reib|frott|attrit|roz|brems|wrijv|тре", re.IGNORECASE)
+_TURNED = regex(r"\b(?:cos|sin|cosh|sinh|exp)\(\s*-?([^\W\d]\w*)\s*\)")
+_FRICTION = regex("fric|drag|reib|frott|attrit|roz|brems|wrijv|тре", re.IGNORECASE)
 _WORDS = frozenset("yes no true false True False none None null auto".split())
 _ON_LOSS = ("stop", "release")
-_FORMULA = re.compile("[-+*/^=(]")
+_FORMULA = regex("[-+*/^=(]")
 _ROLLING = "equation, as in rolling: x' = R*theta'"
 _FORCES: dict[str, ForceKind] = {
     "normal": "normal",

@@ -20,6 +20,7 @@ from lagcli.reader.habits import (
     superscript,
     unit_behind,
 )
+from lagcli.reader.regex import regex
 from lagcli.reader.strange_characters import END_VALUE, character_meant
 
 if TYPE_CHECKING:
@@ -28,10 +29,10 @@ if TYPE_CHECKING:
 
 _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 #: A number in powers of ten that is not written as one: 2.0e, 2e - 3, 1.5d-3; 6.67 x 10^-11.
-_EXPONENT = re.compile(r"([\d.]+)(?:\s*([eE])\s*|([dD])(?=[-+\d]))([-+]?)\s*(\d*)(?![\w(.'])")
-_TIMES_TEN = re.compile(r"([\d.]+)\s*[xX]\s*10\s*(?:\^|\*\*|[eE])?\s*[({]?\s*(-?)[\s+]*(\d+)")
+_EXPONENT = regex(r"([\d.]+)(?:\s*([eE])\s*|([dD])(?=[-+\d]))([-+]?)\s*(\d*)(?![\w(.'])")
+_TIMES_TEN = regex(r"([\d.]+)\s*[xX]\s*10\s*(?:\^|\*\*|[eE])?\s*[({]?\s*(-?)[\s+]*(\d+)")
 #: Before a factor of a denominator, as in p^2/2m, where 1/2m may be a half of m.
-_DENOMINATOR = re.compile(r"(?:[\w.]*[^\W\d][\w.']*|[)'²]|\^\s*\d)\s*/\s*$")
+_DENOMINATOR = regex(r"(?:[\w.]*[^\W\d][\w.']*|[)'²]|\^\s*\d)\s*/\s*$")
 
 
 def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str) -> Diagnostic:

@@ -9,26 +9,25 @@ from dataclasses import replace
 from itertools import pairwise
 
 from lagcli.diagnostics import Diagnostic
+from lagcli.reader.regex import regex
 
 #: What `lagcli.reader.names` says of a name that nothing resembles.
 UNDECLARED = "declare it under 'parameters'"
 #: What it says of one with a prime.
 COORDINATE = "declare it under 'coordinates'"
-_KEY = re.compile(r"unknown keys? (?P<keys>'.*') in (?P<place>(?:the |[^']).*)")
-_ORDER = re.compile(
-    r"^(the (?:coordinate|velocity|acceleration|momentum)) (\S+) (cannot stand in .*)$"
-)
-_MISSING_LINE = re.compile(r"a line '\w+:' is missing")
-_OF_NAMES = re.compile(r"unknown name '|'\w+' is not a parameter$|\w+: there is no point '")
-_NO_COORDINATE = re.compile(r"'(\w+)'*' (?:in (?:initial|the symmetry)|is not a parameter)")
+_KEY = regex(r"unknown keys? (?P<keys>'.*') in (?P<place>(?:the |[^']).*)")
+_ORDER = regex(r"^(the (?:coordinate|velocity|acceleration|momentum)) (\S+) (cannot stand in .*)$")
+_MISSING_LINE = regex(r"a line '\w+:' is missing")
+_OF_NAMES = regex(r"unknown name '|'\w+' is not a parameter$|\w+: there is no point '")
+_NO_COORDINATE = regex(r"'(\w+)'*' (?:in (?:initial|the symmetry)|is not a parameter)")
 #: What a message quotes; a name may end with a prime.
-_QUOTED = re.compile(r"'[^ ]+'+(?=[ ,:;]|$)")
+_QUOTED = regex(r"'[^ ]+'+(?=[ ,:;]|$)")
 #: Of the hints for one cause.
 _SHOWN = 3
 #: A longer list of parameters is not repeated.
 _LONGEST = 80
-_SHAPE = re.compile(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
-_SHAPE_OF_SECTION = re.compile(r"'?(\w+)'? must be an? (?:map|list)\b.*")
+_SHAPE = regex(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
+_SHAPE_OF_SECTION = regex(r"'?(\w+)'? must be an? (?:map|list)\b.*")
 #: Other words for keys, constants and states outside of their sections; the hint for all.
 _TOGETHER = (
     (re.compile(r"unknown key ('.*') in the problem: the key is (\w+)"), "the keys are {}"),
@@ -45,8 +44,8 @@ _TOGETHER = (
         "forces stand by coordinate: write forces: {{{}}}",
     ),
 )
-_OTHER_KEY = re.compile(r"unknown keys? (?P<key>'\w+') in .*: the key is (?P<meant>\w+)")
-_NAME = re.compile(r"unknown name '(\w+)' in (.*)")
+_OTHER_KEY = regex(r"unknown keys? (?P<key>'\w+') in .*: the key is (?P<meant>\w+)")
+_NAME = regex(r"unknown name '(\w+)' in (.*)")
 
 
 def _once_by_name(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:

@@ -24,6 +24,7 @@ from lagcli.reader.habits import (
 from lagcli.reader.misplaced import names_in
 from lagcli.reader.misshapen import as_rayleigh, entries_of, key_by_shape, range_end, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.regex import regex
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.text import Mistake
 
@@ -39,7 +40,7 @@ _WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
 _FRICTION = "friction"
 _FRICTIONS = frozenset({_FRICTION, "coulomb_friction", "dry_friction", "reibung", "frottement"})
 #: The number of a state.
-_STATE = re.compile(r"(?:[-+*/\d.() ]|pi|e(?=[-+\d]))+")
+_STATE = regex(r"(?:[-+*/\d.() ]|pi|e(?=[-+\d]))+")
 _MANUAL = "leave it out, or see lagcli help problem-format"
 
 

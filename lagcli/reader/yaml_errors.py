@@ -21,6 +21,7 @@ from lagcli.reader.habits import (
     meanings,
 )
 from lagcli.reader.headings import SECTIONS
+from lagcli.reader.regex import regex
 
 if TYPE_CHECKING:
     from lagcli.reader.text import SourceText
@@ -126,15 +127,15 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
 
 
 #: A line that begins in the middle of a formula.
-_MIDDLE = re.compile(r"\s*([-+*^]|/(?![/*])|\w+[-+*/^(])")
+_MIDDLE = regex(r"\s*([-+*^]|/(?![/*])|\w+[-+*/^(])")
 _CONTINUED = "a line that continues the one above it begins with blanks"
 #: A text in quotes with one of them inside.
-_QUOTED = re.compile(r"\s*([\w ]+):\s*(['\"])([^#]*\2[^#]*)\2\s*(?:#.*)?")
+_QUOTED = regex(r"\s*([\w ]+):\s*(['\"])([^#]*\2[^#]*)\2\s*(?:#.*)?")
 #: A comment of another language, the head of a section, a program: // a, ; a, % a; [a]; import a.
-_FOREIGN = re.compile(
+_FOREIGN = regex(
     r"\s*((//|/\*|;|%(?!YAML)|<!--|--\s|'''|\"\"\").*|\[\w+\]\s*$|(?:from\s+[\w.]+\s+)?import\s.*)"
 )
-_BEFORE = re.compile(r"(?P<indent>\s*)(?P<key>[^\W\d][\w ]*)(?P<colon>:\s+\S)?")
+_BEFORE = regex(r"(?P<indent>\s*)(?P<key>[^\W\d][\w ]*)(?P<colon>:\s+\S)?")
 
 
 def _cut_by_comment(lines: list[str], here: int) -> int | None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from lagcli.reader.regex import regex
+
 _SIDE = r"[^<>=≤≥?,:]+?"
 _RELATION = rf"(?P<left>{_SIDE})\s*(?P<sign>[<>≤≥])=?\s*(?P<right>{_SIDE})"
 _FORMS = (
@@ -19,7 +21,7 @@ _FORMS = (
 
 
 #: A group in parentheses with one more level inside.
-_GROUP = re.compile(r"(?<!\w)\(((?:[^()]|\([^()]*\))*)\)")
+_GROUP = regex(r"(?<!\w)\(((?:[^()]|\([^()]*\))*)\)")
 
 
 def _within(group: re.Match[str]) -> str:

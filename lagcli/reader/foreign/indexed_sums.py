@@ -5,21 +5,22 @@ from __future__ import annotations
 import re
 
 from lagcli.reader.foreign.words import UnclearText, Vocabulary
+from lagcli.reader.regex import regex
 
 #: The limits behind the term, in the call of a function: i=1..3, (i, 1, 3), i, 1, 3.
-_CALL = re.compile(r"(?<![\w.])(?:\w+\.)?[sS]um\s*[(\[]")
-_BEHIND = re.compile(
+_CALL = regex(r"(?<![\w.])(?:\w+\.)?[sS]um\s*[(\[]")
+_BEHIND = regex(
     r"(?P<term>.*?)\s*(?:,|\bfor\b)\s*[({]?\s*(?P<index>[^\W\d_])\s*"
     r"(?:[=,]|in(?P<python>\s+range)?\s*\(?)\s*(?P<first>\d+)\s*(?:\.{2,3}|…|:|,|to)\s*(?P<last>\d+)\s*\)?[)}]?",
     re.DOTALL,
 )
 #: The limits below and above the sign of a sum.
-_SIGN = re.compile(
+_SIGN = regex(
     r"(?:Σ|∑|\\sum|(?<![\w.])[sS]um(?=_))\s*(?:\\limits)?\s*"
     r"_\{?\s*(?P<index>[^\W\d_])\s*(?:=\s*(?P<first>\d+)\s*\}?\s*\^?\{?\s*(?P<last>\d+))?\s*\}?"
 )
 #: An index of a name: x_i, x[i].
-_INDEXED = re.compile(r"(?<=[^\W_])(?:_\{?|\[)(?P<index>[i-n])(?![\w])(?P<first>)")
+_INDEXED = regex(r"(?<=[^\W_])(?:_\{?|\[)(?P<index>[i-n])(?![\w])(?P<first>)")
 _MOST = 12
 
 

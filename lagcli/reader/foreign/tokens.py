@@ -12,10 +12,11 @@ from lagcli.reader.foreign.indexed_sums import written_out
 from lagcli.reader.foreign.vector_products import vector_product
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant, parts_of
 from lagcli.reader.habits import REMARK, foreign_function, is_angle, unit_behind
+from lagcli.reader.regex import regex
 
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻½⅓⅔¼¾⅛"
 _LETTER = rf"[^\W\d{RAISED}]"
-_TOKEN = re.compile(
+_TOKEN = regex(
     r"(?P<skip>(?:\s|\$|\\[,;:! ]"
     r"|\\(?:left|right|[bB]igg?[lr]?|q?quad|displaystyle|limits)(?![A-Za-z]))+)"
     r"|(?P<number>(?:\d{1,3}(?:\.\d{3})+,\d+|\d{1,3}(?:,\d{3})+\.\d+"
@@ -39,38 +40,38 @@ SIGNS = {
     "\\{": "(", "\\}": ")", "[": "(", "]": ")", "{": "(", "}": ")", "\\|": "|",
 }  # fmt: skip
 #: v², |v|^2, \\vec{v}^2, v.v and v·v.
-_SPEED = re.compile(
+_SPEED = regex(
     r"(?<!\w)(?P<v>\|?(?:\\(?:vec|mathbf)\s*\{?)?v\}?\|?)(?:\s*(?:\^|\*\*)\s*\{?2\}?|\s*²"
     r"|\s*(?:\.|·|\\cdot)\s*(?P=v))(?![\w.])"
 )
 #: The square of a position: \\vec{r}^2, |\\mathbf{r}|^2.
-_DISTANCE = re.compile(r"\|?\\(?:vec|mathbf)\s*\{?r\}?\|?\s*(?:(?:\^|\*\*)\s*\{?2\}?|²)(?!\w)")
-_RATE_OF_VECTOR = re.compile(r"\\dot\s*\{?\s*\\(?:vec|mathbf)\s*\{?r\}?\s*\}?(?=\s*[\^²*])")
+_DISTANCE = regex(r"\|?\\(?:vec|mathbf)\s*\{?r\}?\|?\s*(?:(?:\^|\*\*)\s*\{?2\}?|²)(?!\w)")
+_RATE_OF_VECTOR = regex(r"\\dot\s*\{?\s*\\(?:vec|mathbf)\s*\{?r\}?\s*\}?(?=\s*[\^²*])")
 #: A remark behind a formula, a row of a matrix, the brackets of a mean, lines without a sign.
-_NO_FORMULA = re.compile(
+_NO_FORMULA = regex(
     r"[\w)']\s*\n\s*[\w(]|"
     r"\(\s*[^\W\d]{3,}(?:\s+[^\W\d]+)+\s*\)\s*$|\[\s*[\w'.]+(?:\s+[-\w'.]+)+\s*\]|<[^<>=]+>"
 )
 #: The length of a position: |r|, ||r||, |\\vec{r}|.
-_LENGTH = re.compile(r"(?:\\?\|){1,2}\s*(?:\\(?:vec|mathbf)\s*)?\{?r\}?\s*(?:\\?\|){1,2}")
+_LENGTH = regex(r"(?:\\?\|){1,2}\s*(?:\\(?:vec|mathbf)\s*)?\{?r\}?\s*(?:\\?\|){1,2}")
 #: The distance of two bodies, and of one from the origin: |r1 - r2|, |\\vec{r}_1|.
 _VECTOR = r"(?:\\(?:vec|mathbf)\s*)?\{?r\}?_?\{?"
-_BETWEEN = re.compile(
+_BETWEEN = regex(
     rf"(?:\\?\|){{1,2}}\s*{_VECTOR}(?P<one>\d)\}}?"
     rf"(?:\s*[-−]\s*{_VECTOR}(?P<two>\d)\}}?)?\s*(?:\\?\|){{1,2}}"
 )
 #: A product of vectors in brackets.
-_PRODUCT_OF_VECTORS = re.compile(
+_PRODUCT_OF_VECTORS = regex(
     r"[(\[]([^()\[\]]+,[^()\[\]]+)[)\]]\s*[.·]\s*[(\[]([^()\[\]]+,[^()\[\]]+)[)\]]"
 )
 #: A product of two vectors by their letters: A·v, dot(A, v), \\vec{A}\\cdot\\vec{v}.
 _LETTER_OF_VECTOR = r"\\?(?:(?:vec|mathbf|boldsymbol|bm)\s*)?\{?\s*([^\W\d_])\s*\}?"
-_LETTERS_OF_VECTORS = re.compile(
+_LETTERS_OF_VECTORS = regex(
     rf"(?<![\w.}}]){_LETTER_OF_VECTOR}\s*(?:[·⋅∙•]|\\cdot(?![a-z])|\s\.\s)\s*{_LETTER_OF_VECTOR}(?![\w'(])"
     rf"|(?<![\w.])(?:\w+\.)?dot\(\s*{_LETTER_OF_VECTOR}\s*,\s*{_LETTER_OF_VECTOR}\s*\)"
 )
 #: A coordinate behind the word for its rate.
-_DOT_BEFORE = re.compile(r"(?<![\\\w.])(d)?dot\s+(?P<name>[^\W\d]\w*)")
+_DOT_BEFORE = regex(r"(?<![\\\w.])(d)?dot\s+(?P<name>[^\W\d]\w*)")
 #: Relations in words: y is 0, N is positive, x is less than l.
 _RELATIONS = (
     (re.compile(r"\s+(?:is\s+|stays\s+|remains\s+)?(?:positive|nonnegative)\s*$"), ">= 0"),
@@ -79,7 +80,7 @@ _RELATIONS = (
     (re.compile(r"\s+(?:is\s+equal\s+to|is|equals?)\s+(?=[-\w(])"), "="),
 )
 #: `self.` before a name.
-_OWNER = re.compile(r"\b([A-Za-z]\w*)\.(?=(?!diff\b)([A-Za-z_]\w*))")
+_OWNER = regex(r"\b([A-Za-z]\w*)\.(?=(?!diff\b)([A-Za-z_]\w*))")
 
 
 class Token(NamedTuple):

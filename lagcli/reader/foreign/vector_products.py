@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Set as AbstractSet
 
+from lagcli.reader.regex import regex
+
 #: A vector by its letter, or by its components.
 _VECTOR = (
     r"(?:\\?(?:vec|mathbf|boldsymbol|bm)?\s*\{?\s*(?P<letter_N>[^\W\d]\w*)\s*\}?(?![\w'(])"
@@ -18,7 +20,7 @@ def _vector(number: int) -> str:
 
 
 #: `r × v`, `cross(r, v)`, with a factor before it.
-_CROSS = re.compile(
+_CROSS = regex(
     r"(?P<factor>[-+]?\s*(?:[\w./^]+(?:\s*[*·]\s*|\s+)){0,4}?)\s*"
     rf"(?:\(\s*{_vector(1)}{_TIMES}{_vector(2)}\s*\)|(?<![\w)]){_vector(3)}{_TIMES}{_vector(4)}"
     rf"|(?:\w+\.)?[cC]ross\s*[(\[]\s*{_vector(5)}\s*,\s*{_vector(6)}\s*[)\]])"

@@ -6,6 +6,7 @@ import re
 from collections.abc import Container
 
 from lagcli.reader.foreign.functions import bare_text
+from lagcli.reader.regex import regex
 
 #: One axis by its index, its letter or i, j, k.
 _AXES = {"1": 0, "2": 1, "3": 2, "x": 0, "y": 1, "z": 2, "i": 0, "j": 1, "k": 2}
@@ -15,11 +16,11 @@ _UNIT = (
     r"|(?:\\?(?:vec|hat|mathbf)?\{?\\?)?(?:e|u|unit)_?\{?(?P<e>[xyz123])\}?\}?|(?P<word>[xyzijk])_?hat"
     r"|(?P<letter>[ijk]))"
 )
-_BEHIND = re.compile(rf"(?P<rest>.*?)\s*\*?\s*(?<![\w.]){_UNIT}\s*")
-_BEFORE = re.compile(rf"(?P<sign>[-+]?)\s*{_UNIT}(?:\s*\*\s*|\s+)(?P<rest>.+)")
+_BEHIND = regex(rf"(?P<rest>.*?)\s*\*?\s*(?<![\w.]){_UNIT}\s*")
+_BEFORE = regex(rf"(?P<sign>[-+]?)\s*{_UNIT}(?:\s*\*\s*|\s+)(?P<rest>.+)")
 _TERMS = r"(?<=[\w)\]}])\s*(?=[-+])"
 #: A constructor with its components, and brackets of a vector.
-_MADE = re.compile(
+_MADE = regex(
     r"(?:(?:\w+\.)?(?:array|Matrix|[vV]ector|vec|[pP]oint|list|tuple|Vec[23]d?)\s*\(\s*(.*)\))"
     r"|<(.*)>|⟨(.*)⟩|\\begin\{\w*(?:matrix|array)\}(.*)\\end\{\w*(?:matrix|array)\}",
     re.DOTALL,

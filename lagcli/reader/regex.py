@@ -1,0 +1,23 @@
+"""Regular expressions that are compiled at their first use: most are for hints alone."""
+
+from __future__ import annotations
+
+import re
+from typing import cast
+
+
+class _Pattern:
+    """Looks like the compiled pattern, which takes its place."""
+
+    def __init__(self, source: str, flags: int) -> None:
+        self._source, self._flags = source, flags
+
+    def __getattr__(self, name: str) -> object:
+        value = getattr(re.compile(self._source, self._flags), name)
+        self.__dict__[name] = value
+        return value
+
+
+def regex(source: str, flags: int = 0) -> re.Pattern[str]:
+    """The pattern, not compiled yet."""
+    return cast("re.Pattern[str]", _Pattern(source, flags))
