@@ -13,6 +13,7 @@ from lagcli.cli.files import read_input, reason
 from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem_data import Problem
+from lagcli.reader.habits import meanings
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
 
@@ -101,28 +102,13 @@ def option_reader(problem: Problem) -> OptionReader:
     return OptionReader(problem, COMMAND_LINE, rejected)
 
 
-#: Names by what other programs call them.
-_OTHER_NAMES = {
-    "python": "py numpy scipy jax python3 jupyter",
-    "c": "c++ cpp cxx",
-    "julia": "jl",
-    "fortran": "f90 f77 for",
-    "matlab": "m octave simulink",
-    "modelica": "mo openmodelica",
-    "mathematica": "wolfram wl nb mma",
-}
-
-
 def is_known(option: str, name: str, names: tuple[str, ...]) -> bool:
     """Whether a name is a known one; a message where it is not."""
     if name in names:
         return True
-    meant = [x for x, words in _OTHER_NAMES.items() if x in names and name in words.split()]
-    advice = (
-        f"did you mean '{meant[0]}'?"
-        if meant
-        else did_you_mean(name, names) or f"there are {', '.join(names)}"
-    )
+    meant = meanings("languages").get(name)
+    near = f"did you mean '{meant}'?" if meant in names else did_you_mean(name, names)
+    advice = near or f"there are {', '.join(names)}"
     report_line(f"lagcli: error: {option}: unknown name '{name}': {advice}")
     return False
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from click import BadOptionUsage, ClickException, Context, NoSuchOption, UsageError
 
 from lagcli.cli.error_output import within_a_terminal
+from lagcli.reader.habits import meanings
 
 #: Options by what other programs call them.
 _MEANT = {
@@ -27,22 +28,6 @@ _MEANT = {
 }
 
 
-#: Commands by what other programs call them.
-_COMMANDS_MEANT = {
-    "solve": "derive compute calculate equations eom lagrange euler-lagrange analyze analyse",
-    "explain": "steps derivation why",
-    "export": "code codegen generate compile convert translate to",
-    "simulate": "run sim integrate evolve start go play",
-    "plot": "draw graph figure chart view visualize visualise",
-    "animate": "animation movie video render gif",
-    "sweep": "scan vary grid ensemble batch",
-    "check": "test verify validate lint",
-    "diff": "compare",
-    "new": "init create template",
-    "list": "ls problems examples library",
-    "show": "cat print open",
-    "help": "man manual doc docs info",
-}
 #: An option with a value behind a blank, in place of `name=value`.
 _NAMED_VALUE = re.compile(r"[^\W\d]\w*['’′]*")
 _NUMBER = re.compile(r"[-+]?\d[\d.]*(?:[eE][-+]?\d+)?")
@@ -75,11 +60,11 @@ def report_mistake(mistake: ClickException, arguments: Sequence[str]) -> None:
         said = f"{said} Write {_FOR_EXAMPLE[mistake.option_name]}."
     elif context is not None and context.parent is None and "No such command" in said:
         named = next((each for each in arguments if not each.startswith("-")), "")
-        other = [name for name, words in _COMMANDS_MEANT.items() if named in words.split()]
+        other = meanings("commands").get(named)
         if Path(named).suffix in {".yaml", ".yml"} or Path(named).exists():
             said = f"A command comes first: lagcli solve {named}"
         elif other:
-            said = f"No such command '{named}'. Did you mean '{other[0]}'?"
+            said = f"No such command '{named}'. Did you mean '{other}'?"
     elif context is not None and "unexpected extra argument" in said and _columns(context, said):
         said = f"{said}. Columns stand behind --show, as in --show {_columns(context, said)}."
     UsageError(within_a_terminal(f"Error: {said}").removeprefix("Error: "), context).show()

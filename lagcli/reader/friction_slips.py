@@ -6,24 +6,12 @@ does so in magnetic fields and rotating frames, with the opposite sign along y.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.expression import (
-    Call,
-    Expression,
-    Name,
-    Negative,
-    Number,
-    Power,
-    Product,
-    Quotient,
-    Sum,
-    folded,
-    walk,
-)
+from lagcli.expression import Call, Expression, Name, Number, Power, Sum, walk
+from lagcli.reader.plain_sign import plain_sign
 
 
 def friction_slips(
@@ -87,18 +75,10 @@ def _laws(
 def _sign(term: Expression, signs: Mapping[str, int], velocity: int) -> int:
     """The sign of a term where all velocities have this one; 0 where that is not plain to see."""
 
-    def sign(node: Expression, parts: list[int]) -> int:
+    def other(node: Expression, parts: list[int]) -> int:
         match node:
-            case Number(value=value):
-                return (value > 0) - (value < 0)
             case Name(name=name, primes=primes):
                 return velocity if primes else signs.get(name, 0)
-            case Negative():
-                return -parts[0]
-            case Sum():
-                return parts[0] if len(set(parts)) == 1 else 0
-            case Product() | Quotient():
-                return math.prod(parts)
             case Power(exponent=Number(value=power)) if power.denominator == 1:
                 return int(parts[0] ** abs(power))
             case Call(function=function) if function in {"sign", "tanh", "atan"}:
@@ -110,7 +90,7 @@ def _sign(term: Expression, signs: Mapping[str, int], velocity: int) -> int:
             case _:
                 return 0
 
-    return folded(term, sign)
+    return plain_sign(term, other)
 
 
 def _rates(force: Expression) -> set[str]:

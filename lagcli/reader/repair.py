@@ -31,7 +31,6 @@ if TYPE_CHECKING:
 _LONGEST, _LONGEST_GIVEN = 600, 1800
 #: Characters of a formula in which neighbours are exchanged.
 _LONGEST_EXCHANGED = 160
-#: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
 #: `q'^T*M*q'`, transpose(q)*M*q.
 _MATRIX = regex(
     r"(?<!\w)(?P<one>[^\W\d]\w*)'*\s*(?:\^\s*\{?(?:T|\\top|\\intercal)\}?(?!\w)|\.T(?!\w))"
@@ -49,6 +48,7 @@ _TOTAL_RATE = regex(
     r"(?<![\w.])d\s*\((?P<inner>(?:[^()]|\([^()]*\))+)\)\s*/\s*\(?dt\)?(?!\w)"
     r"|(?<![\w.])d\s*/\s*dt\s*\(?\((?P<behind>(?:[^()]|\([^()]*\))+)\)"
 )
+#: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
 _LEFT_SIDE = regex(r"^\s*(?:T\s*[-−]\s*V|[^\W\d][\w ]*(?:\(\w+\))?)\s*:?=(?!=)")
 
 

@@ -29,6 +29,7 @@ from lagcli.reader.foreign.words import Vocabulary, rate_meant
 from lagcli.reader.friction_slips import friction_slips
 from lagcli.reader.misshapen import as_rayleigh
 from lagcli.reader.names import derivative_order
+from lagcli.reader.plain_sign import plain_sign
 from lagcli.reader.text import SourceText
 
 if TYPE_CHECKING:
@@ -48,20 +49,18 @@ _SIGNS = {"positive": Fraction(1), "negative": Fraction(-1)}
 
 def slips(problem: Problem) -> list[Diagnostic]:
     """Warnings of what is legitimate, and mostly a slip: no inertia, energies of the wrong sign."""
-    known = _known(problem)
+    signs = _signs(problem, _known(problem))
     kinetic, lost = problem.kinetic, problem.dissipation
     found = [] if kinetic is None else _without_inertia(problem, kinetic)
     if kinetic is not None and _parity(kinetic, problem.definitions) == -1:
         hint = "a kinetic energy is of second degree in them, as in m*x'^2/2"
         found.append(_warning("T changes its sign with the velocities", kinetic.span, hint))
-    elif kinetic is not None and _sign(kinetic, problem, known) == -1:
+    elif kinetic is not None and _sign(kinetic, problem.definitions, signs) == -1:
         hint = "a kinetic energy is positive, as in m*x'^2/2"
         found.append(_warning("T is negative", kinetic.span, hint))
-    if lost is not None and _sign(lost, problem, known) == -1:
+    if lost is not None and _sign(lost, problem.definitions, signs) == -1:
         hint = f"it drives the motion; {_FRICTION}"
         found.append(_warning("the dissipation is negative", lost.span, hint))
-    signs = {p.name: -1 if p.assume == "negative" else 1 for p in problem.parameters}
-    signs |= {name: (value > 0) - (value < 0) for name, value in known.items()}
     found += friction_slips(problem.forces, tuple(x.name for x in problem.coordinates), signs)
     energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
     roots = (n for formula in energies if formula is not None for n in walk(formula))
@@ -74,28 +73,23 @@ def slips(problem: Problem) -> list[Diagnostic]:
     return found
 
 
-def _sign(formula: Expression, problem: Problem, known: Mapping[str, Fraction]) -> int:
-    """1 or -1 for what is never negative or never positive, 0 where that is not plain to see.
-
-    A parameter of which nothing is known counts as positive, as masses and stiffnesses are.
-    """
+def _signs(problem: Problem, known: Mapping[str, Fraction]) -> dict[str, int]:
+    """Of the parameters: one of which nothing is known counts as positive, as a mass is."""
     signs = {p.name: -1 if p.assume == "negative" else 1 for p in problem.parameters}
-    signs |= {name: (value > 0) - (value < 0) for name, value in known.items()}
+    return signs | {name: (value > 0) - (value < 0) for name, value in known.items()}
 
-    def sign(node: Expression, parts: list[int]) -> int:
+
+def _sign(
+    formula: Expression, definitions: Mapping[str, Expression], signs: Mapping[str, int]
+) -> int:
+    """1 or -1 for what is never negative or never positive, 0 where that is not plain to see."""
+
+    def other(node: Expression, parts: list[int]) -> int:
         match node:
-            case Number(value=value):
-                return (value > 0) - (value < 0)
-            case Name(name=name, primes=0) if name in problem.definitions:
-                return folded(problem.definitions[name], sign)
+            case Name(name=name, primes=0) if name in definitions:
+                return plain_sign(definitions[name], other)
             case Name(name=name, primes=0):
                 return signs.get(name, 0)
-            case Negative():
-                return -parts[0]
-            case Sum():
-                return parts[0] if len(set(parts)) == 1 else 0
-            case Product() | Quotient():
-                return math.prod(parts)
             case Power(exponent=Number(value=power)) if power.denominator == 1:
                 return 1 if power % 2 == 0 else parts[0]
             case Call(function=function):
@@ -103,7 +97,7 @@ def _sign(formula: Expression, problem: Problem, known: Mapping[str, Fraction]) 
             case _:
                 return 0
 
-    return folded(formula, sign)
+    return plain_sign(formula, other)
 
 
 def _without_inertia(problem: Problem, kinetic: Expression) -> list[Diagnostic]:

@@ -263,9 +263,8 @@ class Atoms:
                 if above.is_nonnegative:
                     # sqrt(a/b) where that is real; of sqrt(1/b) no power of b goes away
                     base, exponent = below.as_base_exp()
-                    if (
-                        exponent.is_odd and exponent > 1
-                    ):  # sqrt(b^3) is no multiple of sqrt(b) for every b
+                    if exponent.is_odd and exponent > 1:
+                        # sqrt(b^3) is no multiple of sqrt(b) for every b
                         return sympy.sqrt(above) / sympy.sqrt(base) ** exponent
                     return sympy.sqrt(above * below) / below
                 return sympy.sqrt(above / below)

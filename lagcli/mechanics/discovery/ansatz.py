@@ -156,10 +156,15 @@ def quadratic(found: Kinds, most: int) -> list[Expr]:
     return []
 
 
+def products_of_two(X: Sequence[Expr]) -> list[Expr]:
+    """Of equal ones too."""
+    return [x * y for x, y in combinations_with_replacement(X, 2)]
+
+
 def up_to_second_degree(X: Sequence[Expr], most: int) -> list[Expr]:
     """Monomials in Cartesian coordinates, a bounded number of them."""
-    one, squares = sympy.S.One, [x * y for x, y in combinations_with_replacement(X, 2)]
-    choices = [one, *X, *squares], [one, *X], [one]
+    one = sympy.S.One
+    choices = [one, *X, *products_of_two(X)], [one, *X], [one]
     return next((made for made in choices if len(made) <= most), [])
 
 

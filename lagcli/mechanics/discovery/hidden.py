@@ -15,7 +15,6 @@ Fradkin, Am. J. Phys. 33 (1965) 207; Goldstein, Am. J. Phys. 43 (1975) 737.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations_with_replacement
 
 import sympy
 from sympy import Expr, Symbol
@@ -24,6 +23,7 @@ from lagcli.algebra import Field, dot, is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.ansatz import (
     ordered,
+    products_of_two,
     quadratic,
     quadratic_unknowns,
     up_to_second_degree,
@@ -193,7 +193,7 @@ class QuadraticIntegrals:
         """Products of the terms of L at rest with monomials and with the functions f."""
         q = self.equations.q
         terms = self._of_rest()
-        monomials = [sympy.S.One, *self.X, *_products(self.X)]
+        monomials = [sympy.S.One, *self.X, *products_of_two(self.X)]
         inside = {t for _, f in functions for t in bare_terms(f, q)}
         roots = sorted(
             _roots(sympy.Tuple(*terms), q), key=sympy.default_sort_key
@@ -221,11 +221,6 @@ def potential(
     return boundary_term(simplify(dot(force, system.qdot)), system) if found is None else found
 
 
-def _products(X: Sequence[Expr]) -> list[Expr]:
-    """Of two, equal ones too."""
-    return [x * y for x, y in combinations_with_replacement(X, 2)]
-
-
 def _roots(expression: Expr, q: Sequence[Symbol]) -> set[Expr]:
     """The roots of functions of the coordinates that occur in it, to the power of one."""
     return {
@@ -249,7 +244,7 @@ def _of_field(equations: SlotEquations) -> list[Expr]:
     still = dict.fromkeys(v, sympy.S.Zero)
     slopes = [simplify(f.diff(x).xreplace(still)) for f in equations.forcing for x in v]
     terms = dict.fromkeys(t for s in slopes for t in bare_terms(s, q))
-    monomials = [sympy.S.One, *q, *_products(q)]
+    monomials = [sympy.S.One, *q, *products_of_two(q)]
     made = dict.fromkeys(t * m for t in terms for m in monomials)
     return list(made) if len(made) <= _MOST_OF_FIELD else []
 
