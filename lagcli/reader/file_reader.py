@@ -56,7 +56,7 @@ UNREADABLE = ZERO
 _NUMERIC = (VALUES, INITIAL)
 #: The words for it, and what they mean.
 YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
-_WORDS = frozenset({"none", "null", *YES_OR_NO, *habits()["nothing"]})
+_WORDS = frozenset({"none", "null", *YES_OR_NO})
 _FREQUENCIES = "write [sqrt(g/l)]"
 _RELATION = regex("[=<>≤≥]")
 _OF_RELATIONS = frozenset({"holds_while", "where", "always", "reaches"})
@@ -134,7 +134,8 @@ class FileReader:
         if isinstance(node, Mapping):
             yield from self._with_decimals(node, what)
         else:
-            is_word = isinstance(node, Scalar) and node.value.casefold() in _WORDS
+            word = node.value.casefold() if isinstance(node, Scalar) else ""
+            is_word = word in _WORDS or word in habits()["nothing"]
             if is_word and not what.startswith("the symmetry"):
                 hint = "leave out the key"
             if isinstance(node, Sequence) and (named := by_its_name(node)):
