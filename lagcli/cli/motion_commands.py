@@ -13,7 +13,6 @@ from lagcli.cli.files import read_input, reason
 from lagcli.diagnostics import ProblemError
 from lagcli.pipeline import Request, read, with_lagrangian
 from lagcli.problem_data import Problem
-from lagcli.reader.habits import meanings
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
 
@@ -106,6 +105,8 @@ def is_known(option: str, name: str, names: tuple[str, ...]) -> bool:
     """Whether a name is a known one; a message where it is not."""
     if name in names:
         return True
+    from lagcli.reader.habits import meanings
+
     meant = meanings("languages").get(name)
     near = f"did you mean '{meant}'?" if meant in names else did_you_mean(name, names)
     advice = near or f"there are {', '.join(names)}"

@@ -10,7 +10,6 @@ from pathlib import Path
 from click import BadOptionUsage, ClickException, Context, NoSuchOption, UsageError
 
 from lagcli.cli.error_output import within_a_terminal
-from lagcli.reader.habits import meanings
 
 #: Options by what other programs call them.
 _MEANT = {
@@ -59,6 +58,8 @@ def report_mistake(mistake: ClickException, arguments: Sequence[str]) -> None:
     elif isinstance(mistake, BadOptionUsage) and mistake.option_name in _FOR_EXAMPLE:
         said = f"{said} Write {_FOR_EXAMPLE[mistake.option_name]}."
     elif context is not None and context.parent is None and "No such command" in said:
+        from lagcli.reader.habits import meanings
+
         named = next((each for each in arguments if not each.startswith("-")), "")
         other = meanings("commands").get(named)
         if Path(named).suffix in {".yaml", ".yml"} or Path(named).exists():
