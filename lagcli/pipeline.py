@@ -7,12 +7,11 @@ imported when it is come to.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING, TypeVar
 from unicodedata import normalize
 
 from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
-from lagcli.record import record
+from lagcli.record import record, replace
 
 if TYPE_CHECKING:
     from lagcli.formatters import Options

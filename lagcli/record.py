@@ -13,7 +13,7 @@ from dataclasses import MISSING, Field, FrozenInstanceError, field, make_datacla
 from operator import attrgetter
 from typing import Any, NamedTuple, TypeVar, dataclass_transform, overload
 
-__all__ = ["field", "record", "replace"]
+__all__ = ["field", "field_names", "record", "replace"]
 
 Class = TypeVar("Class")
 Value = TypeVar("Value")
@@ -133,10 +133,17 @@ def _defaults(places: tuple[tuple[_RecordField, Any], ...]) -> tuple[tuple[Any, 
     return tuple((put, part.default) for part, put in places)
 
 
+def field_names(value: object) -> tuple[str, ...]:
+    """The names of the fields of a record or of a dataclass; none of anything else."""
+    parts = getattr(type(value), "_parts", None)
+    if parts is not None:
+        return tuple(part.name for part in parts)
+    return tuple(getattr(type(value), "__dataclass_fields__", ()))
+
+
 def replace(value: Value, /, **changes: Any) -> Value:
-    """The same record with other values of some fields."""
-    parts: tuple[_RecordField, ...] = value._parts  # type: ignore[attr-defined] # noqa: SLF001
-    kept = {part.name: getattr(value, part.name) for part in parts if part.name not in changes}
+    """The same record, or dataclass, with other values of some fields."""
+    kept = {name: getattr(value, name) for name in field_names(value) if name not in changes}
     return type(value)(**kept, **changes)
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import fields, is_dataclass, replace
 from typing import Any, TypeVar, cast
 
 from lagcli.expression import Expression, Name
+from lagcli.record import field_names, replace
 
 Value = TypeVar("Value")
 
@@ -34,8 +34,8 @@ def parts_in(value: object, kind: type[Value]) -> Iterator[Value]:
             parts = value
         case Mapping():
             parts = value.values()
-        case _ if is_dataclass(value) and not isinstance(value, Expression):
-            parts = (getattr(value, each.name) for each in fields(value))
+        case _ if not isinstance(value, (Expression, type)):
+            parts = (getattr(value, each) for each in field_names(value))
     for part in parts:
         yield from parts_in(part, kind)
 
@@ -70,17 +70,15 @@ def _rewritten(value: Any, rewrite: Callable[[Expression], Expression]) -> Any:
             return parts if any(a is not b for a, b in zip(parts, value, strict=True)) else value
         case Mapping():
             return {key: _rewritten(part, rewrite) for key, part in value.items()}
-        case _ if is_dataclass(value):
-            return _with_fields(value, rewrite)
         case _:
-            return value
+            return _with_fields(value, rewrite)
 
 
 def _with_fields(value: Any, rewrite: Callable[[Expression], Expression]) -> Any:
     changes = {}
-    for part in fields(value):
-        old = getattr(value, part.name)
+    for name in field_names(value):
+        old = getattr(value, name)
         new = _rewritten(old, rewrite)
         if new is not old:
-            changes[part.name] = new
+            changes[name] = new
     return replace(value, **changes) if changes else value

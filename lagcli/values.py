@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import replace
 from typing import TypeVar
 
 from lagcli.diagnostics import Diagnostic
@@ -22,6 +21,7 @@ from lagcli.expression import (
 )
 from lagcli.notation.decimals import number
 from lagcli.problem_data import Parameter, Problem, Question, Rewrite
+from lagcli.record import replace
 from lagcli.rewriting import expressions_in, rebuilt, substituted
 
 #: Beside the terms of a constraint, a residual that is rounding.

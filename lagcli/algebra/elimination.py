@@ -9,7 +9,6 @@ divided by it with remainder (pseudo-division), or the symbol goes into a result
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Sequence
-from dataclasses import dataclass
 
 import sympy
 from sympy import Dummy, Expr, Symbol
@@ -19,6 +18,7 @@ from lagcli.algebra.field import Element
 from lagcli.algebra.polynomial_roots import coefficients
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.platform.effort import EFFORT, Work
+from lagcli.record import record
 
 _PASSES = 12
 _MAX_TERMS = 4000  # measured: at most 13
@@ -29,7 +29,7 @@ _UNLIMITED = Work(float("inf"))
 Nonzero = Callable[[Expr], bool]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class EliminatedExpression:
     """An expression with symbols eliminated where that was possible.
 

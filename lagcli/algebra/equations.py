@@ -6,7 +6,6 @@ Roots may be complex for some values of the parameters: the caller tells which a
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import sympy
 from sympy import Expr, Symbol
@@ -19,6 +18,7 @@ from lagcli.algebra.opening import common_multiple, phases, without_phases
 from lagcli.algebra.polynomial_roots import MAX_DEGREE, polynomial_roots
 from lagcli.algebra.ring import Poly, factorization
 from lagcli.algebra.signs import sign
+from lagcli.record import record
 
 _INVERSES = {
     sympy.log: sympy.exp,
@@ -28,7 +28,7 @@ _INVERSES = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Roots:
     """The roots of an equation; those of an angle lie in (-pi, pi]."""
 

@@ -8,7 +8,6 @@ coefficient positive.  Zero has exactly one such form.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, field
 from fractions import Fraction
 from math import inf
 
@@ -16,9 +15,10 @@ from sympy import Expr
 
 from lagcli.algebra.ring import Poly, Ring
 from lagcli.platform.effort import EFFORT
+from lagcli.record import field, record
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Generator:
     """What a generator of the field stands for.
 
@@ -36,7 +36,7 @@ class Generator:
     nonnegative: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Element:
     """numerator / denominator of a field."""
 

@@ -21,12 +21,13 @@ from lagcli.algebra.shapes import Shapes
 from lagcli.algebra.simplification import ReadableShapes
 from lagcli.algebra.writing import Writer
 from lagcli.platform.effort import OutOfWork
+from lagcli.record import record
 
 Matrix = Sequence[Sequence[Expr]]
 _Rows = list[dict[int, Element]]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class LinearSolution:
     """The solution of A x = b.
 

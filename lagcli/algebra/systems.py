@@ -31,11 +31,12 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import is_zero, simplify
 from lagcli.algebra.vanishing_factors import same, vanishing_factors, without_repeats
 from lagcli.platform.effort import Work
+from lagcli.record import record
 
 _MAX_BRANCHES = 256  # measured: at most 10
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class SystemSolution:
     """Values of unknowns, formulas in the free ones; it is there where `positive` > 0.
 

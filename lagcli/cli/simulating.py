@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,7 +13,7 @@ from lagcli.cli.error_output import report_line, report_refusal
 from lagcli.cli.motion_commands import is_known, option_reader, shared, understood
 from lagcli.cli.output import has_place, place
 from lagcli.cli.status import Status
-from lagcli.record import record
+from lagcli.record import record, replace
 from lagcli.studies.run_options import RunOptions
 
 if TYPE_CHECKING:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import fields, is_dataclass
 from math import isfinite
 from typing import Any, TypeVar
 
 from lagcli.expression import Expression
 from lagcli.formatters.grammar import to_grammar
 from lagcli.formatters.options import Options
+from lagcli.record import field_names
 from lagcli.statements.motions import Above
 from lagcli.units import Unit
 
@@ -42,9 +42,8 @@ def plain(value: Any) -> Any:
             return [plain(each) for each in value]
         case float():
             return value if isfinite(value) else None
-    if is_dataclass(value):
-        return {part.name: plain(getattr(value, part.name)) for part in fields(value)}
-    return value
+    names = field_names(value)
+    return {name: plain(getattr(value, name)) for name in names} if names else value
 
 
 def fields_of(statement: object, names: str) -> Object:

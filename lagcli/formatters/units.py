@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Callable
 from fractions import Fraction
 
@@ -46,7 +45,9 @@ def _latex_power(name: str, power: Fraction) -> str:
 
 
 def _mathml_power(name: str, power: Fraction) -> str:
-    shown = f"<mi mathvariant='normal'>{html.escape(name)}</mi>"
+    from html import escape
+
+    shown = f"<mi mathvariant='normal'>{escape(name)}</mi>"
     return shown if power == 1 else f"<msup>{shown}<mn>{power}</mn></msup>"
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import is_dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from lagcli.expression import Expression
 from lagcli.interface.formula import Formula
 from lagcli.interface.rendered import Rendered
 from lagcli.problem_data import Problem
+from lagcli.record import field_names, replace
 from lagcli.statements.answers import Answers
 from lagcli.statements.registry import find_section, in_order
 
@@ -159,7 +159,7 @@ def wrapped(value: Any, problem: Problem) -> Any:
             return {key: wrapped(each, problem) for key, each in value.items()}
         case tuple() | list():
             return tuple(wrapped(each, problem) for each in value)
-        case _ if is_dataclass(value):
+        case _ if field_names(value):
             return SolutionPart(value, problem)
         case _:
             return value

@@ -16,7 +16,6 @@ Landau, Lifshitz, *The Classical Theory of Fields*, 4th ed., sections 9 and 16.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 
 import mpmath
@@ -34,11 +33,12 @@ from lagcli.algebra.positivity import deciding
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.states import Contradiction, State
+from lagcli.record import record
 
 Block = tuple[int, ...]
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Auxiliary:
     """s = f(q, v)^(1/n), and what it is in the images."""
 
@@ -52,7 +52,7 @@ class Auxiliary:
         return _with_root(expression, self.function, self.symbol, self.n)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class Inverse:
     """The variables of a block, which may contain the auxiliary quantity."""
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Container, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from math import prod
 from typing import TypeAlias
@@ -24,6 +23,7 @@ from lagcli.expression import (
 from lagcli.notation.factors import parts_of, power_product, whole_power
 from lagcli.notation.likeness import Key, multiplied_out, signed_key
 from lagcli.notation.ordering import Ordering
+from lagcli.record import record
 from lagcli.rewriting import put_in
 
 #: The letters of an angle with the numbers before them.
@@ -215,7 +215,7 @@ def _without_unlike(
     return None
 
 
-@dataclass(frozen=True)
+@record
 class _Wave:
     """number × rest × sin x or cos x."""
 

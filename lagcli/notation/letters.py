@@ -8,14 +8,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
-from dataclasses import fields, is_dataclass
 from typing import Any, TypeVar, cast
 from unicodedata import normalize
 
 from lagcli.document import Items, Label, Paragraph
 from lagcli.expression import FUNCTIONS, Call, Expression, Name, PartialCall, Sum, walk
 from lagcli.notation.naming import INDEX, free
-from lagcli.record import replace
+from lagcli.record import field_names, replace
 from lagcli.rewriting import expressions_in, rebuilt
 
 Page = TypeVar("Page")
@@ -80,10 +79,8 @@ def _settled(value: Any, taken: Collection[str]) -> Any:
             return Items(tuple(_said(parts, taken) for parts in items))
         case tuple():
             return tuple(_settled(part, taken) for part in value)
-        case _ if is_dataclass(value):
-            names = (each.name for each in fields(value))
-            changes = {n: _settled(getattr(value, n), taken) for n in names}
-            return replace(value, **changes)
+        case _ if names := field_names(value):
+            return replace(value, **{n: _settled(getattr(value, n), taken) for n in names})
         case _:
             return value
 

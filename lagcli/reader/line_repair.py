@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator
-from dataclasses import replace
 from html import unescape
 from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic, Source, Span
 from lagcli.reader.habits import KEYS, SIGNS, colon_advice, habits
 from lagcli.reader.regex import regex
+from lagcli.record import replace
 
 #: Longer files are not tried, nor more lines of a file.
 _LONGEST, _MOST = 20_000, 8

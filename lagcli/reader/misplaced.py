@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.reader.habits import KEYS, MAPS, key_meant
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
+from lagcli.record import replace
 
 _ENERGIES = frozenset("TVLH")
 _RELATION = regex("[=<>]")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
@@ -18,6 +17,7 @@ from lagcli.reader.quantities import value_cycle
 from lagcli.reader.scope import VALUES, Scope
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.text import Mistake, SourceText
+from lagcli.record import replace
 from lagcli.rewriting import rebuilt
 
 if TYPE_CHECKING:

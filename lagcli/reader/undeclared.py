@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import pairwise
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.reader.regex import regex
+from lagcli.record import replace
 
 #: What `lagcli.reader.names` says of a name that nothing resembles.
 UNDECLARED = "declare it under 'parameters'"

@@ -22,9 +22,11 @@ def spare_sympy() -> None:
     version that this was not made for: all works as well, and starts more slowly.
     """
     from lagcli.sparing.packages import known_sympy, serve_names_lazily, serve_singletons_lazily
+    from lagcli.sparing.recognition import recognise_without_importing
 
     if not os.environ.get("LAGCLI_WHOLE_SYMPY") and known_sympy():
         serve_names_lazily()
+        recognise_without_importing()
         serve_singletons_lazily()
 
 

@@ -11,12 +11,18 @@ import sys
 from collections.abc import Mapping
 from functools import cache
 from importlib import import_module
-from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder
 from importlib.util import resolve_name, spec_from_file_location
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+from lagcli.sparing.recognition import stand_in_for
+
+if TYPE_CHECKING:
+    from importlib.abc import Loader
+else:  # importing it takes longer than it has use
+    Loader = object
 
 #: The versions whose start this was tried on.
 _VERSIONS = ("1.14.",)
@@ -54,7 +60,7 @@ def serve_names_lazily() -> None:
     sys.meta_path.insert(0, _Finder())
 
 
-class _Finder(MetaPathFinder):
+class _Finder:
     def find_spec(self, fullname: str, path: Any, target: Any = None) -> ModuleSpec | None:
         del target
         parts = fullname.split(".")
@@ -97,6 +103,11 @@ class _LazyPackage(ModuleType):
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
+        base, _ = self.__dict__["_aliases"].get(name, (name, ""))
+        module, _ = self.__dict__["_places"].get(base, ("", ""))
+        stand_in = stand_in_for(self.__name__, name, module, sys._getframe(1))  # noqa: SLF001
+        if stand_in is not None:
+            return stand_in
         value = self.__dict__[name] = self._found(name)
         return value
 

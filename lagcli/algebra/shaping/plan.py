@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
 from math import lcm
 
@@ -10,6 +9,7 @@ from lagcli.algebra.shaping.atoms import Atoms, Coefficient, Exponent
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression
 from lagcli.notation.ordering import Factor
+from lagcli.record import record
 
 #: One operation less is worth brackets around this many operations.
 OPERATION = 6
@@ -21,7 +21,7 @@ _FRACTION = 3
 _NESTED = 10_000
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlannedProduct:
     """coefficient * prod part^exponent; a part is an atom or a sum.
 
@@ -47,7 +47,7 @@ class PlannedProduct:
         return PlannedProduct(-self.coefficient, self.parts, cost, self.strain, self.fractional)
 
 
-@dataclass(frozen=True, slots=True)
+@record
 class PlannedSum:
     """A sum of products."""
 

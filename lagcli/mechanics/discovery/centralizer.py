@@ -14,7 +14,6 @@ two dilations of a free point in oblique coordinates, their rotation.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import sympy
 from sympy import Expr, Symbol
@@ -27,6 +26,7 @@ from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.noether import NoetherCharge, Transformation
 from lagcli.mechanics.system import System
+from lagcli.record import replace
 
 
 def centralized(

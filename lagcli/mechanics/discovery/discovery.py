@@ -9,7 +9,6 @@ Ibragimov, *Elementary Lie Group Analysis and Ordinary Differential Equations*, 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 
 import sympy
 from sympy import Expr
@@ -42,6 +41,7 @@ from lagcli.mechanics.discovery.setting import Setting
 from lagcli.mechanics.discovery.slots import point_slots
 from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+from lagcli.record import replace
 from lagcli.statements.wording import PRESCRIBED
 
 _UNPROVED = "a symmetry whose charge was not proved is left out"

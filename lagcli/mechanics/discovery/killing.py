@@ -9,7 +9,7 @@ Perelomov, *Integrable Systems of Classical Mechanics and Lie Algebras*, vol. I,
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations, combinations_with_replacement
 
 import sympy
@@ -24,6 +24,7 @@ from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import SlotEquations, combined, point_slots
+from lagcli.record import replace
 
 _COORDINATES = (2, 3)
 

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from math import isqrt
 
 import mpmath
@@ -27,6 +27,7 @@ from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.spectrum import exponents
 from lagcli.mechanics.discovery.time_dependent import of_euler
+from lagcli.record import replace
 
 
 @dataclass(slots=True)

@@ -13,7 +13,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from collections.abc import Set as AbstractSet
-from dataclasses import replace
 
 import sympy
 from sympy import Expr
@@ -24,6 +23,7 @@ from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.fewer_coordinates import integral_of
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 from lagcli.mechanics.system import System
+from lagcli.record import replace
 
 
 def lifted(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 
 import sympy
 from sympy import Expr
@@ -16,6 +15,7 @@ from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.names import Naming, distinct
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
+from lagcli.record import replace
 
 
 class Listing:

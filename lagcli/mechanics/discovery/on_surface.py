@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import sympy
 from sympy import Expr
@@ -15,6 +14,7 @@ from lagcli.mechanics.discovery.momentum_equation import Momenta
 from lagcli.mechanics.discovery.setting import Setting
 from lagcli.mechanics.discovery.under_constraints import UnderConstraints
 from lagcli.mechanics.noether import NoetherCharge, Transformation
+from lagcli.record import replace
 
 ALL_ARE_KNOWN = "every other integral is a function of these"
 _MOST_IN_SPACE = 4  # measured: at most 3

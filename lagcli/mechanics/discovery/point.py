@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
-from dataclasses import replace
 
 import sympy
 from sympy import Expr, Symbol
@@ -20,6 +19,7 @@ from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.search import Search, SlotSolution
 from lagcli.mechanics.discovery.slots import combined
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+from lagcli.record import replace
 
 
 def transformation_of(

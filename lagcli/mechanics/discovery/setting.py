@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cached_property
 
 import mpmath
@@ -23,6 +22,7 @@ from lagcli.mechanics.discovery.listing import Listing
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.noether import Noether, NoetherCharge
 from lagcli.mechanics.states import Contradiction
+from lagcli.record import replace
 
 _MOST_COORDINATES = 9  # measured: at most 5
 _FEW_TERMS = 3  # measured: up to 7

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import replace
 from itertools import combinations_with_replacement
 
 import sympy
@@ -37,6 +36,7 @@ from lagcli.mechanics.discovery.special import (
 from lagcli.mechanics.discovery.spectrum import Exponent
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.problem_data import Problem
+from lagcli.record import replace
 
 _MOST_COORDINATES = 4  # measured: up to 5
 _UNITS = 56_000_000  # three frequencies: 11 values take 45 million

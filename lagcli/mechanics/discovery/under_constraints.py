@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace as changed
 from itertools import combinations_with_replacement
 
 import sympy
@@ -20,6 +19,7 @@ from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.surface import independent_on_surface
 from lagcli.mechanics.discovery.surface_integrals import Integral, IntegralTerm, SurfaceIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+from lagcli.record import replace as changed
 
 _MOST_LINEAR = 420  # measured: at most 314
 _MOST_QUADRATIC = 300

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from functools import cached_property
 from itertools import islice, product
 
@@ -29,6 +28,7 @@ from lagcli.mechanics.rest.kinks import at_cusps, at_kinks
 from lagcli.mechanics.rest.rest_conditions import RestConditions, RestPoint
 from lagcli.mechanics.rest.singular import is_pressed_to_an_edge, survives
 from lagcli.mechanics.system import System
+from lagcli.record import replace
 from lagcli.statements.wording import FINITE_MASS, INDEPENDENT, NOT_ZERO, enumerated
 
 _MAX_EVIDENT = 64  # six angles at 0 or pi

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import groupby
 from math import ulp
 from typing import TYPE_CHECKING
@@ -14,6 +13,7 @@ from lagcli.numerics.certified.ensemble import Ensemble
 from lagcli.numerics.equations.refusal import Refusal
 from lagcli.numerics.hybrid.request import RunRequest
 from lagcli.numerics.hybrid.result import Result
+from lagcli.record import replace
 
 if TYPE_CHECKING:
     from lagcli.problem_data import Problem
