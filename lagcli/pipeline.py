@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from lagcli.formatters import Options
     from lagcli.mechanics.derivation import Derivation
     from lagcli.mechanics.stating import Stating
+    from lagcli.notation.likeness import Key
+    from lagcli.notation.manner import Manner
     from lagcli.problem_data import Problem
     from lagcli.statements.answers import Answers, Section
     from lagcli.statements.explanation import Explanation
@@ -144,9 +146,7 @@ def state(derivation: Derivation, request: Request) -> Answers:
         When the equations take more work than they are allowed.
     """
     from lagcli.notation.manner import Manner
-    from lagcli.rewriting import parts_in, rewritten
-    from lagcli.statements.answers import CanonicalSection
-    from lagcli.statements.motions import Above
+    from lagcli.rewriting import rewritten
     from lagcli.verification import verified
 
     answers = _ended(lambda: _statements(derivation)).answers(request.sections)
@@ -159,12 +159,9 @@ def state(derivation: Derivation, request: Request) -> Answers:
     manner = Manner(derivation.given)
     sections: dict[str, Section] = {}
     for name, section in answers.sections.items():
-        manner.anew()
-        for each in parts_in(section, Above):
-            manner.expect(each.left, each.right)
-        if isinstance(section, CanonicalSection):  # the brackets of q' occur in p' as they are
-            rewritten(tuple(pair.q for pair in (section.equations or {}).values()), manner)
-        sections[name] = rewritten(section, manner)
+        sections[name] = _section_in_manner(manner, section)
+        if one_way := manner.both_ways(sections[name]):
+            sections[name] = _section_in_manner(manner, section, one_way)
     answers = replace(
         answers,
         sections=_with_words(derivation.given, sections),
@@ -188,6 +185,22 @@ def state(derivation: Derivation, request: Request) -> Answers:
         sections=rewritten(answers.sections, with_decimals),
         where=rewritten(answers.where, with_decimals),
     )
+
+
+def _section_in_manner(
+    manner: Manner, section: Section, one_way: Mapping[Key, int] | None = None
+) -> Section:
+    """A section as the file would write it; `one_way` as `Manner.both_ways` gives it."""
+    from lagcli.rewriting import parts_in, rewritten
+    from lagcli.statements.answers import CanonicalSection
+    from lagcli.statements.motions import Above
+
+    manner.anew(one_way)
+    for each in parts_in(section, Above):
+        manner.expect(each.left, each.right)
+    if isinstance(section, CanonicalSection):  # the brackets of q' occur in p' as they are
+        rewritten(tuple(pair.q for pair in (section.equations or {}).values()), manner)
+    return rewritten(section, manner)
 
 
 def _with_roots(problem: Problem, answers: Answers) -> Answers:
@@ -362,7 +375,12 @@ def _in_the_manner(derivation: Derivation, account: Explanation) -> Explanation:
     from lagcli.rewriting import rewritten
 
     taken = names_of(derivation.given)
-    account = replace(account, steps=rewritten(account.steps, Manner(derivation.given)))
+    manner = Manner(derivation.given)
+    steps = rewritten(account.steps, manner)
+    if one_way := manner.both_ways(steps):
+        manner.anew(one_way)
+        steps = rewritten(account.steps, manner)
+    account = replace(account, steps=steps)
     if derivation.large_form is None:
         account = in_steps(account, taken)
     said = tuple(sentence(warning, taken) for warning in account.warnings)

@@ -9,7 +9,7 @@ minus goes and whether a number comes first does not change a value, and follows
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
 from lagcli.expression import (
@@ -61,7 +61,7 @@ from lagcli.notation.factors import (
 from lagcli.notation.fractions import Brackets
 from lagcli.notation.given_formulas import given, order_of_names
 from lagcli.notation.given_sums import GivenPotential, GivenSums, arranged
-from lagcli.notation.likeness import EVEN, ODD, Monomial, multiplied_out, parity, signed_key
+from lagcli.notation.likeness import EVEN, ODD, Key, Monomial, multiplied_out, parity, signed_key
 from lagcli.notation.logarithms import ratios_in, with_ratios
 from lagcli.notation.ordering import (
     Ordering,
@@ -74,7 +74,7 @@ from lagcli.notation.ordering import (
 from lagcli.notation.reciprocals import GivenFractions
 from lagcli.notation.signs_of_sums import FirstSigns, SumSigns
 from lagcli.problem_data import Problem
-from lagcli.rewriting import put_in, rebuilt
+from lagcli.rewriting import expressions_in, put_in, rebuilt
 
 _ARC = frozenset(("acos", "asin", "acosh", "asinh"))
 
@@ -110,11 +110,18 @@ class Manner:
         )
         self._brackets = Brackets(self._ordering, frozenset("p_" + name for name in names))
 
-    def anew(self) -> None:
-        """Begin another section, which is written as if it were the only one."""
-        self._signs.anew()
+    def anew(self, one_way: Mapping[Key, int] | None = None) -> None:
+        """Begin another section, which is written as if it were the only one.
+
+        `one_way` has the sums of constants that it would have both ways, see `both_ways`.
+        """
+        self._signs.anew(one_way or {})
         for memory in (self._known, self._within, self._above, self._squares, self._beside):
             memory.clear()
+
+    def both_ways(self, section: object) -> dict[Key, int]:
+        """The sums of constants that a written section has as a − b and b − a; their one sign."""
+        return self._signs.both_ways(expressions_in(section))
 
     def expect(self, left: Expression, right: Expression) -> None:
         """Of a section with the condition a > b: a denominator has a − b."""
@@ -150,6 +157,8 @@ class Manner:
         for place, factor in enumerate(above if minus else ()):
             base, odd = odd_base(factor)
             if base is None or not odd or self._signs.wrong(base) is not None:
+                continue
+            if self._signs.against(base) is not None:
                 continue
             if several and self._above.has(base):
                 continue
@@ -336,7 +345,7 @@ class Manner:
             base, odd = odd_base(factor)
             if base is None or not odd or self._signs.wrong(base) is not None:
                 continue
-            if self._within.turns(base):
+            if self._signs.against(base) is None and self._within.turns(base):
                 above[place] = with_base(factor, negative_of(base))
                 minus = not minus
         whole = quotient_of(above, below)
@@ -366,7 +375,9 @@ class Manner:
             like = self._sums.like(base)
             if like is not None and abs(like[0]) == 1:
                 return Power(like[1], node.exponent)
-            wrong = self._signs.wrong(base)
+            wrong = self._signs.against(base)
+            if wrong is None:
+                wrong = self._signs.wrong(base)
             turned = self._momenta.are_subtracted(base)
             if not self._momenta.are_subtracted(negative_of(base)):
                 turned = turned or self._signs.begins_worse(base)
@@ -425,7 +436,9 @@ class Manner:
                     base = Sum((*positive_first(base.terms),))
                     factors[place] = with_base(factor, base)
                     factor = factors[place]
-                wrong = self._signs.wrong(base, below=factors is below and not inside)
+                wrong = None if inside else self._signs.against(base)
+                if wrong is None:
+                    wrong = self._signs.wrong(base, below=factors is below and not inside)
                 if wrong:
                     turned = self._in_manner(negative_of(base), inside=inside)
                     factors[place] = with_base(factor, turned)

@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
 
 from lagcli.evaluation import finite_value, sign_at_random
 from lagcli.expression import (
+    Call,
     Expression,
     Name,
     Negative,
     Number,
+    PartialCall,
     Power,
+    Product,
+    Quotient,
     Sum,
+    children,
     factors_of,
     opposite,
     walk,
@@ -73,6 +79,7 @@ class SumSigns:
         self._positive = positive
         self._file: dict[Key, int] = {}  # of a sum: that of the file, 0 where it has both
         self._below = FirstSigns()  # of denominators
+        self._one_way: dict[Key, int] = {}  # of sums of constants that a section has both ways
         self._brackets: set[Key] = set()  # all sums of the file that are no whole formulas
         for node in formulas:
             for part in walk(node):
@@ -84,9 +91,41 @@ class SumSigns:
                         continue
                     self._file[key] = sign if self._file.get(key, sign) == sign else 0
 
-    def anew(self) -> None:
-        """Begin another section."""
+    def anew(self, one_way: Mapping[Key, int]) -> None:
+        """Begin another section, with the signs of these sums."""
         self._below.clear()
+        self._one_way = dict(one_way)
+
+    def both_ways(self, formulas: Iterable[Expression]) -> dict[Key, int]:
+        """The sums of constants among the factors that stand both ways, a − b and b − a.
+
+        With the sign in which all of them are to stand: few minus signs, then a before b.  None
+        of a − b, b − c, c − a, which three like rows have in turn.
+        """
+        seen: dict[Key, dict[int, Sum]] = {}
+        for each in formulas:
+            for base in odd_sums(each):
+                if self._ordering.is_parameter(base) and not self.is_settled(base):
+                    sign, key = signed_key(base)
+                    seen.setdefault(key, {})[sign] = base
+        both = {key: found.popitem() for key, found in seen.items() if len(found) > 1}
+        terms = Counter(signed_key(t)[1] for _, base in both.values() for t in base.terms)
+        return {
+            key: sign if self._is_usual(base) else -sign
+            for key, (sign, base) in both.items()
+            if all(terms[signed_key(t)[1]] == 1 for t in base.terms)
+        }
+
+    def _is_usual(self, node: Sum) -> bool:
+        minuses = sum(isinstance(term, Negative) for term in node.terms)
+        if 2 * minuses != len(node.terms):
+            return 2 * minuses < len(node.terms)
+        return not isinstance(min(node.terms, key=self._ordering.term), Negative)
+
+    def against(self, node: Sum) -> bool | None:
+        """Whether the section has it the other way round; None where it has it one way only."""
+        sign, key = signed_key(node)
+        return self._one_way[key] != sign if key in self._one_way else None
 
     def is_bracket(self, node: Sum) -> bool:
         """Whether the sum or its negative stands within a formula of the file."""
@@ -166,6 +205,20 @@ class SumSigns:
                 return not isinstance(first, (Negative, Number))
             case _:
                 return False
+
+
+def odd_sums(node: Expression) -> Iterator[Sum]:
+    """The sums to an odd power among the factors of a formula, none inside a function."""
+    stack = [node]
+    while stack:
+        part = stack.pop()
+        if isinstance(part, (Call, PartialCall)):
+            continue
+        if isinstance(part, (Product, Quotient, Negative)):
+            _, above, below = parts_of(part)
+            found = (odd_base(factor) for factor in (*above, *below))
+            yield from (base for base, odd in found if base is not None and odd)
+        stack += children(part)
 
 
 def _all_negative(node: Sum) -> bool:

@@ -17,6 +17,7 @@ from lagcli.graph.values import Floats, Program
 from lagcli.notation.manner import Manner
 from lagcli.pipeline import Request, derive, read, state
 from lagcli.reader.expressions import parse_text
+from lagcli.rewriting import expressions_in
 from tests.read import LIBRARY, library
 
 FILE = """
@@ -234,3 +235,51 @@ def test_a_section_alone_is_that_in_company(name: str, section: str, other: str)
         for names in ((section,), (section, other))
     )
     assert alone == company
+
+
+@pytest.mark.parametrize(
+    ("text", "section", "rows"),
+    [
+        (  # Chow: an Atwood machine whose pulley hangs from a spring
+            """
+coordinates: [y, x]
+T: m1*(y' + x')^2/2 + m2*(y' - x')^2/2
+V: k*y^2/2 - m1*g*(y + x) - m2*g*(y - x)
+""",
+            "equations",
+            [
+                "(m1 + m2)*y'' + (m1 - m2)*x'' + k*y - (m1 + m2)*g",
+                "(m1 - m2)*y'' + (m1 + m2)*x'' - (m1 - m2)*g",
+            ],
+        ),
+        (  # Irodov, problem 1.78: two pulleys
+            """
+coordinates: [x, y]
+T: m1*x'^2/2 + m2*y'^2/2
+V: -m1*g*x - m2*g*y
+constraints: {string: 2*x + y = k}
+""",
+            "accelerations",
+            ["(m1 - 2*m2)*g/(m1 + 4*m2)", "-2*(m1 - 2*m2)*g/(m1 + 4*m2)"],
+        ),
+        (  # Neumann's particle on a sphere: three like rows
+            """
+coordinates: [x, y, z]
+T: (x'^2 + y'^2 + z'^2)/2
+V: (m1*x^2 + m2*y^2 + g*z^2)/2
+constraints: {sphere: x^2 + y^2 + z^2 = 1}
+""",
+            "accelerations",
+            [
+                "-x*(x'^2 + y'^2 + z'^2 + (m1 - m2)*y^2 + (m1 - g)*z^2)",
+                "-y*(x'^2 + y'^2 + z'^2 + (m2 - m1)*x^2 + (m2 - g)*z^2)",
+                "-z*(x'^2 + y'^2 + z'^2 + (g - m1)*x^2 + (g - m2)*y^2)",
+            ],
+        ),
+    ],
+)
+def test_a_difference_of_constants_stands_one_way_in_a_section(text, section, rows):
+    problem = read("t.yaml", f"title: t\nparameters: [m1, m2, k, g]{text}".encode()).problem
+    found = state(derive(problem), Request(sections=(section,))).sections[section]
+    shown = [to_grammar(each) for each in expressions_in(found)]
+    assert [each for each in shown if each in rows] == rows
