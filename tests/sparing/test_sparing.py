@@ -126,3 +126,17 @@ def test_what_there_is_one_of_is_there_at_its_first_use():
     for name, value in zip(names, whole, strict=True):
         if not hasattr(numbers, name):  # every process has these
             assert told(f"{START}from sympy import S; print(S.{name})").strip() == value
+
+
+@pytest.mark.parametrize(
+    "first", ["concrete.products", "concrete.summations", "integrals.integrals"]
+)
+def test_numbers_are_worked_out_whatever_is_read_first_once_there_are_some(first):
+    """The table of numerical methods asks for these modules, and is there at the first number."""
+    code = (
+        START + "from sympy import Symbol, sqrt; sqrt(2).evalf()\n"
+        f"import sympy.{first} as first; first.Expr, first.S\n"
+        "from sympy import Integral, Product, Sum; x = Symbol('x')\n"
+        "print(*(f(x, (x, 1, 2)).evalf(3) for f in (Integral, Product, Sum)))"
+    )
+    assert told(code).split() == ["1.50", "2.00", "3.00"]
