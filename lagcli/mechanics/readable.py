@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import cached_property
 
-from sympy import Expr, Mul, S
+from sympy import Add, Expr, Mul, S, expand_mul
 
 from lagcli.algebra import shape, simplify, terms
 from lagcli.algebra.build import free_of
@@ -86,7 +86,16 @@ class Readable:
         if moving == 0 or rest == 0 or still.has(*NO_VALUE):
             return together
         apart = Writer(self.system.order).sum([self._rate(moving), self._by_momenta(rest)])
-        return apart if operation_count(apart) <= _APART * operation_count(together) else together
+        count, least = operation_count(apart), operation_count(together)
+        if count <= least or (count <= _APART * least and not self._cancel(moving, rest)):
+            return apart
+        return together
+
+    @staticmethod
+    def _cancel(moving: Expr, rest: Expr) -> bool:
+        """Whether a term of one is minus one of the other: k x (1 - m c²/sqrt(…)) - k x."""
+        parts = (set(map(simplify, Add.make_args(expand_mul(e)))) for e in (-moving, rest))
+        return not set.isdisjoint(*parts)
 
     def _rate(self, expression: Expr) -> Expression:
         """The shortest shape, or term by term in the momenta where that is not long."""

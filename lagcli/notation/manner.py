@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from math import isqrt
 
 from lagcli.expression import (
     ONE,
@@ -199,6 +200,11 @@ class Manner:
                 if self._momenta.occur(node):
                     node = self._momenta.product(node)
                 return self._signed(self._with_one_fraction(node), inside=inside)
+            case Call(function="sqrt", arguments=(Sum() as inner,)) if outside := self._before_root(
+                inner
+            ):
+                number, rest = outside
+                return Product((Number(number), self._written(Call("sqrt", (rest,)), inside=True)))
             case Call(function="sqrt", arguments=(Sum() as inner,)) if self._momenta.occur(inner):
                 return self._momenta.root(inner)
             case Power():
@@ -243,6 +249,28 @@ class Manner:
                 return self._without_squares(inner)
             case _:
                 return node
+
+    def _before_root(self, radicand: Sum) -> tuple[Fraction, Sum] | None:
+        """2 and c² p² + (m c² + k x²/2)² of 4 c² p² + (2 m c² + k x²)², a bracket of the file."""
+        terms = [self._with_given_square(term) for term in radicand.terms]
+        content, rest = with_content(Sum((*terms,)))
+        number = Fraction(isqrt(content.numerator))
+        return (number, rest) if number > 1 and number**2 == content else None
+
+    def _with_given_square(self, term: Expression) -> Expression:
+        """4 (a + b/2)² for (2 a + b)², where the file has a + b/2."""
+        minus, above, below = parts_of(term)
+        numbers = Fraction(1)
+        for place, factor in enumerate(above):
+            base, exponent = whole_power(factor)
+            like = self._sums.like(base) if isinstance(base, Sum) and exponent == 2 else None
+            if like is not None and like[0].denominator == 1:
+                above[place] = power_of(like[1], exponent)
+                numbers *= like[0] ** exponent
+        if numbers == 1:
+            return term
+        whole = quotient_of([power_product((Number(numbers), *above), self._ordering)], below)
+        return Negative(whole) if minus else whole
 
     def _without_squares(self, radicand: Expression) -> Expression:
         """sqrt(a)/|p| for sqrt(a/p²) with a letter p that is not known to be positive."""

@@ -74,6 +74,12 @@ def formula(found):
              "lagrangian": "-m*c^2*sqrt(1 - (r'^2 + r^2*phi'^2)/c^2) + k/r"},
             "c*sqrt(p_r^2 + p_phi^2/r^2 + m^2*c^2) - k/r",
         ),
+        # a particle in a scalar potential, its rest energy: Jose and Saletan, section 5.1
+        (
+            {"coordinates": "x", "positive": "m c k",
+             "lagrangian": "-(m*c^2 + k*x^2/2)*sqrt(1 - x'^2/c^2)"},
+            "sqrt(c^2*p_x^2 + (m*c^2 + k*x^2/2)^2)",
+        ),
         # Goldstein 8.1: a pendulum whose support is accelerated
         (
             {"coordinates": "theta", "positive": "m l g a",
@@ -82,7 +88,7 @@ def formula(found):
             "(p_theta - m*a*l*t*cos(theta))^2/(2*m*l^2) - m*g*l*cos(theta) - m*a^2*t^2/2",
         ),
     ],
-    ids=["field", "turning", "top", "wedge", "relativity", "accelerated"],
+    ids=["field", "turning", "top", "wedge", "relativity", "scalar", "accelerated"],
 )  # fmt: skip
 def test_the_hamiltonian_is_that_of_the_book(given, book):
     given = dict(given)

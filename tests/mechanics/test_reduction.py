@@ -13,7 +13,7 @@ from sympy import Expr, Rational, S, Symbol
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import Builder, symbol
-from lagcli.expression import Expression, Name, Number, Power, walk
+from lagcli.expression import Call, Expression, Name, Number, Power, Sum, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.reduction.period import ratio_series
 from lagcli.mechanics.reduction.statement import Missing, reduction
@@ -254,6 +254,24 @@ def test_the_time_of_a_relativistic_oscillation(V, force, a):
         t += h
     t -= h * y / (y - before[0])
     assert abs(quarter - t) < 1e-5
+
+
+def test_the_time_where_the_rest_energy_changes():
+    """E = (m c² + k x²/2) gamma, solved for x'."""
+    section, _ = reduced("""
+coordinates: [x]
+parameters: {m: POSITIVE, c: POSITIVE, k: POSITIVE}
+L: -(m*c^2 + k*x^2/2)*sqrt(1 - x'^2/c^2)
+""")
+    one = section.one_freedom
+    names = {n: symbol(n) for n in ("x", "m", "c", "k", one.constant)}
+    rate = Builder(names, {}, lambda e: Symbol(e.name + "'"))(one.rate)
+    m, c, k, x, v = (sympy.Rational(n, 17) for n in (15, 29, 22, 7, 11))
+    energy = (m * c**2 + k * x**2 / 2) / sympy.sqrt(1 - v**2 / c**2)
+    values = {"m": m, "c": c, "k": k, "x": x, one.constant: energy}
+    assert abs(rate.evalf(30, subs={names[n]: values[n] for n in names}) - 1 / v) < 1e-25
+    roots = [p for p in walk(one.rate) if isinstance(p, Call) and p.function == "sqrt"]
+    assert all(isinstance(each.arguments[0], Sum) for each in roots)  # no product of two factors
 
 
 def test_the_period_of_a_relativistic_oscillation():

@@ -368,10 +368,27 @@ def _pace(motion: Motion, order: Sequence[str]) -> Expression:
     parts = sympy.fraction(sympy.together(pace))
     if sympy.sqrt(parts[0]).has(sympy.I):  # -E²/(p² c² - E²) is E²/(E² - p² c²)
         parts = [simplify(-part) for part in parts]
+    if (by_square := _by_squared_energy(parts, motion.E, order)) is not None:
+        return by_square
     above, below = (
         put_in(shape(sympy.sqrt(part), order), {Name(_EXCESS): whole}) for part in parts
     )
     return Writer(order).product(_ONCE, [(above, _ONCE), (below, -_ONCE)])
+
+
+def _by_squared_energy(parts: Sequence[Expr], E: Symbol, order: Sequence[str]) -> Expression | None:
+    """|E|/(c sqrt(E² - (m c² + k x²/2)²)), not over a root of the factors of the difference."""
+    above, below = parts
+    polynomial = sympy.expand(below).as_poly(E)
+    if polynomial is None or {*polynomial.as_dict()} != {(2,), (0,)}:
+        return None
+    slope, rest = (simplify(polynomial.coeff_monomial(E**n)) for n in (2, 0))
+    if sign(slope) != 1 or E in rest.free_symbols:
+        return None
+    square = power_of(Name(E.name), 2)
+    root = Call("sqrt", (sum_of((square, opposite(shape(simplify(-rest / slope), order)))),))
+    outside = shape(sympy.sqrt(simplify(above / slope)), order)
+    return Writer(order).product(_ONCE, [(outside, _ONCE), (root, -_ONCE)])
 
 
 def _has_sum(node: Expression) -> bool:
