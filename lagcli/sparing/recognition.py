@@ -41,8 +41,6 @@ _MOST_ASKINGS = 20_000
 _asked = count()
 #: By the place of the function's code, which stays where it is.
 _suffice: dict[int, bool] = {}
-#: The modules whose import is under way, the outermost first.
-_being_read: list[str] = []
 
 
 def recognise_without_importing() -> None:
@@ -96,28 +94,13 @@ class _Unread(ModuleType):
         if sys.modules.get(self.__name__) is self:
             if _suffices(sys._getframe(1)):  # noqa: SLF001
                 return _stand_in(self.__name__, name)
-            _read(self.__name__)
+            del sys.modules[self.__name__]
+            _give_numerical_methods(import_module(self.__name__))
         return getattr(sys.modules[self.__name__], name)
 
 
-def _read(name: str) -> None:
-    """Import what has not been read yet, and renew the numerical methods after all of it.
-
-    These modules import each other: while one is half read, the table would ask it for a class
-    that it does not have yet.
-    """
-    del sys.modules[name]
-    _being_read.append(name)
-    try:
-        import_module(name)
-    finally:
-        _being_read.pop()
-    if not _being_read:
-        _renew_numerical_methods()
-
-
-def _renew_numerical_methods() -> None:
-    """Give the table of numerical methods the rows of the classes that are there now."""
-    evalf = sys.modules.get("sympy.core.evalf")
-    if evalf is not None and evalf.evalf_table:
-        evalf._create_evalf_table()  # noqa: SLF001 - as SymPy's own start does
+def _give_numerical_methods(module: ModuleType) -> None:
+    """Move the rows of stand-ins in SymPy's table of numerical methods to the real classes."""
+    table = getattr(sys.modules.get("sympy.core.evalf"), "evalf_table", {})
+    for each in [c for c in table if isinstance(c, _StandIn) and c.__module__ == module.__name__]:
+        table[getattr(module, each.__name__)] = table.pop(each)

@@ -63,6 +63,37 @@ def test_what_is_asked_for_is_sympys_own(expression, value, whole):
     assert told(code, LAGCLI_WHOLE_SYMPY=whole).strip() == value
 
 
+#: Where a class is that SymPy's core recognises, and a name there.
+RECOGNISED = (
+    "calculus.accumulationbounds.AccumBounds concrete.products.Product concrete.summations.Sum "
+    "functions.special.polynomials.chebyshevt integrals.integrals.Integral "
+    "matrices.expressions.matexpr.MatrixExpr matrices.matrixbase.MatrixBase "
+    "sets.setexpr.SetExpr tensor.tensor.TensExpr"
+).split()
+AT_WORK = (
+    "assert abs(Integral(sin(x), (x, 0, pi)).evalf() - 2) < 1e-9; "
+    "assert abs(Sum(1 / x**2, (x, 1, 3)).evalf() - 49 / 36) < 1e-9; "
+    "assert abs(Product(x, (x, 1, 4)).evalf() - 24) < 1e-9; "
+    "assert sin(AccumBounds(0, pi)) == AccumBounds(0, 1); assert x + AccumBounds(1, 1) == x + 1; "
+    "assert Matrix([x**2]).diff(x) == Matrix([2 * x]); assert cos(3 * acos(x)).expand(trig=True) == 4 * x**3 - 3 * x; "
+    "A, B = MatrixSymbol('A', 2, 3), MatrixSymbol('B', 3, 2); assert (2 * A * B).shape == (2, 2); "
+    "assert (A + A) == 2 * A; assert (sqrt(2) + sqrt(3) - sqrt(5 + 2 * sqrt(6))).is_zero"
+)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("place", RECOGNISED)
+@pytest.mark.parametrize(
+    "before", ["sin(pi / 7).evalf(3)", "(x * y + sin(x) * sqrt(y)).diff(x, 2)", "exp(x).is_real"]
+)
+def test_what_is_recognised_without_its_module_works_when_it_is_there(place, before):
+    module, _, name = f"sympy.{place}".rpartition(".")
+    told(
+        f"{START}from sympy import Symbol, exp, pi, sin, sqrt; x, y = map(Symbol, 'xy'); {before}; "
+        f"from {module} import {name}; from sympy import *; {AT_WORK}"
+    )
+
+
 @pytest.mark.long
 def test_every_name_of_every_package_is_the_one_that_sympy_hands_out():
     packages = (
