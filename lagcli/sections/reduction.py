@@ -17,11 +17,22 @@ from lagcli.document import (
     equations_of,
     vanishing,
 )
-from lagcli.expression import Name
+from lagcli.expression import (
+    Expression,
+    Name,
+    Negative,
+    Sum,
+    operation_count,
+    opposite,
+    terms_of,
+    walk,
+)
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.notation.letters import own
+from lagcli.notation.likeness import signed_key
 from lagcli.problem_data import ExpectReduction
 from lagcli.reader.shapes import by_coordinate, formula, formulas, record_of, with_constants
+from lagcli.rewriting import put_in
 from lagcli.sections._expected import expected_of, judged
 from lagcli.sections.equations import equation_json
 from lagcli.statements.answers import Answers, ReductionSection
@@ -43,6 +54,9 @@ from lagcli.statements.wording import (
 
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
+
+#: Operations of a rate that is written out.
+_ONE_LINE = 16
 
 
 def derive(statements: Statements) -> ReductionSection:
@@ -94,7 +108,7 @@ def blocks(section: ReductionSection, _: Answers) -> Iterator[Block]:
         yield equations_of((Name(name, 1), value) for name, value in section.reconstruction.items())
     if section.one_freedom is not None:
         yield Heading("One degree of freedom", 2)
-        yield from _one_freedom(section.one_freedom, POTENTIALS[section.potential])
+        yield from _one_freedom(section.one_freedom, section)
 
 
 def _gyroscopic(section: ReductionSection) -> Iterator[Block]:
@@ -108,8 +122,9 @@ def _gyroscopic(section: ReductionSection) -> Iterator[Block]:
     yield equations_of((Label("g", (name,)), value) for name, value in section.gyroscopic.items())
 
 
-def _one_freedom(motion: OneFreedom, potential: Formula) -> Iterator[Block]:
+def _one_freedom(motion: OneFreedom, section: ReductionSection) -> Iterator[Block]:
     constant, q = Name(motion.constant), Name(motion.coordinate)
+    potential = POTENTIALS[section.potential]
     yield Equations((Row(constant, motion.energy, f"conserved {motion.when}".rstrip()),))
     if motion.turning_points is None:
         yield Paragraph(("The turning points are the roots of ", potential, " = ", constant, "."))
@@ -126,14 +141,31 @@ def _one_freedom(motion: OneFreedom, potential: Formula) -> Iterator[Block]:
         yield Paragraph(("There are no turning points.",))
     several = motion.turning_points is None or len(motion.turning_points) > 1
     turns_back = several and motion.oscillates
-    bound = Row(Label("T"), Integral(motion.rate, motion.coordinate, times=2))
+    rate = _by_potential(motion, section)
+    bound = Row(Label("T"), Integral(rate, motion.coordinate, times=2))
     yield Paragraph(("Time, and period between two turning points:" if turns_back else "Time:",))
-    time = Row(Name("t"), Integral(motion.rate, motion.coordinate))
+    time = Row(Name("t"), Integral(rate, motion.coordinate))
     yield Equations((time, bound) if turns_back else (time,))
     for period in once(motion.periods):
         yield from _period(period, motion.coordinate, potential)
     if motion.reason:
         yield Paragraph(naming_potential(f"{capitalized(motion.reason)}."))
+
+
+def _by_potential(motion: OneFreedom, section: ReductionSection) -> Expression:
+    """dt/dq with E − U_eff as in Landau and Lifshitz, section 11, where that is not short."""
+    potential = section.effective_potential
+    if potential is None or operation_count(motion.rate) <= _ONE_LINE:
+        return motion.rate
+    excess = {signed_key(t) for t in map(opposite, terms_of(potential))}
+    excess.add(signed_key(Name(motion.constant)))
+    named = Sum((Name(motion.constant), Negative(own(section.potential))))
+    found: dict[Expression, Expression] = {
+        part: named
+        for part in walk(motion.rate)
+        if isinstance(part, Sum) and set(map(signed_key, part.terms)) == excess
+    }
+    return put_in(motion.rate, found)
 
 
 def _period(period: PeriodSeries, coordinate: str, potential: Formula) -> Iterator[Block]:

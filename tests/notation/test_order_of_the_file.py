@@ -74,6 +74,9 @@ def test_the_hamiltonian_has_the_terms_of_the_potential_in_their_order(V: tuple[
          "√(c/a + c/b − g²)"),
         # no number before the root, which twice the integral would cancel
         ("T: 3*b*q'^2/4\nV: a*q^2/2", "reduction", "T = 2 ∫ √(3 b/(4 (E − a q²/2))) dq"),
+        # a long potential by its letter: Landau and Lifshitz, section 11
+        ("T: b*q'^2/2 + b*s'^2*sin(q)^2/2\nV: -b*g*c*cos(q) + a*sin(q)^2", "reduction",
+         "T = 2 ∫ √(b/(2 (E − U_eff))) dq"),
     ],
 )  # fmt: skip
 def test_shapes_as_books_have_them(physics: str, section: str, written: str) -> None:
