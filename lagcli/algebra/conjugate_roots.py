@@ -93,8 +93,8 @@ def with_number_turned(
     tree, place = shape(first, order), shape(root, order)
     terms = [t for node in walk(tree) if isinstance(node, Sum) for t in node.terms]
     single = [t for t in terms if sum(n == place for n in walk(t)) == 1 and not _has_sum(t)]
-    if len(single) != sum(node == place for node in walk(tree)):
-        return None
+    if not single or len(single) != sum(node == place for node in walk(tree)):
+        return None  # also where the root is within another, as in sqrt(2*g*a)
     return tree, _turned(tree, place)
 
 

@@ -103,7 +103,8 @@ def phases(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> dict[Symbol
     for x in unknowns:
         waves = {f for e in equations for f in e.atoms(*CIRCULAR) if not free_of(f, [x])}
         angles = [sympy.expand(f.args[0]) for f in waves]
-        masked = [e.xreplace(dict.fromkeys(waves, Dummy())) for e in equations]
+        hidden: dict[Expr, Expr] = {f: Dummy() for f in waves}
+        masked = [e.xreplace(hidden) for e in equations]
         if x.is_positive is not None or not all(free_of(e, [x]) for e in masked):
             continue
         zeros = {

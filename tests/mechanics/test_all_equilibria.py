@@ -522,3 +522,39 @@ def test_nothing_is_left_open_where_conditions_without_sines_give_all_angles(see
     alone = text.replace(loads, f"{q[0]}: P*sin({q[0]})")  # c a = P sin a: several for a great P
     rest = RestPoints(derive(alone).dynamics)
     assert not (rest.points and rest.complete)
+
+
+@pytest.mark.parametrize(
+    ("V", "complete"),
+    [
+        ("exp(-x)*sin(x)", False),
+        ("exp(-x/5)*(2*sin(x) + cos(x))", False),
+        ("exp(-cos(x))*sin(x)", True),
+        ("exp(-sin(2*x))*cos(2*x)", True),
+        ("cos(x) + cos(sqrt(2)*x)/50", False),
+    ],
+)
+def test_a_coordinate_that_counts_its_turns_rests_in_more_than_one(V, complete):
+    """Where the forces differ from one turn to the next, one turn is not all."""
+    rest = RestPoints(derive(f"coordinates: [x]\nT: x'^2/2\nV: {V}\n").dynamics)
+    assert rest.points is None or rest.complete is complete
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_half_angles_beside_whole_ones_have_two_turns(seed):
+    """All roots of V' within 4 pi, counted by the changes of its sign."""
+    draw = random.Random(seed)
+    a, b = draw.randint(1, 5), draw.randint(1, 5)
+    half, whole = draw.choice(("cos", "sin")), draw.choice(("cos", "sin"))
+    V = f"{a}*{half}(x/2) + {b}*{whole}(x)"
+    rest = RestPoints(derive(f"coordinates: [x]\nT: x'^2/2\nV: {V}\n").dynamics)
+    x = symbols("x", real=True)
+    slope = lambdify(x, (a * {"cos": cos, "sin": sin}[half](x / 2)
+                         + b * {"cos": cos, "sin": sin}[whole](x)).diff(x))  # fmt: skip
+    grid = [4 * math.pi * k / 20011 + 0.001 for k in range(20012)]
+    signs = [slope(u) > 0 for u in grid]
+    assert rest.complete
+    found = [float(p.values[rest.system.q[0]]) for p in rest.points]
+    assert len({round(u % (4 * math.pi), 6) for u in found}) == len(found)
+    assert len(found) == sum(m != n for m, n in pairwise(signs))
+    assert all(abs(slope(u)) < 1e-9 for u in found)

@@ -61,6 +61,17 @@ def test_a_frequency_is_real_and_not_negative(frequency):
     assert found.sections["modes"].modes is None
 
 
+@pytest.mark.parametrize("gyroscopic", ["", " + c*(x*y' - y*x')/2"])
+def test_a_frequency_is_not_listed_twice(gyroscopic):
+    """Each of the two that are listed is one of the motion, and the other one is missing."""
+    text = f"{PLANE.replace('T:', 'L:').strip()} - k*(x^2 + y^2)/2 - m*y^2/2{gyroscopic}\n"
+    problem, answers, section = sheet(text, "modes")
+    first, _ = section.modes
+    assert printed(problem, answers, modes=section).complete
+    found = printed(problem, answers, modes=replace(section, modes=(first, first)))
+    assert found.sections["modes"].modes is None
+
+
 @pytest.mark.parametrize("field", ["", " + c*r^2*phi'"])
 def test_a_magnetic_field_tells_a_turn_from_its_mirror_image(field):
     text = f"{POLAR}L: m*(r'^2 + r^2*phi'^2)/2 - k*r^2/2{field}\n"

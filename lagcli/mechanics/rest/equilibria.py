@@ -226,8 +226,8 @@ class RestPoints(RestConditions):
         hidden: dict[Expr, Expr] = {node: sympy.Dummy() for node in nodes}
         for q in self.system.q:
             rates = [simplify(x.args[0].diff(q)) for x in nodes if not free_of(x, [q])]
-            if not all(rate.is_Rational and not rate.is_Integer for rate in rates):
-                continue  # an angle of which cos(q) is felt, too, has one turn
+            if not all(rate.is_Rational for rate in rates):
+                continue
             n = sympy.ilcm(1, 1, *(rate.q for rate in rates))
             sines = n > 1 and all(free_of(f.xreplace(hidden), [q]) for f in formulas)
             if sines and not recur(formulas, q):

@@ -29,6 +29,7 @@ from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.place import NO_VALUE, at, nearly_vanishes, vanishes, where_positive
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
+from lagcli.algebra.translates import common_period, recur
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.rest.exceptions import with_a_value, without_unknowns
 from lagcli.mechanics.translations import constant_nullspace
@@ -314,11 +315,13 @@ class RestConditions:
 
     @cached_property
     def goes_beyond_one_turn(self) -> bool:
-        """Whether an angle of the conditions counts its turns in the inertia: M = 1 + q²."""
+        """Whether an angle of the conditions counts its turns: M = 1 + q², V = exp(-q) sin(q)."""
         entries = [x for x in (*chain(*self.mass_matrix), *self.forcing) if x != 0]
-        outside = [e.xreplace(dict.fromkeys(e.atoms(*CIRCULAR), sympy.Dummy())) for e in entries]
+        state = [*self.system.q, *self.system.qdot, self.system.t]
         angles = (q for q in self.system.q if self.is_angle(q) and not self._is_fixed(q))
-        return any(not all(free_of(e, [q]) for e in outside) for q in angles)
+        return any(
+            common_period(entries, q, state) is None and not recur(entries, q) for q in angles
+        )
 
     @cached_property
     def periods(self) -> dict[Symbol, Expr]:
@@ -333,7 +336,8 @@ class RestConditions:
         acting += [e.f for e in constraints if e.f is not None]
         for q in self.system.q:
             waves = {f for e in acting for f in e.atoms(*CIRCULAR) if f.has(q)}
-            outside = (e.xreplace(dict.fromkeys(waves, sympy.Dummy())) for e in acting)
+            hidden: dict[Expr, Expr] = {f: sympy.Dummy() for f in waves}
+            outside = (e.xreplace(hidden) for e in acting)
             rates = [simplify(f.args[0].diff(q)) for f in sorted(waves, key=str)]
             ratios = [simplify(rate / rates[0]) for rate in rates]
             if not rates or rates[0].is_Rational or not all(r.is_Rational for r in ratios):

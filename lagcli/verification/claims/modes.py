@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from flint import arb, ctx
 
-from lagcli.expression import Call, Expression, Number, Power, Product, Quotient
+from lagcli.expression import ZERO, Call, Expression, Number, Power, Product, Quotient
 from lagcli.record import replace
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Pole
 from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues, occur
@@ -77,8 +77,27 @@ def _all_modes(x: Examination, about: Sequence[ModesOfFrequency]) -> RestPlace |
         if not (len(values) - zeros) // 2 <= count <= (len(values) + 1) // 2:
             x.refute(what, f"it is {count} as derived, with {len(values) // 2} degrees of freedom")
             return None
+        if not occur(near, _squares(x, near, what, about)):
+            x.refute(what, "a frequency is listed more often than it occurs")
+            return None
         break
     return place
+
+
+def _squares(
+    x: Examination, near: LinearMotion, what: str, about: Sequence[ModesOfFrequency]
+) -> list[arb]:
+    """The printed omega^2 there of all modes without damping, each as often as it is said to be."""
+    found = []
+    for mode in about:
+        if mode.damped or mode.pole is not None:
+            continue
+        if mode.frequency is not None:
+            W = [near.at(p) ** 2 for p in x.places(what, [mode.frequency]) or ()]
+        else:
+            W = [near.at(p) for p in x.places(what, [mode.frequency_squared or ZERO]) or ()]
+        found += W * mode.multiplicity
+    return found
 
 
 def _are_all(x: Examination, places: Sequence[RestPlace]) -> bool:

@@ -92,17 +92,17 @@ class Balance:
         """
         random = Random(5)
         for state in self.x.states(_STATES):
-            for _ in range(_STARTS):
+            for k in range(_STARTS):
                 with ctx.workprec(PRECISIONS[0]):
-                    near = self._from(self._start(state, random))
+                    near = self._from(self._start(state, random, 1 + k % 2))
                     counts = near is not None and self._counts(near)
                 if near is not None and counts:
                     yield LinearMotion(self.x, near.environment)
 
-    def _start(self, state: State, random: Random) -> Environment:
+    def _start(self, state: State, random: Random, turns: int) -> Environment:
         environment = dict(state.environment)
         for coordinate in self.x.problem.coordinates:
-            value = arb(random.randint(-3300, 3300)) / 1024
+            value = turns * arb(random.randint(-3300, 3300)) / 1024
             sign = _SIGNS.get(coordinate.assume)
             environment[coordinate.name, 0] = value if sign is None else abs(value) * sign
             environment[coordinate.name, 1] = arb(0)
@@ -137,10 +137,10 @@ class Balance:
         return None
 
     def _counts(self, near: LinearMotion) -> bool:
-        """Whether it is a regular place that the file allows, within one turn, (-pi, pi]."""
+        """Whether it is a regular place that the file allows, within two turns of the origin."""
         x = self.x
         places = (float(near.environment[n, 0].mid()) for n in x.reference.names)
-        if not all(_SAME - pi < place < pi + _SAME for place in places):
+        if not all(abs(place) < 4 * pi for place in places):
             return False
         if not near.defined or near.without_lagrangian:
             return False
