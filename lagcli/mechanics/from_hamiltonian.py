@@ -53,7 +53,12 @@ def _lagrangian(system: System) -> Expr:
     velocities = [simplify(H.diff(p)) for p in system.momenta]
     hessian = [[v.diff(p) for p in system.momenta] for v in velocities]
     inversion = Inversion(
-        velocities, hessian, system.momenta, system.qdot, PhaseStates(system, [H, *velocities]).take
+        H,
+        velocities,
+        hessian,
+        system.momenta,
+        system.qdot,
+        PhaseStates(system, [H, *velocities]).take,
     )
     if inversion.is_singular:
         raise NoLagrangian(
@@ -62,7 +67,8 @@ def _lagrangian(system: System) -> Expr:
             "do not determine the momenta",
         )
     bends = bending(hessian, system.momenta)
-    if bends is not None and -1 in map(sign, at_rest_against_far(bends, system.momenta)):
+    opposed = [] if bends is None else at_rest_against_far(bends, system.momenta)
+    if -1 in map(sign, opposed) or inversion.folds:
         raise NoLagrangian(
             system.problem,
             "the determinant of its second derivatives in the momenta takes both signs, so "

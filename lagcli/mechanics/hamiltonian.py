@@ -20,8 +20,9 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import dot, simplify
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.place import NO_VALUE
-from lagcli.algebra.positivity import deciding
+from lagcli.algebra.positivity import deciding, vanishing_part
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.dynamics import Dynamics
@@ -100,7 +101,10 @@ class Hamiltonian:
 
         Where it is 0 two branches of the Legendre transform meet.
         """
-        return self._decisive if -1 in map(sign, self._opposed) else None
+        if -1 in map(sign, self._opposed):
+            return self._decisive
+        whole = determinant(self.dynamics.lagrange.mass_matrix) if self.legendre.folds else None
+        return None if whole is None else vanishing_part(simplify(whole))
 
     @property
     def folds_below(self) -> Expr | None:

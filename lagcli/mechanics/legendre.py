@@ -15,8 +15,11 @@ Landau, Lifshitz, *The Classical Theory of Fields*, 4th ed., sections 9 and 16.
 
 from __future__ import annotations
 
+import random
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import cached_property
+from itertools import chain
+from typing import Any
 
 import mpmath
 import sympy
@@ -32,10 +35,12 @@ from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.positivity import deciding
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.states import Contradiction, State
+from lagcli.mechanics.states import Contradiction, State, is_real
 from lagcli.record import record
 
 Block = tuple[int, ...]
+#: States at which, and values of v with which, a change of sign of the Hessian is looked for.
+_STATES, _SIZES = 6, 48
 
 
 @record
@@ -73,8 +78,8 @@ class Inversion:
 
     Parameters
     ----------
-    gradient, hessian
-        dF/dv_j and d2F/dv_i dv_j in the variables.
+    function, gradient, hessian
+        F, dF/dv_j and d2F/dv_i dv_j in the variables.
     variables, images
         The symbols v and w.
     states
@@ -83,12 +88,14 @@ class Inversion:
 
     def __init__(
         self,
+        function: Expr,
         gradient: Sequence[Expr],
         hessian: Sequence[Sequence[Expr]],
         variables: Sequence[Symbol],
         images: Sequence[Symbol],
         states: Callable[[int], Sequence[State]],
     ) -> None:
+        self.function = function
         self.gradient = gradient
         self.variables = variables
         self.images = images
@@ -148,6 +155,35 @@ class Inversion:
     def is_quadratic(self) -> bool:
         """Whether the Hessian is free of the variables."""
         return all(free_of(entry, self.variables) for row in self._hessian for entry in row)
+
+    @cached_property
+    def folds(self) -> bool:
+        """Whether det d2F/dv2 takes both signs as v varies, at every random state.
+
+        Between them it is 0 or infinite, and more than one v has the same gradient.
+        """
+        if self.is_quadratic:
+            return False
+        source, size = random.Random(11), len(self.variables)
+        whole = Evaluator([self.function, *self.gradient, *chain(*self._hessian)], DIGITS)
+        try:
+            states = self._states(_STATES)
+        except Contradiction:
+            return False
+        with mpmath.workdps(DIGITS):
+            for state in states:
+                found = set()
+                for k in range(_SIZES):
+                    moved = {
+                        v: source.uniform(-1, 1) * mpf(2) ** (k % 8 - 3) for v in self.variables
+                    }
+                    values = whole.where_defined({**state, **moved})
+                    if values is None or not all(map(is_real, values)):
+                        continue
+                    found.add(_clear_sign(mpmath.matrix(size, size), values[1 + size :]))
+                if not {1, -1} <= found:
+                    return False
+        return True
 
     @cached_property
     def _hessian(self) -> list[list[Expr]]:
@@ -263,12 +299,22 @@ class LegendreTransform(Inversion):
     def __init__(self, dynamics: Dynamics) -> None:
         lagrange, system = dynamics.lagrange, dynamics.system
         super().__init__(
+            system.L,
             lagrange.momenta,
             lagrange.mass_matrix,
             system.qdot,
             system.momenta,
             dynamics.states.take,
         )
+
+
+def _clear_sign(matrix: Any, entries: Sequence[Any]) -> int:
+    """Of the determinant of a matrix with these entries, row by row; 0 where it is not seen."""
+    n = matrix.rows
+    for k, entry in enumerate(entries):
+        matrix[k // n, k % n] = mpmath.re(entry)
+    value, scale = mpmath.det(matrix), max(abs(mpmath.re(e)) for e in entries) ** n
+    return 0 if abs(value) <= mpf(10) ** -(DIGITS // 2) * scale else 1 if value > 0 else -1
 
 
 def coupled(links: Iterable[set[int]]) -> list[Block]:

@@ -138,6 +138,32 @@ def test_velocities_of_several_momenta_give_no_lagrangian(H: str):
     assert "takes both signs" in d.no_lagrangian
 
 
+@pytest.mark.parametrize(
+    ("function", "several"),
+    [
+        ("-a*cos(p_x)", True),
+        ("a*sin(p_x - x)", True),
+        ("a*atan(p_x)", True),
+        ("a*p_x^2/(1 + p_x^2)", True),
+        ("a*log(1 + p_x^2)", True),
+        ("a*exp(-p_x^2)", True),
+        ("a*cosh(p_x)", False),
+        ("a*sqrt(1 + p_x^2)", False),
+        ("a*(exp(p_x) - p_x)", False),
+        ("a*abs(p_x)^(3/2)", False),
+        ("-a*log(cosh(p_x))", False),
+    ],
+)
+def test_a_gradient_with_the_same_value_twice_has_no_inverse(function: str, several: bool):
+    """dH/dp at two momenta, and dL/dq' at two velocities, by the second derivative's sign."""
+    file = "coordinates: [x]\nparameters: {a: {assume: positive}}\n"
+    given = derive(f"{file}H: {function} + x^2/2\n")
+    assert ("takes both signs" in given.no_lagrangian) is several
+    of_velocity = function.replace("p_x", "x'")
+    found = derive(f"{file}L: {of_velocity} - x^2/2\n").hamiltonian
+    assert ("several branches" in found.reason) is several
+
+
 def test_constraints_need_a_lagrangian():
     d = derive(SINGULAR + "\nconstraints: {line: x = y}")
     with pytest.raises(ProblemError) as raised:
