@@ -61,6 +61,25 @@ def test_a_frequency_is_real_and_not_negative(frequency):
     assert found.sections["modes"].modes is None
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "L: m*((x' - w*y)^2 + (y' + w*x)^2)/2 - k*(x^2 + y^2)/2 - c*x\n",
+        "L: w*(x'^2 + y'^2)/2 - k*(x^2 + y^2)/2\n",
+        "L: w*x'^2/2 + m*y'^2/2 - k*(x^2 + x*y + y^2)/2\n",
+    ],
+)
+def test_bounded_solutions_of_linear_equations_are_more_than_first_order(text):
+    """A turning frame, and masses of open sign: no minimum of V is needed to say so."""
+    section = "equilibria"
+    given = f"coordinates: [x, y]\n{PARAMETERS.replace('}}', '}, w: {}}')}{text}"
+    problem, answers, found = sheet(given, section)
+    [only] = found.equilibria
+    assert only.verdict.exact
+    assert printed(problem, answers, equilibria=found).complete
+    assert (only.verdict.stable, only.verdict.spectrum) != (None, None)
+
+
 @pytest.mark.parametrize("gyroscopic", ["", " + c*(x*y' - y*x')/2"])
 def test_a_frequency_is_not_listed_twice(gyroscopic):
     """Each of the two that are listed is one of the motion, and the other one is missing."""

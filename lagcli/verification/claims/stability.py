@@ -94,7 +94,8 @@ def refutes(
     spectrum = _all_hold(x, what, near, verdict.spectrum)
     if spectrum and judged.growing:
         return "a frequency is not real where all are said to be"
-    if spectrum and verdict.minimum is None and bowl and rising and not x.reference.timed:
+    first_order = spectrum and not verdict.exact and verdict.minimum is None
+    if first_order and bowl and rising and not x.reference.timed:
         return "the potential has a minimum there, and it is said to be stable to first order"
     if spectrum is False and judged.imaginary and judged.distinct:
         return "all frequencies are real where they are said not to be"
