@@ -1,7 +1,8 @@
 """Abbreviations of long answers: names for what recurs in them, and those written out again.
 
 Where a formula would fill more than some three lines, a denominator that the rows share is named
-Δ, sines and cosines of differences s12 and c12, other sums k1, k2, …
+Δ, sines and cosines of differences s12 and c12, other sums k1, k2, …, in a formula of two lines
+only what it has twice.
 """
 
 from __future__ import annotations
@@ -101,7 +102,7 @@ def in_steps(explanation: Explanation, taken: Collection[str]) -> Explanation:
 
 def _found(parts: Sequence[object], taken: Collection[str]) -> _Abbreviations | None:
     """The names for formulas of which one is long; None where nothing is worth a name."""
-    trees = [tree for part in parts for tree in expressions_in(part)]
+    trees = [*dict.fromkeys(tree for part in parts for tree in expressions_in(part))]
     if not any(operation_count(tree) > LONG for tree in trees) and not _long_roots(trees):
         return None
     names = _Abbreviations(trees, taken)
@@ -126,6 +127,7 @@ class _Abbreviations:
         self._wholes: dict[str, Expression] = {}
         self._chosen: dict[str, Expression] = {}
         self._trees = list(trees)
+        self._long = [operation_count(tree) > _TWO_LINES for tree in trees]
         self._stem = free_stem(PART_STEMS, taken)
         self._numbered: dict[str, list[str]] = {self._stem: [], "Delta": []}  # k1, k2, …, Δ, Δ2, …
         while len(self._chosen) < _MOST_NAMES and (best := self._best()) is not None:
@@ -140,9 +142,16 @@ class _Abbreviations:
 
     def __call__(self, node: Expression) -> Expression:
         """The formula with the names."""
+        long = operation_count(node) > _TWO_LINES
         for label in self._labels:  # as they were chosen
-            node = self._with_name(node, label)
+            node = self._with_name(node, label) if self._is_for(label, node, long) else node
         return self._renamed(substituted(node, self._short))
+
+    def _is_for(self, label: str, tree: Expression, long: bool) -> bool:
+        """Whether a formula has this name: V = 2 k a² (1 − cos θ)² − m a k1 is not known again."""
+        if long or label not in self._numbered[self._stem]:
+            return True
+        return sum(self._alike(part)[1] == self._labels[label][1] for part in walk(tree)) > 1
 
     def _with_name(self, node: Expression, label: str) -> Expression:
         """The formula with a name for what is the same up to its sign and the order of terms."""
@@ -171,11 +180,19 @@ class _Abbreviations:
         return Product(tuple(next(ordered) if f in named else f for f in node.factors))
 
     def _best(self) -> Expression | None:
+        below = self._below()
         shapes: dict[int, Counter[Expression]] = {}
-        for tree in (*self._trees, *self._chosen.values()):
-            for part in walk(tree):
-                if isinstance(part, (Sum, Call)):
-                    shapes.setdefault(self._alike(part)[1], Counter())[part] += 1
+        for tree, long in zip(
+            (*self._trees, *self._chosen.values()),
+            (*self._long, *[True] * len(self._chosen)),
+            strict=True,
+        ):
+            inside = [p for p in walk(tree) if isinstance(p, (Sum, Call))]
+            times = Counter(self._alike(p)[1] for p in inside)
+            for p in inside:
+                which = self._alike(p)[1]
+                if long or times[which] > 1 or which in below or _circular_name(p):
+                    shapes.setdefault(which, Counter())[p] += 1
         counts = {which: found.total() for which, found in shapes.items()}
         first = {which: next(iter(found)) for which, found in shapes.items()}
         for tree in self._trees:  # a result is no abbreviation of itself
@@ -188,7 +205,6 @@ class _Abbreviations:
                 for angle in part.arguments:
                     if (inner := self._alike(angle)[1]) in counts:
                         counts[inner] -= counts[which]
-        below = self._below()
         savings = {
             which: (count - 1) * operation_count(first[which])
             for which, count in counts.items()
@@ -211,7 +227,10 @@ class _Abbreviations:
             self._numbered[stem].append(label)
         self._labels[label] = its
         self._wholes[label] = whole
-        self._trees = [self._with_name(tree, label) for tree in self._trees]
+        self._trees = [
+            self._with_name(tree, label) if self._is_for(label, tree, long) else tree
+            for tree, long in zip(self._trees, self._long, strict=True)
+        ]
         self._chosen = {name: self._with_name(node, label) for name, node in self._chosen.items()}
         self._chosen[label] = whole
 

@@ -212,7 +212,7 @@ L: m*(x'^2 + y'^2)/2 + q*B*(x*y' - y*x')/2 - m*{stiffness}*(x^2 + y^2)/2
     ("file", "also"),
     [
         ("particles/relativistic-coulomb", ("canonical_equations", "hamilton_jacobi")),
-        ("particles/charge-and-magnetic-monopole", ("hamilton_jacobi", "discovered")),
+        ("rigid/free-asymmetric-top", ("canonical_equations",)),
         ("chains/slider-crank", ("canonical_equations",)),
     ],
 )
@@ -251,3 +251,20 @@ def test_a_part_of_a_sum_has_its_name(sign):
     shown = render([short], "text", Options())
     assert "Δ + a √Δ" in shown
     assert shown.count("a² − 4 w² b") == 1
+
+
+def test_a_short_formula_is_written_out():
+    """V_eff of a governor, though a long period stands in the same section: Pars, chapter 9."""
+    text = """title: t
+coordinates: [theta]
+parameters: {m: POSITIVE, a: POSITIVE, w: POSITIVE, k: POSITIVE, g: POSITIVE}
+T: m*a^2*(theta'^2 + w^2*sin(theta)^2)
+V: -2*m*g*a*cos(theta) + 2*k*a^2*(1 - cos(theta))^2
+""".replace("POSITIVE", "{assume: positive}")
+    request = Request(sections=("reduction",), abbreviate=True)
+    found = state(derive(read("t.yaml", text.encode()).problem), request)
+    assert found.where  # denominators of the periods
+    potential = found.sections["reduction"].effective_potential
+    assert not names_in(potential) & {*found.where}
+    for point in found.sections["reduction"].one_freedom.turning_points:
+        assert {n for n in names_in(point) if n in found.where} <= {"Delta"}

@@ -365,9 +365,14 @@ class GivenPotential:
         given, terms, own = self._node, terms_of(node), _leaves(self._node)
         still = [t for t in terms if t in own or not isinstance(t, Name)]
         still = [t for t in still if not any(map(_is_fast, walk(t)))]
-        shown = Sum((*still,)) if len(still) > 1 else still[0] if still else None
+        parts = [(t, multiplied_out(t)) for t in still]
+        ours = [t for t, out in parts if out and out.keys() <= self._value.keys()]
+        others = [t for t, out in parts if out is None or not out.keys() & self._value.keys()]
+        shown = Sum((*ours,)) if len(ours) > 1 else ours[0] if ours else None
         value = None if shown is None else multiplied_out(shown)
         if shown is None or value is None or len(value) != len(self._value):
+            return node
+        if len(ours) + len(others) < len(still):  # (k − m w²) x²
             return node
         ratios = {
             c / self._value[term] if term in self._value else None for term, c in value.items()
@@ -377,10 +382,14 @@ class GivenPotential:
         if self._limit * operation_count(shown) < operation_count(given):
             return node
         signed = terms_of(given) if ratios == {Fraction(1)} else map(opposite, terms_of(given))
+        together = [*signed]
+        late = isinstance(together[0], Negative) and others and not isinstance(others[0], Negative)
+        together = [*others, *together] if late else [*together, *others]
         first = terms.index(still[0])
         before, after = terms[:first], [t for t in terms[first:] if t not in still]
-        found = (*before, *signed, *after)
-        return node if isinstance(found[0], Negative) else sum_of(found)
+        found = (*before, *together, *after)
+        worse = isinstance(found[0], Negative) and not isinstance(terms[0], Negative)
+        return node if worse else sum_of(found)
 
 
 def _keeps_squares(node: Expression) -> bool:

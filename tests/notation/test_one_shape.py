@@ -432,7 +432,7 @@ def test_a_time_is_written_with_the_potential_as_it_stands_in_the_energy() -> No
     physics = "T: (m1 + m2 + s*l)*x'^2/2\nV: -m1*g*x - m2*g*(l - x) - s*g*x^2/2 - s*g*(l - x)^2/2"
     found = text("x", "m1 m2 s l g", physics, "reduction")
     assert "− " + potential.format("−") in found
-    assert "E + " + potential.format("+") in found
+    assert "∫ √((m₁ + m₂ + s l)/(2 (E − V))) dx" in found  # the same one, so it is known by V
 
 
 ROTORS = "T: (A*u'^2 + B*v'^2 + C*w'^2)/2\nV: c*(v - u)^2/2 + d*(w - v)^2/2"
