@@ -119,10 +119,33 @@ def test_at_a_critical_value_the_next_derivative_decides(seed):
     assert state.verdict.critical == (order if order % 2 == 0 and factor > 0 else -order)
 
 
-@pytest.mark.long
+@pytest.mark.parametrize("shape", ["cos(theta)", "cos(theta)^2", "sin(theta)^2", "cos(theta)^3"])
+def test_where_a_product_vanishes_in_one_factor_the_other_is_not_put_to_zero(shape):
+    """On a sphere with V = k f(theta): of k f'' = 0 the factor k is not 0 where a motion turns.
+
+    Whether U_eff is constant is seen by its values where f'' vanishes at the motion.
+    """
+    derivation = derive(
+        "coordinates: [theta, phi]\nparameters: {k: }\n"
+        f"T: (theta'^2 + sin(theta)^2*phi'^2)/2\nV: k*{shape}\n"
+    )
+    motions = [m for m in steady_motions(derivation)[0].motions if "theta" in m.free]
+    assert motions
+    theta, p, k = sympy.symbols("theta p k", real=True)
+    V = k * sympy.sympify(shape.replace("^", "**"), {"theta": theta})
+    momentum = sympy.solve((p / (2 * sympy.sin(theta) ** 2) + V).diff(theta), p)[0]
+    for place in (sympy.Rational(7, 5), sympy.pi / 3):
+        known = {k: -1, p: momentum.subs({theta: place, k: -1})}
+        U = (p / (2 * sympy.sin(theta) ** 2) + V).subs(known)
+        assert abs(float(U.subs(theta, 1.1)) - float(U.subs(theta, 0.7))) > 1e-6  # not constant
+    assert all(m.verdict.critical != 0 for m in motions)
+
+
 @pytest.mark.parametrize(
-    ("order", "factor", "stable"), [(4, 1, True), (6, 2, True), (4, -1, False), (3, 1, False)]
-)
+    ("order", "factor", "stable"),
+    [(4, 1, True), (6, 2, True), (4, -1, False), (3, 1, False), (8, 1, True), (9, 2, False),
+     (12, 5, True), (20, -1, False)],
+)  # fmt: skip
 def test_a_potential_without_a_second_derivative(order, factor, stable):
     """Landau and Lifshitz, section 21: an oscillation that is not harmonic."""
     text = f"{{coordinates: [x], L: x'^2/2 - ({factor})*x^{order}}}"

@@ -20,12 +20,13 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of
 from lagcli.mechanics.rest.linearization import Linearization
 
-#: Of the potential; no textbook's equilibrium needs a higher one.
-HIGHEST = 6
+#: Of the potential; a higher one is taken only where all up to it are 0, as of x^8 and x^20.
+HIGHEST, _HIGHEST_OF_ALL = 6, 24
 
 
 def potential_derivatives(linear: Linearization) -> list[Expr]:
@@ -39,8 +40,8 @@ def potential_derivatives(linear: Linearization) -> list[Expr]:
     [q], [force], point = linear.system.q, linear.forces_at_rest, linear.point
     if bent_there(linear) or (point.free and not any(p.has(q) for p in point.values.values())):
         return []
-    found = []
-    for _ in range(2, HIGHEST + 1):
+    found: list[Expr] = []
+    while len(found) < HIGHEST - 1 or (found[-1] == 0 and len(found) < _HIGHEST_OF_ALL - 1):
         force = force.diff(q)
         found.append(simplify(-at(force, linear.point.values)))
     return found
@@ -76,15 +77,18 @@ def order_at_critical_values(
 ) -> int | None:
     """The same where a condition makes the second derivative vanish: one symbol is solved for.
 
-    0 where no force acts anywhere then (`is_free`), unless the `mass` vanishes.
+    0 where no force acts anywhere then (`is_free`), unless the `mass` vanishes.  Of a product
+    only one factor may vanish where it is there at all: others would vanish at other values.
     """
-    curvature = derivatives[0] if derivatives else None
+    curvature = _open_factor(derivatives[0], positive) if derivatives else None
     for symbol in sorted(curvature.free_symbols, key=str) if curvature is not None else ():
         roots = solve_for(curvature, symbol)
         if roots is None or len(roots.values) != 1 or not free_of(roots.values[0], [symbol]):
             continue
         [root] = roots.values
         if symbol.is_positive and sign_of(root, positive) in (0, -1):
+            continue
+        if {sign_of(p.xreplace({symbol: root}), positive) for p in positive} & {0, -1}:
             continue
         if is_zero(mass.xreplace({symbol: root})) is not False:
             continue
@@ -93,3 +97,10 @@ def order_at_critical_values(
         others = [simplify(each.xreplace({symbol: root})) for each in derivatives]
         return order_of_minimum(others, [p.xreplace({symbol: root}) for p in positive])
     return None
+
+
+def _open_factor(expression: Expr, positive: Sequence[Expr]) -> Expr | None:
+    """The one factor without a known sign, to its first power; None of several."""
+    pairs = factors_of(simplify(expression))
+    found = [f for f, _ in pairs if f.free_symbols and not sign_of(f, positive)]
+    return found[0] if len(found) == 1 else None

@@ -18,10 +18,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 
-from sympy import Expr, Symbol, count_ops
+from sympy import Dummy, Expr, Symbol, count_ops
 
 from lagcli.algebra import is_zero
-from lagcli.algebra.build import free_of
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of, weak_sign
 from lagcli.mechanics.inequalities import contradictory
@@ -88,11 +87,17 @@ def by_minimum(near: Near) -> Stability | None:
 
 
 def _is_free(linear: Linearization, values: Mapping[Symbol, Expr]) -> bool:
-    """Whether no force acts anywhere, at the momenta of the point, with these values put in."""
+    """Whether no force acts anywhere, at the momenta of the point, with these values put in.
+
+    A coordinate in the values is that of the point, and not where the force is looked at.
+    """
     q = linear.system.q
-    momenta = {s: at(p, values) for s, p in linear.point.values.items() if s not in q}
-    force = linear.forces_at_rest[0].xreplace(values).xreplace(momenta)
-    return all(free_of(p, q) for p in momenta.values()) and is_zero(force) is True
+    here: dict[Expr, Expr] = {x: Dummy(x.name, real=True) for x in q}
+    put_in = {here.get(s, s): value.xreplace(here) for s, value in values.items()}
+    known = {s: p.xreplace(here) for s, p in linear.point.values.items() if s not in q}
+    momenta = {s: at(p, put_in) for s, p in known.items()}
+    force = linear.forces_at_rest[0].xreplace(put_in).xreplace(momenta)
+    return is_zero(force) is True
 
 
 def _even_dimension(near: Near) -> int:
