@@ -34,6 +34,7 @@ from lagcli.expression import (
     terms_of,
     walk,
 )
+from lagcli.notation.factors import parts_of
 from lagcli.notation.given_sums import has_like_terms
 from lagcli.notation.ordering import is_letter
 from lagcli.record import record
@@ -256,13 +257,19 @@ class _Splitter:
     def _with_equal_factors(
         self, groups: list[list[Term]], shapes: list[Expression]
     ) -> list[list[int]]:
-        """The places of groups that share a bracket: c (x'² + y'²), m (x y' - y x')."""
+        """The places of groups that share a bracket: c (x'² + y'²), m (x y' - y x').
+
+        And m (r'² + r² φ'²), squares with the same parameters before what is not constant.
+        """
         found: dict[object, list[int]] = {}
         for place, group in enumerate(groups):
             fast, _ = self._factor(group[0][0])
             key: object = place
             if len(fast) == 1 and fast[0][1] == 2:
                 key = frozenset((self._factor(monomial)[1], c) for monomial, c in group)
+                shared = self._parameters(shapes[place])
+                if any(isinstance(f, (Name, Power)) for f in shared):
+                    key = "squares", shared
             elif self._degree(fast) == (0, 1):
                 key = self._parameters(shapes[place]) or place
             found.setdefault(key, []).append(place)
@@ -304,6 +311,8 @@ class _Splitter:
             together = self._shape([term for group in groups for term in group], whole)
             return [together] if is_flat(together) else apart
         writer = self.shaper.writer
+        if len({frozenset((self._factor(m)[1], c) for m, c in group) for group in groups}) > 1:
+            return [self._before_squares(apart)]
         squares = []
         for group in groups:
             ((index, exponent),) = self._factor(group[0][0])[0]
@@ -312,6 +321,19 @@ class _Splitter:
         factor = self._shape([(self._factor(m)[1], c) for m, c in groups[0]], whole)
         one = Fraction(1)
         return [writer.product(one, [(factor, one), (writer.sum(squares), one)])]
+
+    def _before_squares(self, terms: Sequence[Expression]) -> Expression:
+        """m (r'² + r² φ'²)/2 of terms with the same parameters."""
+        writer, one = self.shaper.writer, Fraction(1)
+        _, above, below = parts_of(terms[0])
+        outside = [(f, one) for f in above if self._is_parameter(f)]
+        inside = []
+        for minus, factors, _ in map(parts_of, terms):
+            kept = [(f, one) for f in factors if not self._is_parameter(f)]
+            inside.append(writer.product(-one if minus else one, kept))
+        return writer.product(
+            one, [*outside, (writer.sum(inside), one), *((f, -one) for f in below)]
+        )
 
     def _without_leading(self, static: list[Term], whole: Element) -> list[Expression]:
         """The terms by their functions; those of the shortest sum where that is much shorter."""

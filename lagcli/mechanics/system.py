@@ -139,9 +139,10 @@ class System:
         """The sum of m v^2 / 2 over the points that have a mass."""
         return sympy.Add(
             *(
-                particle.mass * self.total_derivative(x) ** 2 / 2
+                particle.mass
+                * sympy.Add(*(self.total_derivative(x) ** 2 for x in particle.position))
+                / 2
                 for particle in self.particles
-                for x in particle.position
                 if particle.mass is not None
             )
         )

@@ -340,7 +340,7 @@ class GivenPotential:
 
     def __init__(self, potential: Expression | None, ordering: Ordering) -> None:
         like = isinstance(potential, Sum) and (
-            has_like_terms(potential) or _has_one_function(potential, ordering)
+            has_like_terms(potential) or differ_in_parameters(potential, ordering)
         )
         own = None if like else potential
         value = own and multiplied_out(own)
@@ -383,7 +383,8 @@ class GivenPotential:
             return node
         signed = terms_of(given) if ratios == {Fraction(1)} else map(opposite, terms_of(given))
         together = [*signed]
-        late = isinstance(together[0], Negative) and others and not isinstance(others[0], Negative)
+        behind = ratios == {Fraction(-1)} or isinstance(together[0], Negative)  # T0 − V, V − T0
+        late = behind and others and not isinstance(others[0], Negative)
         together = [*others, *together] if late else [*together, *others]
         first = terms.index(still[0])
         before, after = terms[:first], [t for t in terms[first:] if t not in still]
@@ -427,7 +428,7 @@ def has_like_terms(node: Sum) -> bool:
     return len(set(found)) < len(found)
 
 
-def _has_one_function(node: Sum, ordering: Ordering) -> bool:
+def differ_in_parameters(node: Sum, ordering: Ordering) -> bool:
     """Whether two terms differ in parameters alone: m g l cos θ/2 + M g l cos θ."""
     found = []
     for term in node.terms:

@@ -61,7 +61,13 @@ from lagcli.notation.factors import (
 )
 from lagcli.notation.fractions import Brackets
 from lagcli.notation.given_formulas import given, order_of_names
-from lagcli.notation.given_sums import GivenPotential, GivenSums, arranged
+from lagcli.notation.given_sums import (
+    GivenPotential,
+    GivenSums,
+    arranged,
+    differ_in_parameters,
+    has_like_terms,
+)
 from lagcli.notation.likeness import EVEN, ODD, Key, Monomial, multiplied_out, parity, signed_key
 from lagcli.notation.logarithms import ratios_in, with_ratios
 from lagcli.notation.ordering import (
@@ -98,7 +104,7 @@ class Manner:
         quantities = (*problem.parameters, *problem.coordinates)
         self._positive = frozenset(q.name for q in quantities if q.assume == "positive")
         self._ordering = Ordering(order_of_names(problem))
-        self._sums = GivenSums(given(problem), _energies(problem), self._ordering)
+        self._sums = GivenSums(given(problem), self._energies(problem), self._ordering)
         self._fractions = GivenFractions(given(problem), self._ordering)
         self._ratios = ratios_in(given(problem))
         calls = (p for node in given(problem) for p in walk(node) if isinstance(p, Call))
@@ -110,6 +116,16 @@ class Manner:
             given(problem), self._ordering, self._sums, self._momenta, self._positive
         )
         self._brackets = Brackets(self._ordering, frozenset("p_" + name for name in names))
+
+    def _energies(self, problem: Problem) -> Iterator[Sum]:
+        """T − V and T + V, as sums of the terms of the file; none of m x'²/2 + M x'²/4."""
+        if problem.kinetic is None or problem.potential is None:
+            return
+        T, V = map(_terms, (problem.kinetic, problem.potential))
+        alike = has_like_terms(Sum(T)) or differ_in_parameters(Sum(T), self._ordering)
+        if len(T) + len(V) > 1 and not alike:
+            yield Sum((*T, *V))
+            yield Sum((*T, *map(opposite, V)))
 
     def anew(self, one_way: Mapping[Key, int] | None = None) -> None:
         """Begin another section, which is written as if it were the only one.
@@ -510,16 +526,6 @@ class Manner:
         below = self._ordering.with_letters(below)
         whole = over_root(quotient_of(above, below))
         return Negative(whole) if minus else whole
-
-
-def _energies(problem: Problem) -> Iterator[Sum]:
-    """T - V and T + V, as sums of the terms of the file."""
-    if problem.kinetic is None or problem.potential is None:
-        return
-    T, V = map(_terms, (problem.kinetic, problem.potential))
-    if len(T) + len(V) > 1:
-        yield Sum((*T, *V))
-        yield Sum((*T, *map(opposite, V)))
 
 
 def _terms(node: Expression) -> tuple[Expression, ...]:

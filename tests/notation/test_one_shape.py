@@ -490,7 +490,30 @@ def test_a_lagrangian_has_squared_velocities_and_no_components() -> None:
     )
     found = text("x, r, u", "M m k l g", physics, "lagrangian", "energy")
     assert found.count("(M + m) ẋ²/2") == 2
-    assert found.count("m ṙ²/2 + m r² u̇²/2") == 2
+    assert found.count("m (ṙ² + r² u̇²)/2") == 2
+
+
+@pytest.mark.parametrize(
+    ("physics", "letters", "energy"),
+    [
+        # two hinged rods, Landau and Lifshitz, section 23; T as a user adds it up
+        ("T: m*l^2*u'^2/6 + m*(l^2*u'^2 + l^2*u'*v'*cos(u - v) + l^2*v'^2/3)/2\nV: -m*g*l*cos(v)",
+         "m l g", "m l² (4 u̇² + 3 u̇ v̇ cos(u − v) + v̇²)/6 − m g l cos(v)"),
+        # a drum and what hangs from it: one inertia
+        ("T: M*R^2*u'^2/4 + m*R^2*u'^2/2 + m*v'^2/2\nV: m*g*R*u",
+         "M m R g", "(M + 2 m) R² u̇²/4 + m v̇²/2 + m g R u"),
+        # a point in spherical coordinates: one mass before all squares
+        ("points: {p: {position: [l*sin(u)*cos(v), l*sin(u)*sin(v), -l*cos(u)], mass: m}}",
+         "m l", "m l² (u̇² + v̇² sin²(u))/2"),
+        ("points: {p: {position: [u*cos(v), u*sin(v)], mass: m}}\nV: k*u^2/2",
+         "m k", "m (u̇² + u² v̇²)/2 + k u²/2"),
+        # what rests in a turning frame stands behind V
+        ("T: m*(u'^2 + w^2*u^2)/2 + M*(v'^2 + w^2*v^2)/2\nV: k*(v - u - l)^2/2", "m M k l w",
+         "m u̇²/2 + M v̇²/2 + k (v − u − l)²/2 − m w² u²/2 − M w² v²/2"),
+    ],
+)  # fmt: skip
+def test_an_energy_has_one_term_for_one_kind(physics: str, letters: str, energy: str) -> None:
+    assert f"h = {energy}\n" in text("u, v", letters, physics, "energy")
 
 
 def test_what_follows_one_mass_follows_all() -> None:
