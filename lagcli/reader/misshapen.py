@@ -31,6 +31,7 @@ FOUND = frozenset(
 
 SEVERAL = "one value each, with a name of its own; several are run by lagcli sweep --vary"
 ALREADY_FOUND = "leave it out: equilibria, frequencies and charges are found"
+FRICTION = "a friction force -c*x' is written dissipation: c*x'^2/2"
 WITHOUT_HYPHENS = "leave out the '-' before each key"
 
 

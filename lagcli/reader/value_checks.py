@@ -27,13 +27,13 @@ from lagcli.expression import (
 from lagcli.reader.constants import rational_value
 from lagcli.reader.foreign.words import Vocabulary, rate_meant
 from lagcli.reader.friction_slips import friction_slips
-from lagcli.reader.misshapen import as_rayleigh
+from lagcli.reader.misshapen import FRICTION, as_rayleigh
 from lagcli.reader.names import derivative_order
 from lagcli.reader.plain_sign import plain_sign
 from lagcli.reader.text import SourceText
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
     from lagcli.expression import Expression
     from lagcli.problem_data import Problem
@@ -42,7 +42,6 @@ if TYPE_CHECKING:
 
 _ODD = frozenset("sin tan sinh tanh asin atan asinh atanh sign".split())
 _EVEN = frozenset("abs cos cosh sec".split())
-_FRICTION = "a friction force -c*x' is written dissipation: c*x'^2/2"
 _warning = partial(Diagnostic, severity="warning")
 _SIGNS = {"positive": Fraction(1), "negative": Fraction(-1)}
 
@@ -59,7 +58,7 @@ def slips(problem: Problem) -> list[Diagnostic]:
         hint = "a kinetic energy is positive, as in m*x'^2/2"
         found.append(_warning("T is negative", kinetic.span, hint))
     if lost is not None and _sign(lost, problem.definitions, signs) == -1:
-        hint = f"it drives the motion; {_FRICTION}"
+        hint = f"it drives the motion; {FRICTION}"
         found.append(_warning("the dissipation is negative", lost.span, hint))
     found += friction_slips(problem.forces, tuple(x.name for x in problem.coordinates), signs)
     energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
@@ -121,7 +120,40 @@ def _without_inertia(problem: Problem, kinetic: Expression) -> list[Diagnostic]:
         found.append(
             _warning(missing(one.name), one.span, f"no inertia: its velocity is {one.name}'")
         )
+    if not problem.definitions:
+        found += _in_products_alone(kinetic, moving)
     return found
+
+
+def _in_products_alone(kinetic: Expression, moving: set[str]) -> Iterator[Diagnostic]:
+    """A warning for each velocity that T has beside others alone, as in `m*x'*y'`.
+
+    Where the others are 0, such a T is 0 for any value of it, and negative close by.
+    """
+    for name in sorted(moving):
+        node = next(one for one in _names(kinetic) if one.name == name and one.primes)
+        if folded(kinetic, partial(_degree_alone, name)) != 1:
+            hint = f"the square of {name}' is missing, as in m*{name}'^2/2"
+            message = f"T has {name}' in products with other velocities alone"
+            yield _warning(message, node.span, hint)
+
+
+def _degree_alone(name: str, node: Expression, parts: list[int | None]) -> int | None:
+    """Whether a velocity occurs where all others are 0: 1, else 0; None where the formula is 0.
+
+    A sum occurs with one of its terms, a product is 0 with one of its factors.
+    """
+    match node:
+        case Name(primes=primes) if primes:
+            return 1 if node.name == name else None
+        case Sum():
+            return max((each for each in parts if each is not None), default=None)
+        case Product() | Power() | Quotient() | Negative() if None in parts[:1] or (
+            isinstance(node, Product) and None in parts
+        ):
+            return None
+        case _:
+            return max((each or 0 for each in parts), default=0)
 
 
 def _names(formula: Expression) -> list[Name]:
@@ -195,7 +227,7 @@ def _check_dissipation(file: FileReader, problem: Problem) -> None:
     if formula is None or formula == ZERO:
         return
     if derivative_order(formula, file.scope) < 1:
-        file.error("the dissipation contains no velocity", formula.span, _FRICTION)
+        file.error("the dissipation contains no velocity", formula.span, FRICTION)
     elif _parity(formula, problem.definitions) == -1:
         message = "the dissipation changes its sign with the velocities"
         start, end = SourceText.of(problem.source).offsets(formula.span)
@@ -203,8 +235,8 @@ def _check_dissipation(file: FileReader, problem: Problem) -> None:
         rates = {node.name for node in walk(formula) if isinstance(node, Name) and node.primes}
         law = problem.source.text[start:end]
         hint = f"a law of a force: write forces: {{{''.join(rates)}: {law}}}"
-        hint = hint if len(rates) == 1 and not problem.forces else _FRICTION
-        file.error(message, formula.span, f"write {whole}: {_FRICTION}" if whole else hint)
+        hint = hint if len(rates) == 1 and not problem.forces else FRICTION
+        file.error(message, formula.span, f"write {whole}: {FRICTION}" if whole else hint)
 
 
 def _parity(formula: Expression, definitions: Mapping[str, Expression]) -> int:
