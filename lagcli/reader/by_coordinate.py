@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Container
 from typing import TYPE_CHECKING
 
 from lagcli.reader.foreign.vector_products import along_z, vector_product
@@ -53,6 +54,8 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
         alone = along_z(node.value, known)
         condition = f": {alone} is taken along z" if alone and names[2:] else ""
         return _pairs([*zip(names, products, strict=True)]) + condition
+    if isinstance(node, Scalar) and (along := _along_velocity(node.value, names, known)):
+        return _pairs(along)
     written = node.text.source.text[node.start : node.end].strip("[] \n")
     written = behind_words(written, scope.kinds)
     pairs_given = _GIVEN.findall(written) or _SIDE_BY_SIDE.findall(written)
@@ -72,6 +75,28 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
         names = moving
     fits = len(values) == len(names)
     return _pairs([*zip(names, values if fits else ["…"], strict=False)], braces=False)
+
+
+def _along_velocity(text: str, names: list[str], known: Container[str]) -> list[tuple[str, str]]:
+    """`-c*x'` along x and so on for `-c*v` and `-c*|v|*v`, in Cartesian coordinates."""
+    from lagcli.reader.foreign.translation import translated
+    from lagcli.reader.foreign.words import UnclearText
+
+    rest = re.sub(r"\|v\||\w+\(\s*v\s*\)", "", text)
+    factors = re.findall(r"(?<![\w.])(?:\\vec\s*)?\{?v\}?(?![\w'(^*²]|\s*\*\*|\s*\^)", rest)
+    if "v" in known or not names[1:] or not {*names} <= {*"xyz"} or len(factors) != 1:
+        return []
+    if re.search(r"[×=,]|[\w)]\s*[-+]", text):
+        return []
+    words = frozenset({*re.findall(r"[^\W\d]\w*", text)} - {"v", "vec", "abs", "norm"})
+    found = []
+    for x in names:
+        one = re.sub(r"(?<![\w.|(])(?:\\vec\s*)?\{?v\}?(?![\w'|)])", f"{x}'", text)
+        try:
+            found.append((x, translated(one, Vocabulary((*names,), words))))
+        except UnclearText:
+            return []
+    return found
 
 
 def _of_maps(node: Sequence, names: list[str]) -> list[tuple[str, str]]:

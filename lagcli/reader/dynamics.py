@@ -149,7 +149,10 @@ def read_definitions(
         parts = value.items if isinstance(value, Sequence) else ()
         for axis, _ in zip("xyz", parts, strict=False):  # a vector
             file.scope.components[f"{key.label}.{axis}"] = f"{key.label}_{axis}"
+        mistakes = len(file.diagnostics)
         expression = file.expression(value, what, STATE, before=place)
+        if file.diagnostics[mistakes:] and isinstance(value, Scalar):
+            _say_components(file, key.label, value, mistakes)
         definitions[key.label] = expression
         known = file.scope.definitions[key.label]
         known.order = min(derivative_order(expression, file.scope), STATE.order)
@@ -159,6 +162,20 @@ def read_definitions(
             min(found.exponentials, EXPONENTIAL_LEVELS), min(found.degree, DEGREE)
         )
     return definitions
+
+
+def _say_components(file: FileReader, name: str, node: Scalar, mistakes: int) -> None:
+    """One mistake, and components to use, for the text of a vector: `B/2*(-y, x, 0)`."""
+    from lagcli.reader.foreign.vectors import components
+
+    written = components(re.sub(r"^\s*\((.*)\)\s*$", r"<\1>", node.value), file.scope.kinds)
+    if not written[1:]:
+        return
+    named = [(f"{name}_{axis}", each) for axis, each in zip("xyz", written, strict=False)]
+    file.scope.components.update({f"{name}.{each[-1]}": each for each, _ in named})
+    hint = f"a vector is written by its components: {', '.join(map(': '.join, named))}"
+    del file.diagnostics[mistakes:]
+    file.error(f"the definition of '{name}' must be an expression, not a vector", node.span, hint)
 
 
 def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
@@ -186,9 +203,11 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
         if "position" not in attributes:
             file.scope.refused.append("points")
             given = value.entries if isinstance(value, Mapping) else ()
-            for axis, at in given:
-                if axis.label in {"x", "y", "z"} and isinstance(at, Scalar):
-                    file.scope.components[f"{key.label}.{axis.label}"] = at.value
+            items = value.items if isinstance(value, Sequence) else ()
+            axes_given = ((axis.label, at) for axis, at in given)
+            for axis_, at in (*axes_given, *zip("xyz", items, strict=False)):
+                if axis_ in {"x", "y", "z"} and isinstance(at, Scalar):
+                    file.scope.components[f"{key.label}.{axis_}"] = at.value
             continue
         position = _position(file, attributes["position"], key.label)
         mass = force = None

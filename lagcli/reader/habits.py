@@ -51,10 +51,12 @@ _WITH_UNIT = regex(
 )
 _ANGLES = frozenset("theta phi psi alpha beta gamma varphi angle θ φ ϕ ψ α β γ".split())
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
-RATES = frozenset("Derivative derivative D ddt dt Dt der deriv diff dot".split())
+#: How often a function differentiates.
+RATES = {**dict.fromkeys("Derivative derivative D ddt dt Dt der deriv diff dot".split(), 1),
+         "ddot": 2}  # fmt: skip
 POWERS = frozenset("POWER POTENZ PUISSANCE pow power Pow Power".split())
 SQUARES = frozenset("square sqr sq".split())
-FOREIGN = RATES | POWERS | SQUARES | {"norm", "hypot", "Subscript"}
+FOREIGN = RATES.keys() | POWERS | SQUARES | {"norm", "hypot", "Subscript"}
 _VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "⅛": "1/8"}
 
 
@@ -93,11 +95,19 @@ def key_meant(word: str, known: tuple[str, ...]) -> str | None:
     if word in known:
         return word
     keys = habits()["keys"]
-    for written in (word, word.casefold().replace(" ", "_").replace("-", "_")):
+    spelled = word.casefold().replace(" ", "_").replace("-", "_")
+    for written in (word, spelled):
         for key in known:
             if written in keys.get(key, ()):
                 return key
-    return None
+    plain = _without_accents(spelled)
+    alike = (key for key in known if plain in map(_without_accents, keys.get(key, ())))
+    return next(alike, None) if len(plain) > 3 else None
+
+
+def _without_accents(word: str) -> str:
+    """`parametros` for parámetros."""
+    return "".join(e for e in unicodedata.normalize("NFD", word) if not unicodedata.combining(e))
 
 
 def key_of_stem(word: str, known: tuple[str, ...]) -> str | None:
@@ -156,7 +166,8 @@ def name_meant(name: str, *, one: bool = False) -> str:
         return said
     words = re.findall(r"[^\W\d]\w*", name)
     letters = [each for each in words if len(each.partition("_")[0]) == 1 and each != "a"]
-    if len(words) > 1 and len(letters) == 1 and max(map(len, words)) > 2:  # m is the mass
+    of_time = re.fullmatch(r"\w+\(t\)", name.strip())
+    if not of_time and len(words) > 1 and len(letters) == 1 and max(map(len, words)) > 2:  # mass m
         return str(letters[0])
     if typed := advised("typed", name):
         return typed

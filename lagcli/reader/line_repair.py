@@ -105,6 +105,18 @@ def _quoted(line: str) -> str:
     return f'{found["key"]}"{value}"'
 
 
+def _with_units(line: str) -> str:
+    """`coordinates: {x: {unit: m}}` for `coordinates: [x [m]]`."""
+    listed = re.fullmatch(r"(\w+:\s+)\[(.*\[.*\].*)\]\s*", line)
+    items = listed[2].split(",") if listed else []
+    found = [re.fullmatch(r"\s*(\w+)(?:\s*\[([^\[\]]+)\])?\s*", each) for each in items]
+    if listed is None or not all(found):
+        return line
+    named = [f"{each[1]}: {{unit: {each[2]}}}" if each[2] else f"{each[1]}: {{}}"
+             for each in found if each]  # fmt: skip
+    return f"{listed[1]}{{{', '.join(named)}}}"
+
+
 def _assumed(line: str) -> str:
     """`k: {assume: positive}` for `k: > 0`."""
     found = re.fullmatch(r"(\s*\w+:\s+)(?:\w+\s*)?([<>]=?|!=)\s*0\s*", line)
@@ -116,6 +128,8 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"\s+//\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
     _assumed,
+    _with_units,
+    lambda line: re.sub(r"^(\s*[\w ]+:\s+)(\|[^|]+\|.*)$", r'\1"\2"', line),
     lambda line: re.sub(r"^(\s*)[*•·–—+]\s+(?=[^\W\d]\w*\s*$)", r"\1- ", line),
     lambda line: unescape(line) if re.search(r"&\w+;", line) else line,
     lambda line: re.sub(rf"^({'|'.join(KEYS)})\s+(?=[^\s:=])", r"\1: ", line),

@@ -339,6 +339,8 @@ def _list_advice(text: str) -> str:
         pairs = [f"{name}: {value.strip()}" for name, value in declared if value.strip()]
         listed = ", ".join(pairs or [name for name, _ in declared])
         return f"write {{{listed}}}" if pairs else f"write [{listed}]"
+    if vector := re.fullmatch(r"\s*\w+\s*=\s*[(\[<]([\w\s,']+)[)\]>](?:\^?T)?\s*", text):
+        return f"write [{vector[1].strip()}]"
     text = re.sub(r"^(?:.*=)?\s*(?:\w+\.)?\w+\(\s*(['\"])(.*)\1.*\)\s*$", r"\2", text)
     if given := _VALUES.findall(text):
         parts = ((name, *number_and_unit(value)) for name, value in given)

@@ -14,7 +14,7 @@ from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary
 from lagcli.reader.habits import name_meant
-from lagcli.reader.misshapen import behind_words, is_sentence
+from lagcli.reader.misshapen import FRICTION, as_rayleigh, behind_words, is_sentence
 from lagcli.reader.momenta_meant import with_momenta, with_velocities
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.positions import Excerpt
@@ -47,6 +47,15 @@ _LAGRANGE = regex(r"(?:d|∂|\\partial)\s*[LTV]\s*/\s*(?:d|∂|\\partial)")
 _TOTAL_RATE = regex(
     r"(?<![\w.])d\s*\((?P<inner>(?:[^()]|\([^()]*\))+)\)\s*/\s*\(?dt\)?(?!\w)"
     r"|(?<![\w.])d\s*/\s*dt\s*\(?\((?P<behind>(?:[^()]|\([^()]*\))+)\)"
+    r"|(?<![\w.])\((?P<primed>(?:[^()]|\([^()]*\))+)\)['’′]"
+)
+#: The name of a velocity: omega1, w_x, v2.
+_RATE_OF_BODY = regex(r"(?:omega|Omega|ω|Ω|w|v)_?(?:[1-9]|[xyz])")
+#: A force in the place of an energy.
+_FORCE = regex(r"\s*[FQ](?:_?\w+)?\s*:?=([^=]+)")
+#: `y = ±sqrt(A)`: both branches are `y^2 = A`.
+_BOTH_ROOTS = regex(
+    r"(?P<left>[^=±]+)=\s*(?:±|\+/?[-−]|\\pm\b)\s*(?:sqrt|√|\\sqrt)\s*[({](?P<inner>(?:[^()]|\([^()]*\))+)[)}]\s*"
 )
 #: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
 _LEFT_SIDE = regex(r"^\s*(?:T\s*[-−]\s*V|[^\W\d][\w ]*(?:\(\w+\))?)\s*:?=(?!=)")
@@ -80,6 +89,13 @@ def with_whole(
     by_momenta = _hamiltonian_meant(node.value) if what == "H" else ""
     if by_momenta and _is_read(by_momenta, scope, role, what):
         return [replace(found[0], hint=f"write {by_momenta}: {found[0].hint}")]
+    if what == "V" and (force := _FORCE.fullmatch(node.value)):
+        along, *others = [*scope.of_kind("coordinate"), "x"]
+        law = "…" if others[1:] else force[1].strip()
+        hint = f"V is an energy; a force stands by its coordinate: write forces: {{{along}: {law}}}"
+        return [replace(found[0], hint=hint)]
+    if what == "T" and (unmoved := _rates_meant(found, node, scope)):
+        return unmoved
     stated = what == "dissipation" and "=" in node.value  # as a force: -c*x'
     too_large = "the limit is" in found[0].hint
     in_lines = any(each.message.startswith("two lines without") for each in found)
@@ -104,6 +120,7 @@ def with_whole(
                 gap = re.sub(r"([<>])(?!=)", r"\1=", whole)
                 hint = f"a one-sided contact stands under contacts, as in floor: {gap}"
                 return [replace(found[0], hint=hint)]
+            whole = _multiplied_out(whole) if read is read_equation else whole
             sides = sides_of(read(Excerpt.whole(Source("", whole))))
         except (UnclearText, Mistake):
             continue
@@ -115,6 +132,10 @@ def with_whole(
             if named and not found[0].hint:
                 return [replace(named[0], span=node.span)]
             break
+        if what == "dissipation" and (lost := as_rayleigh(whole)):
+            return [replace(found[0], hint=f"write {lost}: {FRICTION}")]
+        if what == "T" and (moving := _with_primes(whole, names)):
+            whole = moving
         proposed = re.search(rf"(?:write|mean) {re.escape(whole)}(?:[?;,]|$)", found[0].hint)
         same = "".join(whole.split()) == "".join(node.value.replace("**", "^").split())
         if same or (proposed and not found[1:]):
@@ -138,29 +159,64 @@ def with_whole(
     return [replace(found[0], hint=f"did you mean {exchanged}?")] if exchanged else found
 
 
+def _rates_meant(found: list[Diagnostic], node: Scalar, scope: Scope) -> list[Diagnostic]:
+    """The mistakes of a kinetic energy of unknown angular velocities: `I1*omega1^2/2`."""
+    names = {name for each in found for name in _named_in(each) if UNDECLARED in each.hint}
+    rates = {name for name in names if _RATE_OF_BODY.fullmatch(name)}
+    moving = re.search(r"['’′\u0307]|dot|\bd\w+/dt", node.value) or scope.moving
+    if moving or not rates or not [*scope.of_kind("coordinate")]:
+        return []
+    advice = "T has velocities: write {} by them under 'definitions'".format
+    return [replace(each, hint=advice(*(_named_in(each) & rates)))
+            if _named_in(each) & rates else each for each in found]  # fmt: skip
+
+
+def _multiplied_out(text: str) -> str:
+    """`y' = x'*tan(phi)` for `y'/x' = tan(phi)`: a constraint is linear in the velocities."""
+    found = re.fullmatch(r"([\w*]*\w')/(\w+') = ([^=]+)", text)
+    if found is None:
+        return text
+    factor = f"({found[3]})" if re.search(r"\s[-+]\s|/", found[3]) else found[3]
+    return f"{found[1]} = {found[2]}*{factor}" if factor != "0" else f"{found[1]} = 0"
+
+
+def _with_primes(text: str, names: Vocabulary) -> str:
+    """`m*x'^2/2` for the kinetic energy `m*x^2/2`; nothing for one that has velocities."""
+    if "'" in text or {*re.findall(r"[^\W\d]\w*", text)} & {*names.moving}:
+        return ""
+    squares = "|".join(map(re.escape, names.coordinates))
+    whole = re.sub(rf"(?<!\w)({squares})(?=\^2(?!\d))", r"\1'", text)
+    return whole if squares and whole != text else ""
+
+
 def _of_matrices(node: Scalar, scope: Scope) -> Diagnostic | None:
     """What is written for `q'^T*M*q'`; None where no matrix is meant."""
     matrix = _MATRIX.search(node.value)
     if matrix is None or {matrix["one"], "T"} & scope.kinds.keys():
         return None
     x, y = [*scope.of_kind("coordinate"), "x", "y"][:2]
+    if re.match(r"omega|Omega|[ωΩw](?!\w)", matrix["one"] or ""):
+        hint = "write the sum, as in (I_1*omega_1^2 + I_2*omega_2^2)/2, and omega_1 by velocities"
+        return Diagnostic("a formula has no matrices", node.span, f"{hint} under 'definitions'")
     hint = f"write the sum, as in (m_11*{x}'^2 + 2*m_12*{x}'*{y}' + m_22*{y}'^2)/2"
     return Diagnostic("a formula has no matrices", node.span, hint)
 
 
 def _of_rates(node: Scalar, scope: Scope) -> Diagnostic | None:
     """What is written for `d(x - R*phi)/dt`; None where no rate of a formula is meant."""
-    total = _TOTAL_RATE.search(node.value)
+    text = re.sub(r"(?<!\w)\((\w+)\)(?=['’′])", r"\1", node.value)
+    total = _TOTAL_RATE.search(text)
     if total is None or {"d", "dt"} & scope.kinds.keys():
         return None
-    if _LAGRANGE.search(node.value):
+    if _LAGRANGE.search(text):
         hint = "leave it out, or give the force alone"
         return Diagnostic("the equations of motion are derived", node.span, hint)
-    inner = total["inner"] or total["behind"]
-    whole = f"{node.value[: total.start()]}u'{node.value[total.end() :]}".strip()
+    inner = total["inner"] or total["behind"] or total["primed"]
+    whole = f"{text[: total.start()]}u'{text[total.end() :]}".strip()
     hint = "a total time derivative is the prime of a definition"
     hint = f"{hint}: definitions: {{u: {inner}}} and here {whole}"
-    return Diagnostic("'d/dt' of a formula has no meaning", node.span, hint)
+    rate = "the prime" if total["primed"] else "'d/dt'"
+    return Diagnostic(f"{rate} of a formula has no meaning", node.span, hint)
 
 
 def _energy_meant(
@@ -252,6 +308,10 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     if equation and len(sides) == 3 and re.fullmatch(r"\s*\w+\([\w, ]*\)\s*", sides[0]):
         return ["=".join(sides[1:])]  # f(x, y) = … = 0
     value = re.sub(r"^[\"“”„«](.*)[\"“”»]$", r"\1", value.strip())
+    if equation and (both := _BOTH_ROOTS.fullmatch(value)):
+        left = both["left"].strip()
+        left = left if re.fullmatch(r"\w+'*", left) else f"({left})"
+        value = f"{left}^2 = {both['inner']}"
     value = behind_words(without_cases(value), scope.kinds)
     return [value] if equation else [value, _LEFT_SIDE.sub("", value)]
 

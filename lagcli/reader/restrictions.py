@@ -280,7 +280,7 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
                 continue
             file.expression(change, what, STATE)
             hint = did_you_mean(name.label, [*coordinates, "t", "gauge"])
-            bare = re.sub(r"^(?:d|delta_?|Delta_?|δ|Δ)(?=.)", "", name.label)
+            bare = re.sub(r"^(?:delta_?|Delta_?|d|δ|Δ)(?=.)", "", name.label)
             if bare in {*coordinates, "t"}:
                 hint = f"write {bare}, whose change it is"
             known = f"known are {', '.join(coordinates)}, t and gauge"

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from lagcli.reader.automaton import Token
 
 END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
+_ONE_SIGN = "write one sign: each is a problem of its own"
 #: What begins with the character, and what is written instead.
 _MEANT = [
     (r"\{\s*\w+\s*[-+]\s*\w+\s*\}", "every name in full, such as x_1"),
@@ -18,6 +19,7 @@ _MEANT = [
         r"[·⋅]\s*[rv](?!\w)",
         "a product of vectors is written by its components, as in E_x*x + E_y*y",
     ),
+    (r"[±∓]\s*[^\d\s.]", _ONE_SIGN),
     (r"!=|:=", "write an equation with '='"),
     (
         r"\[[^\]]*[,;\[]|\\(?:vec|mathbf|boldsymbol|begin|end)",
@@ -46,4 +48,6 @@ def character_meant(rest: str, tokens: list[Token]) -> str:
         unit = re.match(r"\[([^\[\]]+)\]\s*$", rest)
         if unit and unit_behind(f"1 {unit[1]}"):
             return f"leave out '{unit[0].strip()}': units stand where names are declared"
+    elif rest[0] in "±∓":
+        return _ONE_SIGN
     return next((hint for form, hint in _MEANT if re.match(form, rest)), "")

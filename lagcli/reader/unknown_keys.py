@@ -124,6 +124,8 @@ def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[
     other = "" if is_time else word.casefold()  # the time is not T
     alike = [name for name in names if name.casefold() == other]
     meant = alike[0] if len(alike) == 1 else key_meant(word, names)
+    if meant == "dissipation" and (whole := as_rayleigh(written)):
+        return None, f"write dissipation: {whole}"
     if meant == "dissipation" and "'" not in written:  # a coefficient
         return meant, _advice(_FRICTION, written, what, names)
     if meant:

@@ -65,7 +65,7 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         if foreign := _FOREIGN.match(each):
             begin = text.line_starts[place] + foreign.start(1)
             foreign_line = text.span(begin, begin + len(each.strip()))
-            hint = "a key is written without brackets: key: value"
+            hint = _sections_meant(lines)
             if not foreign[1].startswith("["):
                 has_keys = any(_BEFORE.match(line) and ":" in line for line in lines)
                 hint = COMMENT if has_keys else f"{COMMENT}; {PROGRAM}"
@@ -111,6 +111,10 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return Diagnostic("this is no value", span, f"write {{assume: {SIGNS[sign[1]]}}}")
     if after.startswith("|"):
         return Diagnostic("'|' has no meaning in an expression", span, "write abs(x)")
+    if bars := re.match(r"[^|]*:\s+(\|[^|]+\|)", line):
+        at = text.line_starts[number] + bars.start(1)
+        message = "'|' has no meaning in an expression"
+        return Diagnostic(message, text.span(at, at + 1), "put the whole value in quotes")
     for pattern, message, hint in habits()["lines"]:
         if found := re.search(pattern, line):
             return Diagnostic(message, span, found.expand(hint))
@@ -136,6 +140,21 @@ _FOREIGN = regex(
     r"\s*((//|/\*|;|%(?!YAML)|<!--|--\s|'''|\"\"\").*|\[\w+\]\s*$|(?:from\s+[\w.]+\s+)?import\s.*)"
 )
 _BEFORE = regex(r"(?P<indent>\s*)(?P<key>[^\W\d][\w ]*)(?P<colon>:\s+\S)?")
+
+
+def _sections_meant(lines: list[str]) -> str:
+    """What is written for lines such as `[parameters]`, the heads of sections elsewhere."""
+    parts: list[str] = []
+    for number, line in enumerate(lines, start=1):
+        found = re.fullmatch(r"\s*\[(\w+)\]\s*", line)
+        if found is None:
+            continue
+        key = key_meant(found[1], KEYS)
+        at = f"in line {number} " if parts else ""
+        parts.append(f"{at}write {key}:" if key else f"{at}leave it out")
+    if not any("write" in each for each in parts):
+        return "a key is written without brackets: key: value"
+    return f"{'; '.join(parts)}; the entries of a section begin with blanks"
 
 
 def _cut_by_comment(lines: list[str], here: int) -> int | None:

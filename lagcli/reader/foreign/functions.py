@@ -114,7 +114,7 @@ class Functions(Sums):
                 return self.partial(word, arguments)
             if len(arguments) > 1 and arguments[1] != "t":
                 return self.partial(word, arguments)
-            rate = x + "'" * self.order(arguments[1:])
+            rate = x + "'" * (RATES[word] * self.order(arguments[1:]))
             self.called_by_time()
             return Part(rate, 3)
         if word in {"norm", "hypot"}:

@@ -2,7 +2,9 @@ r"""Sums over an index, each term written out: Σ_i m*x_i'^2, sum(m*x_i'^2, i=1.
 
 from __future__ import annotations
 
+import itertools
 import re
+from functools import partial
 
 from lagcli.reader.foreign.words import UnclearText, Vocabulary
 from lagcli.reader.regex import regex
@@ -21,6 +23,10 @@ _SIGN = regex(
 )
 #: An index of a name: x_i, x[i].
 _INDEXED = regex(r"(?<=[^\W_])(?:_\{?|\[)(?P<index>[i-n])(?![\w])(?P<first>)")
+#: One or two indices of a name: x_i, M_ij.
+_LETTERS = regex(
+    r"(?<![\w.\\])(?P<stem>[^\W\d_]+)_\{?(?P<index>(?=[i-n\d]*[i-n])[i-n\d]{1,2})\}?(?!\w)"
+)
 _MOST = 12
 
 
@@ -51,7 +57,38 @@ def written_out(text: str, names: Vocabulary) -> str:
         end = _end_of_product(text, signed.end())
         terms = _terms(text[signed.end() : end].strip(" *"), signed, names)
         text = f"{text[: signed.start()]}{terms} {text[end:]}".rstrip()
-    return text
+    return _repeated(text, names) if _LETTERS.search(text) else text
+
+
+def _repeated(text: str, names: Vocabulary) -> str:
+    """`(1/2 M11 q1' q1' + …)` for `1/2 M_ij q_i' q_j'`: over each index that stands twice."""
+    counted = (re.search(r"\d+$", x) for x in names.coordinates)
+    places = sorted({found[0] for found in counted if found})
+    parts = re.split(r"(?<=[\w)'}²])(\s*[-+]\s*)(?![^(]*\))", text)
+    for place, part in enumerate(parts[::2]):
+        letters = sorted({each for found in _LETTERS.finditer(part) for each in found["index"]
+                          if each.isalpha()})  # fmt: skip
+        if not letters:
+            continue
+        if not 0 < len(places) ** len(letters) <= _MOST:
+            raise UnclearText
+        terms = []
+        for chosen in itertools.product(places, repeat=len(letters)):
+            given = dict(zip(letters, chosen, strict=True))
+            terms.append(_LETTERS.sub(partial(_numbered, given, names), part).strip())
+        parts[2 * place] = f"({' + '.join(terms)})"
+    return "".join(parts)
+
+
+def _numbered(places: dict[str, str], names: Vocabulary, found: re.Match[str]) -> str:
+    """The name of the file for M_ij; M12 also for M21."""
+    index = "".join(places.get(each, each) for each in found["index"])
+    spelled = [
+        f"{found['stem']}{gap}{order}" for order in (index, index[::-1]) for gap in ("_", "")
+    ]
+    if not (named := [each for each in spelled if each in names.known]):
+        raise UnclearText
+    return named[0]
 
 
 def _terms(term: str, limits: re.Match[str], names: Vocabulary) -> str:

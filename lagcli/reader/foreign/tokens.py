@@ -54,6 +54,10 @@ _NO_FORMULA = regex(
 )
 #: The length of a position: |r|, ||r||, |\\vec{r}|.
 _LENGTH = regex(r"(?:\\?\|){1,2}\s*(?:\\(?:vec|mathbf)\s*)?\{?r\}?\s*(?:\\?\|){1,2}")
+_SPEED_LENGTH = regex(
+    r"(?:\\?\|){1,2}\s*(?:\\(?:vec|mathbf)\s*)?\{?v\}?\s*(?:\\?\|){1,2}"
+    r"|\b(?:abs|norm|(?:np\.)?linalg\.norm)\(\s*v\s*\)"
+)
 #: The distance of two bodies, and of one from the origin: |r1 - r2|, |\\vec{r}_1|.
 _VECTOR = r"(?:\\(?:vec|mathbf)\s*)?\{?r\}?_?\{?"
 _BETWEEN = regex(
@@ -65,7 +69,7 @@ _PRODUCT_OF_VECTORS = regex(
     r"[(\[]([^()\[\]]+,[^()\[\]]+)[)\]]\s*[.·]\s*[(\[]([^()\[\]]+,[^()\[\]]+)[)\]]"
 )
 #: A product of two vectors by their letters: A·v, dot(A, v), \\vec{A}\\cdot\\vec{v}.
-_LETTER_OF_VECTOR = r"\\?(?:(?:vec|mathbf|boldsymbol|bm)\s*)?\{?\s*([^\W\d_])\s*\}?"
+_LETTER_OF_VECTOR = r"\\?(?:(?:vec|mathbf|boldsymbol|bm)\s*)?\{?\s*([^\W\d_]'*)\s*\}?"
 _LETTERS_OF_VECTORS = regex(
     rf"(?<![\w.}}]){_LETTER_OF_VECTOR}\s*(?:[·⋅∙•]|\\cdot(?![a-z])|\s\.\s)\s*{_LETTER_OF_VECTOR}(?![\w'(])"
     rf"|(?<![\w.])(?:\w+\.)?dot\(\s*{_LETTER_OF_VECTOR}\s*,\s*{_LETTER_OF_VECTOR}\s*\)"
@@ -78,6 +82,10 @@ _RELATIONS = (
     (re.compile(r"\s+(?:is\s+)?(?:greater|larger|bigger|more)\s+than\s+"), ">"),
     (re.compile(r"\s+(?:is\s+)?(?:less|smaller)\s+than\s+"), "<"),
     (re.compile(r"\s+(?:is\s+equal\s+to|is|equals?)\s+(?=[-\w(])"), "="),
+)
+#: What other programs do with a formula: `.simplify()`, `// FullSimplify`.
+_DONE_WITH = regex(
+    r"\.(?:simplify|trigsimp|expand|factor|evalf|doit|n)\(\w*\)|\s*//\s*(?:Full)?[A-Z]\w+\s*$"
 )
 #: `self.` before a name.
 _OWNER = regex(r"\b([A-Za-z]\w*)\.(?=(?!diff\b)([A-Za-z_]\w*))")
@@ -94,6 +102,7 @@ class Token(NamedTuple):
 def prepared(text: str, names: Vocabulary) -> str:
     """With the marks of web pages, v² and Leibniz' derivatives in the notation of a file."""
     text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
+    text = _DONE_WITH.sub("", text)
     if "half" not in names.known:
         text = re.sub(r"\b(?:(?:one|a)[ -])?half\b(?:\s+of\b)?", "1/2", text)
     text = re.sub(r"(\w)\u20d7", r"\\vec{\1}", text)
@@ -123,7 +132,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = _leibniz(_distance(_square_of_speed(text, names), names), names)
     for name, component in names.components.items():
         point, axis = name.split(".")
-        forms = [name, *({f"{axis}_{point}", f"{point}_{axis}"} - {*names.known})]
+        forms = [name, *({f"{axis}_{point}", f"{axis}{point}", f"{point}_{axis}"} - {*names.known})]
         spelled = "|".join(map(re.escape, forms))
         text = re.sub(rf"(?<![\w.])(?:{spelled})(?!\w)", f"({component})", text)
 
@@ -149,18 +158,23 @@ def _products_of_vectors(text: str, names: Vocabulary) -> str:
     axes = [x for x in names.coordinates if x in {"x", "y", "z"}]
 
     def components(letter: str) -> list[str]:
-        if letter in {"v", "r"} - {*names.known} and axes == [*names.coordinates]:
-            return [x + "'" * (letter == "v") for x in axes]
-        listed = [f"{letter}_{x}" for x in axes if f"{letter}.{x}" in names.components]
-        return listed or [
-            next((each for each in (f"{letter}_{x}", f"{letter}{x}") if each in names.known), "0")
+        bare = letter.rstrip("'")
+        primes = letter[len(bare) :]
+        if bare in {"v", "r"} - {*names.known} and axes == [*names.coordinates]:
+            return [x + "'" * (bare == "v") + primes for x in axes]
+        listed = [f"{bare}_{x}" for x in axes if f"{bare}.{x}" in names.components]
+        named = listed or [
+            next((each for each in (f"{bare}_{x}", f"{bare}{x}") if each in names.known), "0")
             for x in axes
         ]
+        return [each + primes * (each != "0") for each in named]
 
     def written(found: re.Match[str]) -> str:
         one, two = (components(each) for each in found.groups() if each)
         pairs = [pair for pair in zip(one, two, strict=False) if "0" not in pair]
-        if not pairs and {each for each in found.groups() if each} & {"r", "v"} - {*names.known}:
+        if not pairs and {each for each in found.groups() if each} & {"r", "v", "r'"} - {
+            *names.known
+        }:
             raise UnclearText  # E·r, where E has no components
         return f"({' + '.join(map('*'.join, pairs))})" if pairs else found[0]
 
@@ -185,12 +199,15 @@ def _square_of_speed(text: str, names: Vocabulary) -> str:
     if len(names.coordinates) < 2 or "v" in names.known:
         return text
     if squares := polar_speed(names.coordinates):
-        return _SPEED.sub(f" ({squares}) ", text)
+        text = _SPEED.sub(f" ({squares}) ", text)
+        return _SPEED_LENGTH.sub(f" sqrt({squares}) ", text)
     if not {*names.coordinates} <= {*"xyz"}:
         return text
     for pattern, prime in ((_SPEED, "'"), (_DISTANCE, "")):
         squares = " + ".join(f"{x}{prime}^2" for x in names.coordinates)
         text = pattern.sub(f" ({squares}) ", text)
+    squares = " + ".join(f"{x}'^2" for x in names.coordinates)
+    text = _SPEED_LENGTH.sub(f" sqrt({squares}) ", text)
     if "r" not in names.known:
         squares = " + ".join(f"{x}^2" for x in names.coordinates)
         text = _LENGTH.sub(f" sqrt({squares}) ", text)

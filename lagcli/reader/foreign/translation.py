@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from itertools import pairwise
 
 from lagcli.reader.foreign.functions import Functions, bare
 from lagcli.reader.foreign.sums import Part
@@ -49,6 +50,9 @@ class _Translation(Functions):
                 return self.name(token)
             case "macro":
                 return self.macro(token.text[1:])
+            case "primes" if self.is_name(following := self.peek()) and following is not None:
+                self.at += 1
+                return self.named(following.text, primes=len(token.text))  # 'x
         sign = SIGNS.get(token.text, token.text)
         if sign == "(":
             inner = self.sum()
@@ -140,7 +144,7 @@ class _Translation(Functions):
             return self.applied(word + "'" * primes)
         if self.sign() == "(" and f"{word}.x" in self.names.components:
             raise UnclearText  # bob[1] is x or y
-        word += self.in_brackets()
+        word += self.index_behind(word)
         primes += self.primes()
         self.refuse_unknown_call(word)
         name, more = meant(word, self.names)
@@ -160,14 +164,27 @@ class _Translation(Functions):
         text = name + "'" * primes
         return Part(text, 1 if "*" in text else 3)
 
-    def in_brackets(self) -> str:
-        """The index of x[0], which is passed."""
+    def index_behind(self, word: str) -> str:
+        """The index of x[0] and of dq(1), which is passed; from 0 where no name has one."""
         opening, index = self.peek(), self.peek(1)
-        if opening is None or opening.text != "[" or index is None or index.kind != "number":
+        if opening is None or index is None or index.kind != "number" or self.sign(2) != ")":
             return ""
-        self.at += 2
-        self.closed(")")
-        return f"_{index.text}"
+        place = str(int(index.text) + self.from_zero) if index.text.isdigit() else index.text
+        numbered = meant(f"{word}{place}", self.names)[0] in self.names.known
+        place = place if numbered else index.text
+        if opening.text != "[" and (
+            opening.text != "(" or word in self.names.known or not numbered
+        ):
+            return ""
+        self.at += 3
+        return place if numbered else f"_{place}"
+
+    @property
+    def from_zero(self) -> bool:
+        """Whether x[0] is the first of x1, x2."""
+        pairs = pairwise(self.tokens)
+        counted = any(one.text in {"(", "["} and other.text == "0" for one, other in pairs)
+        return counted and not any(re.search(r"\D0$", each) for each in self.names.known)
 
     def refuse_unknown_call(self, word: str) -> None:
         """U(x) may be a function, x(t - 1) is an earlier time; k(x - 1) is a product."""

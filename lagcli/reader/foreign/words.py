@@ -145,11 +145,14 @@ def _momenta(x: str) -> set[str]:
 def _rates(x: str) -> tuple[set[str], set[str]]:
     """How others write x' and x''."""
     stem, _, index = x.partition("_")
+    numbered = re.fullmatch(r"(\D+?)_?(\d+)", x)
     first = {f"{x}{dot}" for dot in ("dot", "_dot", "_d", "d", "p", "_t", "Dot", "_prime")}
     first |= {f"{dot}{x}" for dot in ("d", "D", "d_", "dot_", "dot", *_SPEEDS)}
     first |= {f"{x}{gap}{word}" for word in _DOT_WORDS for gap in ("", "_")}
     second = {f"{x}{dot}" for dot in ("ddot", "_ddot", "dd", "_dd", "pp", "_tt")}
     second |= {f"{dot}{x}" for dot in ("dd", "a", "a_", "ddot_", "ddot")}
+    if numbered:
+        first |= {f"{numbered[1]}{dot}{numbered[2]}" for dot in ("d", "_d", "dot", "_dot")}
     if index:
         first |= {f"{stem}dot_{index}", f"{stem}dot{index}", f"{stem}_dot_{index}"}
     return first, second
