@@ -8,6 +8,7 @@
 - |f| is f, -f or 0, and the sign of f is 1, -1 or 0.
 - sin u = ± sin v and cos u = ± cos v, among the equations and the sums and differences of two,
   relate the angles linearly.
+- A function of one sign is 0 only where its derivatives are: x² + y² only for x = y = 0.
 """
 
 from __future__ import annotations
@@ -22,6 +23,8 @@ from sympy import Dummy, Expr, Symbol
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.linear import solve_linear
+from lagcli.algebra.positivity import weak_sign
+from lagcli.algebra.signs import sign
 from lagcli.algebra.simplification import is_zero, simplify
 from lagcli.record import record
 
@@ -44,6 +47,7 @@ def opened(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened
         _without_moduli(equations, unknowns)
         or _by_equal_angles(equations, unknowns)
         or _lowered(equations, unknowns)
+        or _at_extrema(equations, unknowns)
     )
 
 
@@ -175,6 +179,31 @@ def _lowered(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Open
             others = [e for k, e in enumerate(equations) if k != j]
             return [Opened((rest, *others))]
     return []
+
+
+def _at_extrema(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened]:
+    for e in equations:
+        if _one_sign(e, unknowns) is None:
+            continue
+        slopes = [slope for slope in (simplify(e.diff(x)) for x in unknowns) if slope != 0]
+        new = [s for s in slopes if not any(free_of(simplify(s / f), unknowns) for f in equations)]
+        if new:
+            return [Opened((*new, *equations))]
+    return []
+
+
+def _one_sign(e: Expr, unknowns: Sequence[Symbol]) -> int | None:
+    """1 or -1 where e has no other sign: as a x² + b x + c has that of a for b² - 4 a c ≤ 0."""
+    known = weak_sign(e)
+    if known is not None or not e.is_polynomial(*unknowns):
+        return known
+    for x, *others in (unknowns[k:] for k in range(len(unknowns))):
+        form = e.as_poly(x)
+        if form.degree() == 2:
+            discriminant = sympy.expand(form.discriminant())
+            first = sign(form.LC())
+            return first if first and _one_sign(discriminant, others) == -1 else None
+    return None
 
 
 def by_distances(equations: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Opened]:

@@ -577,3 +577,22 @@ def test_two_rates_in_a_magnetic_field_have_one_root(coordinates, physics, momen
             {s: 0.3 + 0.1 * k for k, s in enumerate(sorted(p.free_symbols, key=str))}
         )
         assert abs(difference.evalf()) < 1e-12
+
+
+@pytest.mark.parametrize(("i", "j"), [(1, -2), (2, -1), (3, -2), (1, -4)])
+def test_two_cyclic_coordinates_turn_in_either_sense_each(i, j):
+    """0 = d/dr of T = (r'^2 + r^i a'^2 + s r^j b'^2)/2, with s = 1: i r^i a'^2 = -j r^j b'^2."""
+    found = motions(
+        "coordinates: {r: POSITIVE, a: {}, b: {}}\n"
+        f"T: (r'^2 + r^({i})*a'^2 + r^({j})*b'^2)/2\nV: 0"
+    )
+    turning = set()
+    for p_b in (0.7, -0.7):
+        for each in found:
+            assert each.rates is not None
+            values = {"r": 1.3, "p_b": p_b, "p_a": p_b, "a'": p_b, "b'": p_b}
+            a, b = (evaluated(each.rates[name], values, FUNCTIONS) for name in "ab")
+            assert i * 1.3**i * a**2 == pytest.approx(-j * 1.3**j * b**2)
+            for sense in (1, -1) if each.mirrored else (1,):
+                turning.add((sense * a > 0, sense * b > 0))
+    assert len(turning) == 4

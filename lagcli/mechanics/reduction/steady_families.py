@@ -117,6 +117,7 @@ class SteadyFamilies:
             return None
         first = min(within, key=lambda c: int(sympy.count_ops(c)))
         rest = [c for c in conditions if c is not first]
+        reversing = (*self.routh.momenta, *(self.full.qdot[j] for j in self.routh.cyclic))
         found: list[Steady] = []
         for factor, power in factors_of(first):
             if power < 0 or sign(factor) in (1, -1):
@@ -134,7 +135,7 @@ class SteadyFamilies:
             roots = solve_for(factor, unknown)
             if roots is None:
                 return None
-            for root, mirrored in _without_mirrors(roots.values, self.routh.momenta):
+            for root, mirrored in _without_mirrors(roots.values, reversing):
                 root = simplify(root)
                 put_in = {unknown: root}
                 others = self._others([c.xreplace(put_in) for c in rest])
@@ -230,13 +231,20 @@ def _cost(value: Expr) -> int:
 
 
 def _without_mirrors(
-    roots: Sequence[Expr], momenta: Sequence[Symbol]
+    roots: Sequence[Expr], reversing: Sequence[Symbol]
 ) -> Iterator[tuple[Expr, bool]]:
-    """One of x and -x where nothing else changes its sign with them."""
-    seen: list[Expr] = []
+    """The roots, and whether x stands for -x, too: with all momenta and rates reversed.
+
+    x(p) and -x(-p) are the same motion run backwards.  For x(-p) = x(p) that is the root -x(p);
+    any other x needs both roots.
+    """
+    reversal = {symbol: -symbol for symbol in reversing}
+    mirrored: list[Expr] = []
     for root in sorted(roots, key=lambda root: bool(root.could_extract_minus_sign())):
-        if any(is_zero(root + other) is True for other in seen):
+        if any(is_zero(root + other) is True for other in mirrored):
             continue
         opposite = any(is_zero(root + other) is True for other in roots if other is not root)
-        seen.append(root)
-        yield root, opposite and free_of(root, momenta)
+        even = opposite and is_zero(root - root.xreplace(reversal)) is True
+        if even:
+            mirrored.append(root)
+        yield root, even
