@@ -330,14 +330,14 @@ def _with_sign_before(node: Expression) -> Expression:
     match node:
         case Negative(operand=Negative(operand=inner)):
             return inner
-        case Product(factors=factors) if any(isinstance(f, Negative) for f in factors):
-            bare = tuple(f.operand if isinstance(f, Negative) else f for f in factors)
-            minus = sum(isinstance(f, Negative) for f in factors) % 2
+        case Product(factors=factors) if any(_is_opposite(f) for f in factors):
+            bare = tuple(_opposite(f) if _is_opposite(f) else f for f in factors)
+            minus = sum(_is_opposite(f) for f in factors) % 2
             return Negative(Product(bare)) if minus else Product(bare)
-        case Quotient(numerator=Negative(operand=above), denominator=below):
-            return opposite(_with_sign_before(Quotient(above, below)))
-        case Quotient(numerator=above, denominator=Negative(operand=below)):
-            return Negative(Quotient(above, below))
+        case Quotient(numerator=above, denominator=below) if _is_opposite(above):
+            return opposite(_with_sign_before(Quotient(_opposite(above), below)))
+        case Quotient(numerator=above, denominator=below) if _is_opposite(below):
+            return Negative(Quotient(above, _opposite(below)))
         case Power(base=Negative(operand=base), exponent=exponent) if parity(exponent) is not None:
             power = Power(base, exponent)
             return Negative(power) if parity(exponent) else power
@@ -349,6 +349,19 @@ def _with_sign_before(node: Expression) -> Expression:
             return Sum(tuple(positive_first(terms)))
         case _:
             return node
+
+
+def _is_opposite(node: Expression) -> bool:
+    """Whether every term has a minus: −a, −a − b."""
+    terms = node.terms if isinstance(node, Sum) else (node,)
+    return all(isinstance(term, Negative) for term in terms)
+
+
+def _opposite(node: Expression) -> Expression:
+    """The same with a plus for every minus."""
+    if isinstance(node, Sum):
+        return Sum(tuple(opposite(term) for term in node.terms))
+    return opposite(node)
 
 
 # -- written out again ------------------------------------------------------------------------

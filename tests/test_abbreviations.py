@@ -21,6 +21,7 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    children,
     opposite,
     walk,
 )
@@ -30,7 +31,7 @@ from lagcli.notation.letters import names_in
 from lagcli.pipeline import Request, derive, explain, read, render, state
 from lagcli.reader import read_problem
 from lagcli.record import replace
-from lagcli.rewriting import rewritten
+from lagcli.rewriting import expressions_in, rewritten
 from lagcli.statements.answers import AccelerationsSection
 
 from .formatters.examples import HOOP
@@ -268,3 +269,27 @@ V: -2*m*g*a*cos(theta) + 2*k*a^2*(1 - cos(theta))^2
     assert not names_in(potential) & {*found.where}
     for point in found.sections["reduction"].one_freedom.turning_points:
         assert {n for n in names_in(point) if n in found.where} <= {"Delta"}
+
+
+def test_no_factor_has_a_minus_before_every_term():
+    """A bead on a parabola that spins: −ρ (Δ + 4 k² ρ'²)/Δ₂ with Δ = 2 g k − w²."""
+    names = "m k w g".split()
+    file = (
+        f"coordinates: [rho]\nparameters: {{{', '.join(f'{n}: {{assume: positive}}' for n in names)}}}\n"
+        "points: {bead: {position: [rho*cos(w*t), rho*sin(w*t), k*rho^2], mass: m}}\nV: m*g*k*rho^2"
+    )
+    also = (
+        "equilibria modes reduction discovered algebra hamilton_jacobi canonical_equations".split()
+    )
+    steps = explain(derive(read_problem("t.yaml", file.encode()).checked()), (*also,)).steps
+    assert "Delta2" in names_in(steps)
+    factors = [
+        factor
+        for tree in expressions_in(steps)
+        for part in walk(tree)
+        if isinstance(part, (Product, Quotient))
+        for factor in children(part)
+    ]
+    sums = [factor.terms for factor in factors if isinstance(factor, Sum)]
+    assert sums
+    assert not [terms for terms in sums if all(isinstance(term, Negative) for term in terms)]
