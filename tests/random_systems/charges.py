@@ -78,7 +78,7 @@ class Charges:
     @cached_property
     def on_branches(self):
         """More states, from afar as well."""
-        drawn = filter(None, (self.motion.draw(wide=i) for i in (1, 4) * 8))
+        drawn = filter(None, (self.motion.draw(wide=i) for i in (1, 4) * 48))
         return [solved for solved in map(self.motion.solve, drawn) if solved[2]]
 
     def _noether(self, each, section, label):
