@@ -21,13 +21,14 @@ Page = TypeVar("Page")
 
 #: What stands before a letter of ours until it is known whether the file has it.
 _OWN = "&"
-#: What a sentence says where a letter is the file's; the first that fits counts.
+#: What a sentence says where a letter is the file's; the first that fits counts.  In T' and
+#: T = 0 it is the file's.
 _WORDS = (
     ("T + V", "TV", "the sum of the kinetic and the potential energy"),
-    (r"\bL\b", "L", "the Lagrangian"),
-    (r"\bH\b", "H", "the Hamiltonian"),
-    (r"\bV\b", "V", "the potential energy"),
-    (r"\bT\b", "T", "the kinetic energy"),
+    (r"\bL\b(?!['(]| [=><≠])", "L", "the Lagrangian"),
+    (r"\bH\b(?!['(]| [=><≠])", "H", "the Hamiltonian"),
+    (r"\bV\b(?!['(]| [=><≠])", "V", "the potential energy"),
+    (r"\bT\b(?!['(]| [=><≠])", "T", "the kinetic energy"),
     (r"\bU_eff\b", "U_eff", "the effective potential"),
     (r"^S = ", "S", "S_sys = "),
     (r"\bthe derivative of S\b", "S", "the derivative of the action"),

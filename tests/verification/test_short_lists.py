@@ -37,6 +37,17 @@ def test_a_steady_motion_that_is_left_out_is_missed(left_out: int) -> None:
     assert any("no other steady motion" in each for each in warnings)
 
 
+@pytest.mark.parametrize("power", [-1, 1, 2])
+def test_a_steady_motion_at_a_rate_that_stays_free_is_complete(power: int) -> None:
+    """dy/dz of circular orbits in the metric -f dz² + dx²/f + x² dy², f = 1 - k x^power."""
+    metric = f"L: (-(1 - k*x^({power}))*z'^2 + x'^2/(1 - k*x^({power})) + x^2*y'^2)/2"
+    problem, answers, section = derived("x, y, z", metric, "steady_motions")
+    assert section.motions
+    found, warnings = after(problem, answers, section)
+    assert found == section
+    assert not warnings
+
+
 @pytest.mark.parametrize("drag", ["k*x'^2/8", "w*(x' - y')^2/2 + b*y'^2"])
 def test_modes_of_a_damped_system_that_are_left_out_are_missed(drag: str) -> None:
     physics = f"T: m*(x'^2 + y'^2)/2\nV: k*(x^2 + y^2 + x*y)/2\ndissipation: {drag}"

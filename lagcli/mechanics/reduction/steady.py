@@ -12,13 +12,14 @@ Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., sections 3.6 and 5.7.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 
 import sympy
 from sympy import Expr, S
 
 from lagcli.algebra import is_zero, simplify
-from lagcli.algebra.place import at
+from lagcli.algebra.place import at, lies_in
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_contacts import SteadyContacts
@@ -170,6 +171,7 @@ class SteadyMotions:
             found = self._by_momenta()
         if self.dynamics.constraints.equations:
             return found
+        found += self._rest_without_forces(found)
         rest = [each for each in found if each.rates and not any(each.rates.values())]
         axes = CoincidingAxes(self.routh)
         found += [
@@ -179,6 +181,18 @@ class SteadyMotions:
         ]
         self.complete &= axes.complete
         return found
+
+    def _rest_without_forces(self, found: Sequence[Steady]) -> list[Steady]:
+        """Rest at every position where no force acts at rest, unless it is in a family found."""
+        none = dict.fromkeys((*self.routh.momenta, *self.full.qdot), S.Zero)
+        if not all(is_zero(c.xreplace(none)) is True for c in self.balance):
+            return []
+        everywhere = [m for m in found if not (m.positive or set(m.values) & set(self.system.q))]
+        if any(lies_in(motion.values, none) for motion in everywhere):
+            return []
+        momenta = dict.fromkeys(self.routh.momenta, S.Zero)
+        rates = self.routh.rates_at(momenta)
+        return [] if any(rates.values()) else [Steady(momenta, rates)]
 
     def _by_momenta(self) -> list[Steady]:
         """The equilibria of the reduced system at given momenta."""

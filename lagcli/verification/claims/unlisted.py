@@ -240,10 +240,10 @@ def _vanishes(at: StepValues, place: int) -> bool:
 
 
 def _is_at(balance: Balance, near: LinearMotion, place: RestPlace, *, mirror: bool) -> bool:
-    """Whether a listed motion is the one found, or with `mirror` that with opposite momenta."""
+    """Whether a listed motion is the one found, or with `mirror` the one reversed."""
     sign = -1 if mirror else 1
-    momenta = {(f"p_{n}", 0) for n in balance.turning}
-    known = {key: v * sign if key in momenta else v for key, v in near.environment.items()}
+    reversed_ = {key for n in balance.turning for key in ((f"p_{n}", 0), (n, 1))}
+    known = {key: v * sign if key in reversed_ else v for key, v in near.environment.items()}
     with ctx.workprec(PRECISIONS[0]):
         listed = place.near(known)
     if listed is None:
