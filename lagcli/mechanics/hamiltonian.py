@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from functools import cached_property
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.determinants import determinant
@@ -142,6 +142,14 @@ class Hamiltonian:
         return tuple(rows)
 
     @property
+    def shifts(self) -> dict[Symbol, Expr]:
+        """What of each momentum does not vanish with the velocities: q A of m x' + q A."""
+        still = dict.fromkeys(self.system.qdot, sympy.S.Zero)
+        momenta = self.dynamics.lagrange.momenta
+        at_rest = (simplify(p.xreplace(still)) for p in momenta)
+        return {p: b for p, b in zip(self.system.momenta, at_rest, strict=True) if b != 0}
+
+    @property
     def canonical_equations(self) -> tuple[tuple[Expr, Expr], ...] | None:
         """(q_j', p_j') by coordinate."""
         if self.growth is None or self.velocities is None:
@@ -188,6 +196,11 @@ class GivenHamiltonian:
         return tuple(
             (self.in_phase_space(f - h), sympy.S.Zero) for f, h in zip(forces, slopes, strict=True)
         )
+
+    @property
+    def shifts(self) -> dict[Symbol, Expr]:
+        """None: the H of the file has its own brackets."""
+        return {}
 
     @property
     def canonical_equations(self) -> tuple[tuple[Expr, Expr], ...]:

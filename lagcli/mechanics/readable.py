@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
 
-from sympy import Add, Expr, Mul, S, expand_mul
+from sympy import Add, Expr, Mul, S, Symbol, expand_mul
 
 from lagcli.algebra import shape, simplify, terms
 from lagcli.algebra.build import free_of
@@ -15,6 +16,7 @@ from lagcli.algebra.writing import Writer
 from lagcli.expression import ZERO, Expression, Name, Power, Product, Sum, operation_count, walk
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.notation.given_formulas import is_constant
+from lagcli.rewriting import put_in
 
 #: How many times as long as the shortest shape V may be as the file has it, and where it has
 #: letters of its own for functions of the coordinates, such as heights, which are put in: the
@@ -76,8 +78,23 @@ class Readable:
         names = frozenset.intersection(*map(frozenset, shared)) if shared else frozenset()
         return names - {*self.system.names}
 
-    def rate(self, moving: Expr, rest: Expr) -> Expression:
-        """p' as -dT/dq and -dV/dq, apart where that is not long; `rest` is dL/dq at rest."""
+    def rate(self, moving: Expr, rest: Expr, shifts: Mapping[Symbol, Expr]) -> Expression:
+        """p' as -dT/dq and -dV/dq, apart where that is not long; `rest` is dL/dq at rest.
+
+        With p − b for a momentum p = m x' + b where that is no longer: U − R (p − K θ)/L.
+        """
+        plain = self._energies_apart(moving, rest)
+        if not shifts or moving == 0:
+            return plain
+        moved = {p: p + b for p, b in shifts.items()}
+        brackets: dict[Expression, Expression] = {
+            Name(p.name): self.as_written(p - b) for p, b in shifts.items()
+        }
+        by_velocities = self._energies_apart(simplify(moving.xreplace(moved)), rest)
+        shown = put_in(by_velocities, brackets)
+        return shown if operation_count(shown) <= operation_count(plain) else plain
+
+    def _energies_apart(self, moving: Expr, rest: Expr) -> Expression:
         together = self._rate(moving + rest)
         momenta = (*self.system.momenta, *self.system.multipliers)
         still = moving.xreplace(dict.fromkeys(momenta, S.Zero))
@@ -113,9 +130,9 @@ class Readable:
         With x = a phi either may stand: -a² k x/(M a² + I) for x'', -a² k phi/(...) for phi''.
         """
         tree, relations = self.dynamics.shapes.shape(expression), self._relations
-        for put_in in self._multiples:
-            other = expression.xreplace(put_in)
-            if other == expression or not free_of(other, put_in):
+        for values in self._multiples:
+            other = expression.xreplace(values)
+            if other == expression or not free_of(other, values):
                 continue
             found = self.as_written(other)
             before = self.as_written(

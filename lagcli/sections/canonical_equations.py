@@ -28,7 +28,8 @@ def derive(statements: Statements) -> CanonicalSection:
     hamiltonian = statements.derivation.hamiltonian
     if hamiltonian.velocities is None or hamiltonian.growth is None:
         return _none(statements, hamiltonian.reason, fold_of(statements))
-    rates = [statements.readable.rate(*parts) for parts in hamiltonian.growth]
+    shifts = hamiltonian.shifts
+    rates = [statements.readable.rate(*parts, shifts) for parts in hamiltonian.growth]
     return _stated(statements, statements.system.names, hamiltonian.velocities, rates)
 
 

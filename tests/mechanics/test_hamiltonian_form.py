@@ -208,6 +208,20 @@ def test_the_brackets_of_the_velocities_stand_in_the_rates_of_the_momenta(given)
     assert not {opposite_terms(each) for each in velocities} & rates
 
 
+@pytest.mark.parametrize(
+    ("lagrangian", "momentum", "rate"),
+    [
+        # a charge in a uniform field: Goldstein, Poole, Safko, 3rd ed., section 8.1
+        ("m*(x'^2 + y'^2)/2 + q*B*(x*y' - y*x')/2", "x", "q*B*(p_y - q*B*x/2)/(2*m)"),
+        # a coil that is drawn in, Woodson and Melcher, chapter 2
+        ("m*(x'^2 + y'^2)/2 + B*y'*x - q*x^2/2", "x", "B*(p_y - B*x)/m - q*x"),
+    ],
+)
+def test_the_velocity_stands_in_the_rate_of_a_momentum(lagrangian, momentum, rate):
+    found = solved("x, y", lagrangian, others="q B", sections=["canonical_equations"])
+    assert formula(found["canonical_equations"].equations[momentum].p) == rate
+
+
 def brackets(formulas):
     """The sums above fraction bars, as sets of their terms."""
     for part in (part for each in formulas for part in walk(parse_text(formula(each)))):

@@ -196,7 +196,22 @@ class Periods:
         elif not found and not self.reason:
             turn = "within one turn " if rest.is_of_one_turn else ""
             self.reason = f"U_eff has no minimum {turn}at which its second derivative is positive"
-        return tuple(put_together(found, _of_either_sign))
+        return tuple(put_together(self._like_mirror_images(found), _of_either_sign))
+
+    def _like_mirror_images(self, found: Sequence[AmplitudeSeries]) -> list[AmplitudeSeries]:
+        """The series; where U(−q) = U(q) and M(−q) = M(q), −q0 has the period by E that q0 has."""
+        motion, q = self.motion, self.motion.q
+        places = [sympy.Add(*s.point.values.values()) if s.point else S.Zero for s in found]
+        exact = {p: s for p, s in zip(places, found, strict=True) if s.by_energy is not None}
+        if len(exact) in (0, len(found)):
+            return [*found]
+        even = all(is_zero(x - x.xreplace({q: -q})) is True for x in (motion.potential, self._mass))
+        images = [exact.get(-p) if even else None for p in places]
+        return [
+            s if image is None or s.by_energy is not None
+            else replace(s, by_energy=image.by_energy, energies=image.energies)
+            for s, image in zip(found, images, strict=True)
+        ]  # fmt: skip
 
     def _anywhere(self) -> tuple[AmplitudeSeries, ...]:
         """2 pi sqrt(M/U'') at a place that is given by U' = 0 only."""
