@@ -61,6 +61,7 @@ def oscillations(explainer: Explainer, section: Section) -> Iterator[Block]:
     if not found:
         lead = "They were not found" if found is None else "There are no normal modes"
         yield says(f"{lead}: {known.reason}.")
+        yield from _forced(explainer)
         return
     small = SmallOscillations(explainer.dynamics)
     by_place = {(tuple(mode.at.items()), mode.on): (mode.at, mode.on) for mode in found}
@@ -79,6 +80,28 @@ def oscillations(explainer: Explainer, section: Section) -> Iterator[Block]:
             yield says(f"{lead} the equilibrium" if rows else f"{lead} rest")
             yield from [Equations(rows)] if rows else []
         yield from blocks
+
+
+def _forced(explainer: Explainer) -> Iterator[Block]:
+    """One solution of linear equations with a drive, and its amplitude where that is one wave."""
+    from lagcli.mechanics.oscillations.forced import amplitude, forced
+
+    found = forced(explainer.derivation)
+    if found is None:
+        return
+    order, t = explainer.system.order, explainer.system.t
+    yield says("The equations of motion are linear, with terms that depend on the time alone. A "
+               "solution, by undetermined coefficients, is")  # fmt: skip
+    yield Equations(tuple(Row(Name(q.name), shape(x, order)) for q, x in found.items()))
+    where = above_zero(squares_divided_by(found.values()), order, ())
+    if where:
+        yield says("for ", *conditions(where), ".")
+    size = amplitude(list(found.values()), t)
+    if size is not None:
+        yield says("Its amplitude is")
+        yield shows(explainer.letters.free("a"), shape(size, order))
+    yield says("Every other motion differs from it by a solution of the equations without these "
+               "terms.")  # fmt: skip
 
 
 def _near(explainer: Explainer, place: Place, modes: Sequence[ModesOfFrequency]) -> Iterator[Block]:
