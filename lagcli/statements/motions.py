@@ -27,9 +27,11 @@ class Verdict:
     stability to first order, or more where the equations are linear (`exact`).  Empty: always,
     None: never, or not decided.  `unstable` is it where one of these inequalities holds.
     `asymptotic`: where it is stable by the first two, what is disturbed returns, to the family
-    where it is stable `across` one; `released`: up to displacements to equilibria at which what
-    is closed is open.  `gyroscopic`: the spectrum is that of terms that damping
-    would outdo.  `rapid` is the frequency of a drive over whose period the motion is averaged.
+    where it is stable `across` one, `along` which only these coordinates may be displaced ever
+    further (empty: all may); `neutral`: every possible position near it is one; `released`: up to
+    displacements to equilibria at which what is closed is open.  `gyroscopic`: the spectrum is
+    that of terms that damping would outdo.  `rapid` is the frequency of a drive over whose period
+    the motion is averaged.
     `theorem` is the name of the one that decides.  `critical` is the order of the minimum at
     equality in the one condition of `minimum`, or minus that of the first derivative that is not
     0 where there is none, and it is unstable; 0, the potential is constant; None, not known.
@@ -41,6 +43,8 @@ class Verdict:
     potential: str = "V"
     asymptotic: bool = False
     across: bool = False
+    along: tuple[str, ...] = ()
+    neutral: bool = False
     released: bool = False
     minimum: tuple[Above, ...] | None = None
     hurwitz: tuple[Above, ...] | None = None

@@ -16,6 +16,10 @@ _LINEAR = ", since the equations of motion are linear and "
 _BOUNDED = "all their solutions are then bounded"
 _DRIFT = "beside a slow drift along the family "
 _THEOREM = "(Kelvin, Tait and Chetaev)"
+_NEUTRAL = (
+    "Neutral: every possible position near it is an equilibrium. What is set in motion gains no "
+    "kinetic energy, but need not stay near."
+)
 
 
 def stability(
@@ -31,17 +35,21 @@ def stability(
     """
     if verdict.rapid is not None:
         return _on_average(verdict, verdict.rapid)
+    if verdict.neutral:
+        return [_NEUTRAL]
     stable = "Asymptotically stable" if verdict.asymptotic else "Stable"
     names = {part for value in (at or {}).values() for part in walk(value)}
     tied = on is not None or any(Name(name) in names for name in free)
     along = _up_to(free, tied=tied) if free or on is not None else _along(verdict)
+    if verdict.along:
+        along = _up_to(verdict.along, tied=False)
     if verdict.released:
         along = [" up to displacements to the equilibria near it"]
     reason = _with_potential(verdict.reason, verdict.potential)
     if verdict.stable is not None:
         words: list[Part] = [stable if verdict.stable else "Unstable"]
         if verdict.stable:
-            words += _along(verdict) if verdict.exact else along
+            words += _along(verdict) if verdict.exact and not verdict.along else along
         return [*words, *([": ", *reason] if reason else []), "."]
     parts = [*_by_minimum(verdict, [stable, *along]), *_by_roots(verdict, stable, along)]
     if not parts and verdict.unstable:

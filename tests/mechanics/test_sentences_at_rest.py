@@ -132,8 +132,8 @@ def test_a_slope_on_the_surfaces_beside_it_moves_away(q, constraint, height, n):
     told = said(f"{{{given}, V: {n}*{height}}}", "Equilibria", "equilibria")
     assert "Unstable: near it, on other surfaces that the constraints allow, a force moves" in told
     free = said(f"{{{given}}}", "Equilibria", "equilibria")
-    assert "Stable up to displacements" in free
-    assert "nstable" not in free.replace("Stable", "")
+    assert "Neutral: every possible position near it is an equilibrium." in free
+    assert "table" not in free
 
 
 @pytest.mark.parametrize("field", ["B", "-B", "2*B*k"])
@@ -146,7 +146,30 @@ def test_where_all_solutions_are_bounded_it_is_stable_without_a_reservation(fiel
         "L: \"m*(x'^2 + y'^2)/2 + (%s)*x*y'\"}"
     )
     assert "Stable: the equations" in said(text % field, "Equilibria", "equilibria")
-    assert "Stable up to displacements of" in said(text % "0", "Equilibria", "equilibria")
+    assert "Neutral: every" in said(text % "0", "Equilibria", "equilibria")
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("polar", [False, True])
+def test_a_field_holds_what_is_across_it_and_nothing_along_it(seed, polar):
+    """The drift is along the field alone, Jackson, 3rd ed., section 12.2; in polar coordinates
+    the momentum of the azimuth holds the distance, and the azimuth may drift by its unit."""
+    given = random.Random(seed)
+    names = given.sample("xyzuvw", 3)
+    a, b, along = names
+    m, B = given.sample(range(1, 9), 2)
+    sign = given.choice("+-")
+    T = f"{m}*({a}'^2 + {b}'^2 + {along}'^2)/2 {sign} {B}*k*({a}*{b}' - {b}*{a}')"
+    if polar:
+        T = f"{m}*({a}'^2 + {a}^2*{b}'^2)/2 {sign} {B}*k*{a}^2*{b}'"
+        names, along = [a, b], b
+    kinds = ", ".join(f"{x}: {{assume: positive}}" if x == a and polar else x for x in names)
+    q = f"{{{kinds}}}" if polar else f"[{kinds}]"
+    q = q.replace(f", {b}}}", f", {b}: {{}}}}")
+    text = f'{{coordinates: {q}, parameters: {{k: {{assume: positive}}}}, L: "{T}"}}'
+    told = said(text, "Equilibria", "equilibria")
+    assert f"Stable up to displacements of {along}" in told
+    assert f"displacements of {along}," not in told
 
 
 @pytest.mark.parametrize("inertia", random.Random(17).sample(range(1, 9), 2))
@@ -687,7 +710,7 @@ def test_nothing_is_called_stable_that_a_moving_contact_may_reach(gap):
     text = "{coordinates: [x, y], parameters: [v], T: (x'^2 + y'^2)/2, contacts: {c: {gap: G}}}"
     for contact, stable in ((gap, False), (gap.replace("t", "1"), True)):
         told = said(text.replace("G", contact), "Equilibria", "equilibria")
-        assert ("Stable up to" in told, "a contact moves" in told) == (stable, not stable)
+        assert ("Neutral: " in told, "a contact moves" in told) == (stable, not stable)
 
 
 @pytest.mark.long
@@ -1040,7 +1063,7 @@ def test_without_a_force_what_touches_a_wall_rests_beside_it_too(rest, beside, g
         "equilibria",
     )
     _, closed, *_ = told.split("In contact: wall. ")
-    assert closed.startswith("Stable up to displacements to the equilibria near it") is beside
+    assert closed.startswith("Neutral: every possible position near it") is beside
 
 
 @pytest.mark.parametrize(

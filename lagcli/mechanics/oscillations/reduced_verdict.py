@@ -72,7 +72,11 @@ class ReducedVerdict:
             return None
         if not self.cyclic:
             return None if found.is_open else found
-        return by_routh(replace(found, across=True)) if found.minimum is not None else None
+        if found.minimum is None or found.neutral:
+            return None
+        cyclic = {self.dynamics.system.q[j] for j in steady.routh.cyclic}
+        along = tuple(q for q in point.free if q in cyclic)
+        return by_routh(replace(found, across=True, along=along or None))
 
     def _on_axes(self, fixed: Mapping[Symbol, Expr]) -> Steady | None:
         """The steady motion there at these momenta, where the axes of cyclic angles coincide."""

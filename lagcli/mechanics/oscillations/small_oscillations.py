@@ -81,9 +81,6 @@ _ABOVE = 1.25
 _STICKS = "static friction holds it with force to spare"
 _KINK = f"{{V}} has a strict minimum there ({LAGRANGE_DIRICHLET.name})"
 _PRESSED = "it is pressed against what it touches"
-_RELEASED = (
-    "every position there that the contacts allow is one, and the kinetic energy does not grow"
-)
 _HELD = "contacts, static friction or kinks of the potential hold what is at rest"
 _LIMIT = "a force is at its limit there"
 _NO_LINEAR_PART = "a force has a kink or a jump at the equilibrium, and no linear part"
@@ -241,7 +238,7 @@ class Place:
         for point in self._apart.points() or ():
             found = Place(self._apart, point, self._apart).verdict
             if not point.values and found.stable:
-                return Stability(stable=True, reason=_RELEASED, released=True)
+                return Stability(stable=True, released=True, neutral=True)
         return None
 
     @property
@@ -343,7 +340,7 @@ class SmallOscillations:
         verdict, potential = place.verdict, potential_of(RestPoints(self.dynamics))
         bound = place.held.firmly or place.held.grazes(place.point)
         one_sided = verdict.across and bool(verdict.minimum) and not verdict.reverses
-        sought = (verdict.is_open or one_sided) and not bound
+        sought = (verdict.is_open or one_sided or verdict.neutral) and not bound
         reduced = self.reduced.of(place.point) if sought else None
         if reduced is not None:
             verdict, potential = reduced, "U_eff" if self.reduced.cyclic else potential

@@ -40,7 +40,6 @@ DRIFTS = "a velocity constraint has a term without velocities that depends on th
 #: Of a system without a degree of freedom.
 EXCLUDED = "the constraints exclude every displacement"
 _OPEN_INERTIA = "every position is an equilibrium, and the kinetic energy may be negative"
-_EVERYWHERE = "every position along them is an equilibrium, and the kinetic energy does not grow"
 _POWERS = "all roots are 0, and to first order displacements grow in proportion to a power of t"
 NO_MOTION = "the equations of motion are singular there"
 _JUMPS = "a force jumps there, or its derivative does"
@@ -60,8 +59,12 @@ def judge(linear: Linearization, characteristic: Characteristic | None = None) -
         if reason := _without_polynomial(near):
             return _among_equilibria(near) or undecided(reason)
         found = by_a_growing_root(near) or _judged(near)
-        open_ = found.is_open or (found.exact and found.across and not linear.damped)
-        return _among_equilibria(near, found.reason) or found if open_ else found
+        if found.exact and found.across and not linear.damped:
+            drifting = near.drifting
+            if len(drifting) < len(linear.system.q):
+                return replace(found, along=drifting)
+            return _among_equilibria(near, found.reason) or found
+        return _among_equilibria(near, found.reason) or found if found.is_open else found
     except ZeroDivisionError:
         return undecided(NO_MOTION)
 
@@ -129,7 +132,7 @@ def _among_equilibria(near: Near, reason: str = "") -> Stability | None:
         return None
     if not stays:
         return undecided(_OPEN_INERTIA) if near.has_energy and reason == NO_FORCE else None
-    return Stability(stable=True, reason=_EVERYWHERE, across=True, minimum=())
+    return Stability(stable=True, across=True, minimum=(), neutral=True)
 
 
 def _judged(near: Near) -> Stability:

@@ -343,10 +343,27 @@ class Near:
 
         The solutions a + b t, with K b = 0 and C b + K a = 0, are then as many as the roots 0.
         """
+        K = self.linear.K
+        return self.dimension == len(nullspace(K)) and len(self._slow_motions) == self.zeros
+
+    @cached_property
+    def _slow_motions(self) -> list[list[Expr]]:
+        """The pairs (a, b) of the solutions a + b t: K b = 0 and C b + K a = 0."""
         C, K = self.linear.C, self.linear.K
         rows = [[*k, *c] for k, c in zip(K, C, strict=True)]
         rows += [[*([S.Zero] * len(k)), *k] for k in K]
-        return self.dimension == len(nullspace(K)) and len(nullspace(rows)) == self.zeros
+        return nullspace(rows)
+
+    @property
+    def drifting(self) -> tuple[Symbol, ...]:
+        """The coordinates that a slow motion a + b t carries away."""
+        basis, q = self.linear.basis, self.linear.system.q
+        rates = [motion[len(basis) :] for motion in self._slow_motions]
+        moved = [
+            [sympy.Add(*(x * column[j] for x, column in zip(b, basis, strict=True))) for b in rates]
+            for j in range(len(q))
+        ]
+        return tuple(s for s, each in zip(q, moved, strict=True) if any(simplify(x) for x in each))
 
     def semisimple(self, W: Expr, multiplicity: int) -> bool:
         """Whether the root has as many modes: the null space of K - W M + i ω C."""

@@ -50,6 +50,8 @@ def stated(
         potential=potential,
         asymptotic=found.asymptotic,
         across=found.across,
+        along=tuple(q.name for q in found.along or ()),
+        neutral=found.neutral,
         released=found.released,
         minimum=where(found.minimum),
         hurwitz=where(found.hurwitz),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.mechanics.theorems import Theorem
 from lagcli.record import record
@@ -28,6 +28,10 @@ class Stability:
         The equations of motion are linear: the spectrum decides beyond first order.
     across
         Stable up to displacements along a family of equilibria.
+    along
+        The coordinates that alone may be displaced ever further; None: all of the family.
+    neutral
+        Every possible position near it is an equilibrium, and the kinetic energy never grows.
     released
         Stable up to displacements to equilibria at which a contact that is closed is open.
     growing
@@ -52,6 +56,8 @@ class Stability:
     reverses: bool = False
     exact: bool = False
     across: bool = False
+    along: tuple[Symbol, ...] | None = None
+    neutral: bool = False
     released: bool = False
     growing: Expr | None = None
     opposed: tuple[Expr, ...] = ()
