@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from lagcli.expression import Product
 from lagcli.formatters.grammar import to_grammar
 from lagcli.pipeline import _statements as statements
 from lagcli.pipeline import derive
@@ -48,6 +49,26 @@ def test_a_period_with_other_conditions_is_refuted(hoop: str, where: str) -> Non
     false = replace(section, one_freedom=replace(one, periods=periods))
     _, warnings = after(problem, answers, false)
     assert any("period" in warning for warning in warnings)
+
+
+@pytest.mark.parametrize("factor", ["1/2", "2", "-1"])
+@pytest.mark.parametrize(
+    ("coordinates", "physics"),
+    [
+        ("{x: {assume: positive}, u: {}}", "L: m*(x'^2 + x^2*u'^2)/2 + k*exp(-x/b)/x"),
+        ("x", "L: m*x'^2/2 - k*sin(w*sin(x))"),
+    ],
+)
+def test_a_period_about_a_minimum_that_is_rarely_there_is_examined(coordinates, physics, factor):
+    """Yukawa's potential has one for small momenta only."""
+    problem, answers, section = derived(coordinates, physics, "reduction")
+    one = section.one_freedom
+    false_periods = tuple(
+        replace(p, period=Product((parse_text(factor), p.period))) for p in one.periods
+    )
+    false = replace(section, one_freedom=replace(one, periods=false_periods))
+    _, warnings = after(problem, answers, false)
+    assert any("period" in w and "could not be confirmed" in w for w in warnings)
 
 
 @pytest.mark.parametrize("V", ["k*x^2/2", "-k*cos(x)", "b*x^4 - k*x^2", "k*x"])

@@ -9,6 +9,7 @@ trapezoidal rule gives to all digits (Trefethen, Weideman, SIAM Review 56 (2014)
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import chain
 from random import Random
 
 from flint import arb, ctx
@@ -62,12 +63,18 @@ class Well:
             yield {**state.environment, **state.following, (self.one.coordinate, 1): arb(0)}
 
     def _spread(self) -> Iterator[Environment]:
-        """The same with parameters of other sizes."""
+        """The same with parameters of other sizes and signs, and momenta of other sizes."""
         random = Random(7)
-        parameters = [p.name for p in self.x.problem.parameters if not p.integer]
+        parameters = [p for p in self.x.problem.parameters if not p.integer]
+        signs = {p.name: (1, -1) if p.assume == "real" else (1,) for p in parameters}
+        signs |= {f"p_{name}": (1,) for name in self.x.reference.names}
         for known in self.scenes():
             for _ in range(_SPREAD):
-                scales = {(n, 0): known[n, 0] * arb(2) ** random.randint(-3, 3) for n in parameters}
+                scales = {
+                    (n, 0): known[n, 0] * random.choice(s) * arb(2) ** random.randint(-3, 3)
+                    for n, s in signs.items()
+                    if (n, 0) in known
+                }
                 yield {**known, **scales}
 
     def _value(self, known: Environment, place: int, q: arb) -> arb:
@@ -83,7 +90,7 @@ class Well:
         if places is None or root is None:
             return False
         above, tried = conditions(x, what, series.where), 0
-        for known in self.scenes():
+        for known in chain(self.scenes(), self._spread()):
             at = x.reference.values(known)
             if not all(at(place) > 0 for place in above):
                 continue
@@ -255,6 +262,8 @@ class Well:
                 if q is None or size(q) > 3.2 or not self._is_minimum(known, q):
                     continue
                 if (one.positive and not q > 0) or self._is_listed(known, q, listed):
+                    continue
+                if not self._value(known, self.U, q).is_finite():  # as log(cos(q)) beyond pi/2
                     continue
                 return f"{float(q):.6g}"
         return ""
