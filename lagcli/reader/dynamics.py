@@ -318,6 +318,12 @@ def read_forces(file: FileReader, node: DocumentNode) -> dict[str, Expression]:
     return read_by_coordinate(file, node, "forces", "the force along '{}'")
 
 
+def _of_friction(name: str, law: str, x: str) -> str:
+    """`-mu*m*g*sign(x')` for the constant friction `-mu*m*g`; other laws as they are."""
+    is_friction = re.search(r"friction|reib|frott|rozam|attrit", name.casefold())
+    return f"{law}*sign({x}')" if is_friction and "'" not in law else law
+
+
 def read_by_coordinate(
     file: FileReader, node: DocumentNode, section: str, what: str, role: Role = STATE
 ) -> dict[str, Expression]:
@@ -337,7 +343,8 @@ def read_by_coordinate(
         return {}
     named = [key for key, _ in entries if len(key.label) > 2 and _is_name_of(key.label, file)]
     if section == "forces" and len(coordinates) == 1 and named and len(entries) > 1:
-        total = " + ".join(source_of(value) for _, value in entries).replace("+ -", "- ")
+        laws = (_of_friction(key.label, source_of(value), coordinates[0]) for key, value in entries)
+        total = " + ".join(laws).replace("+ -", "- ")
         message = f"'{named[0].label}' in forces is not a coordinate"
         file.error(message, named[0].span, f"write {coordinates[0]}: {total}")
         return {}

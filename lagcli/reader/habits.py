@@ -166,7 +166,7 @@ def name_meant(name: str, *, one: bool = False) -> str:
         return said
     words = re.findall(r"[^\W\d]\w*", name)
     letters = [each for each in words if len(each.partition("_")[0]) == 1 and each != "a"]
-    of_time = re.fullmatch(r"\w+\(t\)", name.strip())
+    of_time = re.fullmatch(r"\w+\(t\)|\w+(?:[-.]\w+)+", name.strip())
     if not of_time and len(words) > 1 and len(letters) == 1 and max(map(len, words)) > 2:  # mass m
         return str(letters[0])
     if typed := advised("typed", name):

@@ -35,6 +35,8 @@ FRICTION = "a friction force -c*x' is written dissipation: c*x'^2/2"
 WITHOUT_HYPHENS = "leave out the '-' before each key"
 
 
+#: A velocity, or a difference of some.
+_LINEAR = regex(r"\w+'|\(\s*-?\w+'(?:\s*[-+]\s*\w+')*\s*\)")
 #: At least two words.
 _WORDS = regex(r"[^\W\d_]+(?:[ ,]+[^\W\d_]+)+[.,: ]*")
 #: Words of relations: y is 0, N is positive.
@@ -72,11 +74,33 @@ def as_list(written: str) -> str:
 
 
 def as_rayleigh(forces: str) -> str:
-    """`c*x'^2/2 + k*y'^2/2` for the sum `-c*x' - k*y'` of forces; nothing for other texts."""
-    terms = re.split(r"(?<=[\w'])\s*[-+−]\s*", forces.strip(" -+−"))
-    if not all(re.fullmatch(r"[\w*/.]*\w'[\w*/.]*", term) for term in terms):
-        return ""
-    return " + ".join(re.sub(r"(\w+')", r"\1^2", term) + "/2" for term in terms)
+    """`c*x'^2/2 + k*(y' - z')^2/2` for the sum `-c*x' - k*(y' - z')`; nothing for other texts.
+
+    Each term is linear in one velocity, or in a difference of velocities.
+    """
+    found = []
+    for term in map(str.strip, pieces(forces.strip(" -+−"), "-+−")):
+        factors = pieces(term, "*/")
+        moving = [each.strip() for each in factors if "'" in each]
+        if len(moving) != 1 or not _LINEAR.fullmatch(moving[0]):
+            return ""
+        at = term.index(moving[0]) + len(moving[0])
+        if term[: at - len(moving[0])].rstrip().endswith("/"):
+            return ""
+        found.append(f"{term[:at]}^2{term[at:]}/2")
+    return " + ".join(found)
+
+
+def pieces(text: str, signs: str) -> list[str]:
+    """What stands between signs that stand outside of parentheses."""
+    parts, depth = [""], 0
+    for each in text:
+        depth += {"(": 1, ")": -1}.get(each, 0)
+        if depth == 0 and each in signs and parts[-1].strip():
+            parts.append("")
+        else:
+            parts[-1] += each
+    return parts
 
 
 def as_items(node: DocumentNode) -> str:

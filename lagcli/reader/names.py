@@ -266,6 +266,9 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return f"the multiplier of the constraint is {multipliers[0]}; or {UNDECLARED}"
     if rate:
         return f"the velocity of {rate[0]} is {rate[0]}'"
+    base = name.removesuffix("2")
+    if base in scope.usable(role) and base != name and f"{base}1" not in scope.kinds:
+        return f"{UNDECLARED}, or write {base}^2"
     return UNDECLARED + (", or its formula under 'definitions'" if role.definitions else "")
 
 

@@ -330,6 +330,10 @@ def _with_unit(key: Scalar, value: DocumentNode | None) -> str:
     return f"write {found[1]}: {{{given}unit: {found[2]}}}"
 
 
+#: Between two names of a list, where nothing else stands.
+_AND = frozenset("and und et en og och".split())
+
+
 def _list_advice(text: str) -> str:
     """`[x, y]` for `x, y` and for `symbols("x y")`, and `m: 1` for `m = 1`."""
     if re.fullmatch(r"(?:\s*\d+[.)]\s*[^\W\d]\w*)+\s*", text):  # 1. x 2. y
@@ -339,6 +343,9 @@ def _list_advice(text: str) -> str:
         pairs = [f"{name}: {value.strip()}" for name, value in declared if value.strip()]
         listed = ", ".join(pairs or [name for name, _ in declared])
         return f"write {{{listed}}}" if pairs else f"write [{listed}]"
+    if told := re.fullmatch(r"\s*([^\W\d]\w*)\s+(?:is|=|means)\s+((?:the|a)\s+.*\S)\s*", text):
+        return f"write {{{told[1]}: {{description: {told[2]}}}}}"
+    text = re.sub(r"^([\w\s,]*\w)\s+(?:y|e|i)\s+([^\W\d]\w*\s*)$", r"\1, \2", text)
     if vector := re.fullmatch(r"\s*\w+\s*=\s*[(\[<]([\w\s,']+)[)\]>](?:\^?T)?\s*", text):
         return f"write [{vector[1].strip()}]"
     text = re.sub(r"^(?:.*=)?\s*(?:\w+\.)?\w+\(\s*(['\"])(.*)\1.*\)\s*$", r"\2", text)
@@ -358,7 +365,7 @@ def _list_advice(text: str) -> str:
     names = [
         name
         for name in re.findall(r"[^\W\d]\w*", re.sub(r"[(\[]t[)\]]", "", text))
-        if name != "and"
+        if name not in _AND
     ]
     return f"write [{', '.join(names)}]" if names else "such as [x, y]"
 

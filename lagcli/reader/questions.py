@@ -116,13 +116,17 @@ def _state_name(
     return Name(letters, primes)
 
 
+#: A frequency or a period with its formula.
+_FOUND_LAW = regex(r"\s*(?:omega|ω|f|nu|ν|T|period|frequency)(?:_?\w)?\s*=[^=]+")
+
+
 def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
     """The questions."""
     questions: list[Question] = []
     unknown = next(iter(file.scope.of_kind("coordinate")), "x")
     hint = f"write {{name: {{where: {unknown}' = 0, for: {unknown}}}}}"
     words = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
-    if words and {*words} <= FOUND:
+    if words and all(word in FOUND or _FOUND_LAW.fullmatch(word) for word in words):
         hint = ALREADY_FOUND
     elif words and not any("=" in word for word in words):
         hint = f"leave it out: equations, frequencies and charges are found; or {hint}"

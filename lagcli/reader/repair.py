@@ -35,6 +35,7 @@ _LONGEST_EXCHANGED = 160
 _MATRIX = regex(
     r"(?<!\w)(?P<one>[^\W\d]\w*)'*\s*(?:\^\s*\{?(?:T|\\top|\\intercal)\}?(?!\w)|\.T(?!\w))"
     r"|(?:\.transpose\(|\b[tT]ranspose[(\[])"
+    r"|(?<![\w.])(?P<column>[^\W\d]\w*)'\s*\*\s*[A-Z]\w*\s*\*\s*(?P=column)(?![\w'])"
 )
 #: The multiplier that is named behind a constraint.
 _MULTIPLIER = regex(
@@ -50,7 +51,9 @@ _TOTAL_RATE = regex(
     r"|(?<![\w.])\((?P<primed>(?:[^()]|\([^()]*\))+)\)['’′]"
 )
 #: The name of a velocity: omega1, w_x, v2.
-_RATE_OF_BODY = regex(r"(?:omega|Omega|ω|Ω|w|v)_?(?:[1-9]|[xyz])")
+_RATE_OF_BODY = regex(r"(?:omega|Omega|ω|Ω|w|v|u)_?(?:[1-9]|[xyz])")
+#: A product of two vectors within a formula.
+_CROSS = regex(r"(?<!\w)([^\W\d]\w*)\s*(?:[×⨯]|\\times)\s*([^\W\d]\w*)")
 #: A force in the place of an energy.
 _FORCE = regex(r"\s*[FQ](?:_?\w+)?\s*:?=([^=]+)")
 #: `y = ±sqrt(A)`: both branches are `y^2 = A`.
@@ -96,6 +99,8 @@ def with_whole(
         return [replace(found[0], hint=hint)]
     if what == "T" and (unmoved := _rates_meant(found, node, scope)):
         return unmoved
+    if matrices := _of_matrices(node, what, scope):
+        return [matrices]
     stated = what == "dissipation" and "=" in node.value  # as a force: -c*x'
     too_large = "the limit is" in found[0].hint
     in_lines = any(each.message.startswith("two lines without") for each in found)
@@ -110,8 +115,6 @@ def with_whole(
         hint = "write a formula" if role.order > 0 else "write a number or a parameter"
         hint = "write left = right, as in x' = R*theta'" if read is read_equation else hint
         return [Diagnostic("a sentence is no formula", node.span, hint)]
-    if matrices := _of_matrices(node, scope):
-        return [matrices]
     for written in _written(node.value, scope, equation=read is not read_expression):
         try:
             names = _vocabulary(scope, role)
@@ -119,6 +122,11 @@ def with_whole(
             if read is read_equation and len(re.findall("[<>]", whole)) == 1:
                 gap = re.sub(r"([<>])(?!=)", r"\1=", whole)
                 hint = f"a one-sided contact stands under contacts, as in floor: {gap}"
+                if between := re.fullmatch(r"abs\((\w+)\) <= (\w+)", gap):
+                    x, end = between.groups()
+                    hint = (
+                        f"contacts stand under contacts: lower: {x} >= -{end}, upper: {x} <= {end}"
+                    )
                 return [replace(found[0], hint=hint)]
             whole = _multiplied_out(whole) if read is read_equation else whole
             sides = sides_of(read(Excerpt.whole(Source("", whole))))
@@ -127,11 +135,15 @@ def with_whole(
         wrong = [each for side in sides for each in name_mistakes(side, scope, role, what)
                  if not _named_in(each) <= {*scope.components.values()}]  # fmt: skip
         words = set(re.findall(r"\w+", re.sub(r"_?[\[{](\w+)[\]}]", r"_\1", node.value)))
+        words |= {each.removesuffix("t") for each in words}  # ωt
         if len(whole) > _LONGEST or not all(_is_undeclared(each, role, words) for each in wrong):
             named = [each for each in wrong if each.hint]
             if named and not found[0].hint:
                 return [replace(named[0], span=node.span)]
             break
+        once = re.sub(r"(?<=\w)''", "'", whole)
+        if role.order == 1 and _is_of_accelerations(whole, names):
+            return [replace(found[0], hint=f"write {once}: a constraint has no accelerations")]
         if what == "dissipation" and (lost := as_rayleigh(whole)):
             return [replace(found[0], hint=f"write {lost}: {FRICTION}")]
         if what == "T" and (moving := _with_primes(whole, names)):
@@ -153,6 +165,10 @@ def with_whole(
         rest = [replace(each, span=spans.get(each.message, node.span)) for each in wrong]
         message = "words are no part of a formula" if has_words else first.message
         return [replace(first, message=message, hint=hint), *rest]
+    cross = _CROSS.search(node.value)
+    if cross and not {cross[1], cross[2]} <= scope.kinds.keys():
+        hint = "a product of vectors is written by its components, as in x*p_y - y*p_x"
+        return [Diagnostic("a formula has no vectors", node.span, hint)]
     if rate := _of_rates(node, scope):
         return [rate]
     exchanged = _exchanged(node.value, scope, role, what, read)
@@ -169,6 +185,13 @@ def _rates_meant(found: list[Diagnostic], node: Scalar, scope: Scope) -> list[Di
     advice = "T has velocities: write {} by them under 'definitions'".format
     return [replace(each, hint=advice(*(_named_in(each) & rates)))
             if _named_in(each) & rates else each for each in found]  # fmt: skip
+
+
+def _is_of_accelerations(text: str, names: Vocabulary) -> bool:
+    """Whether an equation has accelerations and otherwise parameters alone: `x'' = R*phi''`."""
+    rest = {*re.findall(r"[^\W\d]\w*'*", re.sub(r"\w+''(?![\w'^])", "", text))}
+    moving = {each.rstrip("'") for each in rest} & {*names.dependent, "t"}
+    return " = " in text and "''" in text and not moving and "(" not in text
 
 
 def _multiplied_out(text: str) -> str:
@@ -189,16 +212,18 @@ def _with_primes(text: str, names: Vocabulary) -> str:
     return whole if squares and whole != text else ""
 
 
-def _of_matrices(node: Scalar, scope: Scope) -> Diagnostic | None:
+def _of_matrices(node: Scalar, what: str, scope: Scope) -> Diagnostic | None:
     """What is written for `q'^T*M*q'`; None where no matrix is meant."""
     matrix = _MATRIX.search(node.value)
-    if matrix is None or {matrix["one"], "T"} & scope.kinds.keys():
+    if matrix is None or {matrix["one"], matrix["column"], "T"} & scope.kinds.keys():
         return None
     x, y = [*scope.of_kind("coordinate"), "x", "y"][:2]
     if re.match(r"omega|Omega|[ωΩw](?!\w)", matrix["one"] or ""):
         hint = "write the sum, as in (I_1*omega_1^2 + I_2*omega_2^2)/2, and omega_1 by velocities"
         return Diagnostic("a formula has no matrices", node.span, f"{hint} under 'definitions'")
     hint = f"write the sum, as in (m_11*{x}'^2 + 2*m_12*{x}'*{y}' + m_22*{y}'^2)/2"
+    if what == "V":
+        hint = f"write the sum, as in (k_11*{x}^2 + 2*k_12*{x}*{y} + k_22*{y}^2)/2"
     return Diagnostic("a formula has no matrices", node.span, hint)
 
 
@@ -303,6 +328,9 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
         if re.search(r"\w[ .-]\w", each):
             value = re.sub(rf"(?<!\w){re.escape(each)}(?!\w)", name_meant(each, one=True), value)
     value = _MULTIPLIER.sub("", value) if equation else value
+    value = re.sub(
+        r"\\(?:math(?:cal|scr|rm)|cal)\s*(?:\{\s*([^\W\d])\s*\}|\s([^\W\d])\b)", r"\1\2", value
+    )
     value = re.sub(r"&\s*=|=\s*&", "=", re.sub(r"\\\\\s*$", "", value))  # of an alignment
     sides = re.split("==?", value)
     if equation and len(sides) == 3 and re.fullmatch(r"\s*\w+\([\w, ]*\)\s*", sides[0]):

@@ -20,6 +20,7 @@ _MEANT = [
         "a product of vectors is written by its components, as in E_x*x + E_y*y",
     ),
     (r"[±∓]\s*[^\d\s.]", _ONE_SIGN),
+    (r"\u20d7", "a product of vectors is written by its components, as in E_x*x + E_y*y"),
     (r"!=|:=", "write an equation with '='"),
     (
         r"\[[^\]]*[,;\[]|\\(?:vec|mathbf|boldsymbol|begin|end)",

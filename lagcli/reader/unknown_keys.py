@@ -124,6 +124,10 @@ def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[
     other = "" if is_time else word.casefold()  # the time is not T
     alike = [name for name in names if name.casefold() == other]
     meant = alike[0] if len(alike) == 1 else key_meant(word, names)
+    square = re.fullmatch(r"\s*-?\s*([\w*./]*?)\*?(\w+')\s*(?:\^|\*\*)\s*2\s*", written)
+    if square and "drag" in word.casefold():
+        law = f"-{square[1] or 1}*{square[2]}*abs({square[2]})"
+        return None, f"write forces: {{{square[2][:-1]}: {law}}}"
     if meant == "dissipation" and (whole := as_rayleigh(written)):
         return None, f"write dissipation: {whole}"
     if meant == "dissipation" and "'" not in written:  # a coefficient
@@ -173,6 +177,8 @@ def _meant_of_problem(
         and (not hint or (near in MAPS - {shape} and is_list))
     ):
         meant, hint = shape, f"the key is {shape}"
+    if hint.startswith("a constant stands") and (letter := _letter_used(word, around)):
+        hint = hint.replace(f"{{{word}:", f"{{{letter}:")
     above = [k.label for k, _ in around.entries if k.start < key.start][-1:]
     if not hint and " " in word and above and above[0] in {"title", "source", "description"}:
         return None, f"it goes on with '{above[0]}': put the whole text in quotes"
@@ -219,6 +225,16 @@ def _force_meant(word: str, written: str, around: Mapping) -> str:
     if along.isdigit() and 0 < int(along) <= len(coordinates):
         along = coordinates[int(along) - 1]
     return f"{along}: {written}" if along in coordinates and not is_constant(word, written) else ""
+
+
+def _letter_used(word: str, around: Mapping) -> str:
+    """The g of the formulas for `gravity: 9.81`, where nothing declares it; else nothing."""
+    letter = {"stiffness": "k", "spring_constant": "k"}.get(word, word[:1])
+    text = around.text.source.text
+    used = re.search(rf"^[TVL]:.*(?<!\w){letter}(?![\w'])", text, re.MULTILINE)
+    declared = re.search(rf"^(?![TVL]:).*(?<!\w){letter}(?!\w)", text, re.MULTILINE)
+    is_word = len(word) > 3 and not re.search(rf"^[TVL]:.*(?<!\w){word}(?!\w)", text, re.MULTILINE)
+    return letter if is_word and used and not declared else ""
 
 
 def _outer(key: Scalar, value: DocumentNode, names: tuple[str, ...]) -> str:

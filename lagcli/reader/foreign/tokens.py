@@ -62,7 +62,11 @@ _SPEED_LENGTH = regex(
 _VECTOR = r"(?:\\(?:vec|mathbf)\s*)?\{?r\}?_?\{?"
 _BETWEEN = regex(
     rf"(?:\\?\|){{1,2}}\s*{_VECTOR}(?P<one>\d)\}}?"
-    rf"(?:\s*[-−]\s*{_VECTOR}(?P<two>\d)\}}?)?\s*(?:\\?\|){{1,2}}"
+    rf"(?:\s*[-−,]\s*{_VECTOR}(?P<two>\d)\}}?)?\s*(?:\\?\|){{1,2}}"
+)
+#: norm(r1 - r2), and of one body from the origin.
+_LENGTH_OF_DIFFERENCE = regex(
+    r"\b(?:\w+\.)*(?:norm|abs|length|mag|dist|distance)\(\s*(r_?\d(?:\s*[-−,]\s*r_?\d)?)\s*\)"
 )
 #: A product of vectors in brackets.
 _PRODUCT_OF_VECTORS = regex(
@@ -103,6 +107,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     """With the marks of web pages, v² and Leibniz' derivatives in the notation of a file."""
     text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
     text = _DONE_WITH.sub("", text)
+    text = re.sub(r"\bSubscript\[(\w+),\s*(\w+)\]", r"\1_\2", text)
     if "half" not in names.known:
         text = re.sub(r"\b(?:(?:one|a)[ -])?half\b(?:\s+of\b)?", "1/2", text)
     text = re.sub(r"(\w)\u20d7", r"\\vec{\1}", text)
@@ -238,6 +243,7 @@ def _distance(text: str, names: Vocabulary) -> str:
                 parts.append(f"({' - '.join(ends)})^2" if len(ends) > 1 else f"{ends[0]}^2")
         return f" sqrt({' + '.join(parts)}) " if len(parts) > 1 else found[0]
 
+    text = _LENGTH_OF_DIFFERENCE.sub(r"|\1|", text)
     known = {*names.known} & {found[0] for found in re.finditer(r"r_?\d", text)}
     return text if known else _BETWEEN.sub(written, text)
 

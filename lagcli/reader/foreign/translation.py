@@ -191,6 +191,7 @@ class _Translation(Functions):
         opening, inside = self.peek(), self.peek(1)
         if self.sign() != "(" or opening is None or opening.apart or inside is None:
             return
+        word = meant(word, self.names)[0]
         if word not in self.names.known and len(word) > 2:
             raise UnclearText
         alone = self.sign(2) == ")"

@@ -27,6 +27,13 @@ _MADE = regex(
 )
 
 
+#: `F in x direction`, `-m*g along y`.
+_IN_WORDS = regex(
+    r"(?P<rest>[^,]+?)\s+(?:in|along|to)\s+(?:the\s+)?(?:direction\s+(?:of\s+)?)?(?P<axis>[xyz])"
+    r"(?:[- ]?(?:direction|axis))?"
+)
+
+
 def components(text: str, known: Container[str], length: int = 0) -> list[str]:
     r"""The components of `a*N.x + b*N.y`, `a i + b j`, `<a, b>`, `l*(a, b)`, `np.array([a, b])`.
 
@@ -45,6 +52,9 @@ def components(text: str, known: Container[str], length: int = 0) -> list[str]:
         Empty where the text is no vector.
     """
     text = " ".join(text.translate(_HATS).replace("x\u0302", "xhat").split())
+    if told := _IN_WORDS.fullmatch(text):
+        axis = _AXES[told["axis"]]
+        return [told["rest"] if k == axis else "0" for k in range(max(length, axis + 1, 2))]
     if made := _MADE.fullmatch(text):
         inside = next(each for each in made.groups() if each is not None)
         listed = re.sub(r"^[\[(](.*)[\])]$", r"\1", inside.strip())

@@ -97,6 +97,9 @@ def parts_of(word: str, names: Vocabulary) -> list[str]:
                 return [unicodedata.normalize("NFC", text[:end]), *rest]
         return None
 
+    letter = word.removesuffix("t")
+    if len(letter) == 1 and not letter.isascii() and len(word) == 2:
+        return [letter, "t"]  # ωt
     found = split(apart) if len(apart) <= _LONGEST else None
     is_long = word.isascii() and len(word) > _LETTERS and not any(map(word.__contains__, FUNCTIONS))
     return [word] if found is None or is_long else found
@@ -115,6 +118,11 @@ def function_named(word: str, names: Vocabulary) -> str:
 
 def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
     """`x` and 1 for xdot, dx, vx, v_x, omega and the like."""
+    apart = unicodedata.normalize("NFD", word)
+    dots = sum(_DOTS.get(each, 0) for each in apart)
+    plain = "".join(each for each in apart if each not in _DOTS)
+    if dots and plain in names.dependent:
+        return plain, dots
     word = spelled_out(word)
     radial = any(x.partition("_")[0] in {"r", "rho", "ρ", "s"} for x in names.coordinates)
     found = {
@@ -147,7 +155,9 @@ def _rates(x: str) -> tuple[set[str], set[str]]:
     stem, _, index = x.partition("_")
     numbered = re.fullmatch(r"(\D+?)_?(\d+)", x)
     first = {f"{x}{dot}" for dot in ("dot", "_dot", "_d", "d", "p", "_t", "Dot", "_prime")}
-    first |= {f"{dot}{x}" for dot in ("d", "D", "d_", "dot_", "dot", *_SPEEDS)}
+    first |= {
+        f"{dot}{x}" for dot in ("d", "D", "d_", "δ", "delta", "delta_", "dot_", "dot", *_SPEEDS)
+    }
     first |= {f"{x}{gap}{word}" for word in _DOT_WORDS for gap in ("", "_")}
     second = {f"{x}{dot}" for dot in ("ddot", "_ddot", "dd", "_dd", "pp", "_tt")}
     second |= {f"{dot}{x}" for dot in ("dd", "a", "a_", "ddot_", "ddot")}
