@@ -36,6 +36,7 @@ from lagcli.expression import (
 )
 from lagcli.notation.factors import parts_of
 from lagcli.notation.given_sums import has_like_terms
+from lagcli.notation.likeness import signed_key
 from lagcli.notation.ordering import is_letter
 from lagcli.record import record
 
@@ -271,7 +272,7 @@ class _Splitter:
                 if any(isinstance(f, (Name, Power)) for f in shared):
                     key = "squares", shared
             elif self._degree(fast) == (0, 1):
-                key = self._parameters(shapes[place]) or place
+                key = self._parameters(shapes[place]) or self._bracket(shapes[place]) or place
             found.setdefault(key, []).append(place)
         return list(found.values())
 
@@ -286,6 +287,15 @@ class _Splitter:
                 return frozenset(f for f in factors if self._is_parameter(f))
             case _:
                 return frozenset()
+
+    def _bracket(self, term: Expression) -> tuple[object, ...] | None:
+        """What tells the bracket of parameters, its only one, and other parameters of a product."""
+        _, above, below = parts_of(term)
+        sums = [f for f in above if isinstance(f, Sum)]
+        if len(sums) != 1 or below or not all(map(self._is_parameter, _names(sums[0]))):
+            return None
+        others = frozenset(f for f in above if self._is_parameter(f))
+        return "bracket", signed_key(sums[0])[1], others
 
     def _is_parameter(self, factor: Expression) -> bool:
         base = factor.base if isinstance(factor, Power) else factor
@@ -307,6 +317,8 @@ class _Splitter:
         groups, apart = [every[place] for place in places], [shapes[place] for place in places]
         if len(groups) == 1:
             return apart
+        if self._bracket(apart[0]) is not None:
+            return [self._before_velocities(apart)]
         if self._factor(groups[0][0][0])[0][0][1] == 1:
             together = self._shape([term for group in groups for term in group], whole)
             return [together] if is_flat(together) else apart
@@ -321,6 +333,19 @@ class _Splitter:
         factor = self._shape([(self._factor(m)[1], c) for m, c in groups[0]], whole)
         one = Fraction(1)
         return [writer.product(one, [(factor, one), (writer.sum(squares), one)])]
+
+    def _before_velocities(self, terms: Sequence[Expression]) -> Expression:
+        """(a - b) (y' cos x - x' sin x) of terms with one bracket of parameters, or minus it."""
+        writer, one = self.shaper.writer, Fraction(1)
+        [shared] = _sums(parts_of(terms[0])[1])
+        outside = [(f, one) for f in parts_of(terms[0])[1] if self._is_parameter(f)]
+        inside = []
+        for minus, factors, _ in map(parts_of, terms):
+            [own] = _sums(factors)
+            turned = signed_key(own)[0] != signed_key(shared)[0]
+            kept = [(f, one) for f in factors if f is not own and not self._is_parameter(f)]
+            inside.append(writer.product(-one if minus != turned else one, kept))
+        return writer.product(one, [*outside, (shared, one), (writer.sum(inside), one)])
 
     def _before_squares(self, terms: Sequence[Expression]) -> Expression:
         """m (r'² + r² φ'²)/2 of terms with the same parameters."""
@@ -376,6 +401,10 @@ class _Splitter:
     def _shape(self, group: Iterable[Term], whole: Element) -> Expression:
         numerator = self.field.ring.build(group)
         return self.shaper.shape(self.field.element(numerator, whole.denominator))
+
+
+def _names(node: Expression) -> list[Expression]:
+    return [part for part in walk(node) if isinstance(part, Name)]
 
 
 def _sums(nodes: Iterable[Expression]) -> list[Sum]:

@@ -102,7 +102,8 @@ def _function(statements: Statements, charge: NoetherCharge) -> Expression:
         charge.name == "energy" and is_zero(charge.charge - energy) is True
     ):
         return statements.by_terms(energy, as_given=True)
-    if charge.source == "cyclic":
+    momenta = statements.dynamics.lagrange.momenta
+    if charge.source == "cyclic" or charge.charge in momenta:
         return statements.readable.linear(charge.charge)
     return statements.by_terms(charge.charge)
 

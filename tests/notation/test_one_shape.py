@@ -516,6 +516,16 @@ def test_an_energy_has_one_term_for_one_kind(physics: str, letters: str, energy:
     assert f"h = {energy}\n" in text("u, v", letters, physics, "energy")
 
 
+def test_a_momentum_has_a_bracket_of_parameters_once() -> None:
+    """Two masses on a rod, thrown, about a point of it that is not their centre."""
+    physics = (
+        "points: {one: {position: [x + a*cos(u), y + a*sin(u)], mass: m1},"
+        " two: {position: [x - b*cos(u), y - b*sin(u)], mass: m2}}"
+    )
+    found = text("x, y, u", "m1 m2 a b", physics, "momenta")
+    assert "p_u = (m₁ a − m₂ b) (ẏ cos(u) − ẋ sin(u)) + (m₁ a² + m₂ b²) u̇" in found
+
+
 def test_what_follows_one_mass_follows_all() -> None:
     """A cylinder drawn over a table by a hanging mass, with M R² and m g in the file."""
     physics = (

@@ -185,7 +185,7 @@ def _cyclic(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
             yield says("and with the values of the multipliers")
             yield shows(Name(p.name, 1), explainer.readable.on_surface(rate))
         yield says("so it is not conserved:")
-    yield shows(p, explainer.readable.by_terms(charge.charge), _stays(charge))
+    yield shows(p, explainer.readable.linear(charge.charge), _stays(charge))
     if charge.conserved:
         yield from _struck(explainer, charge)
 
