@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from lagcli.expression import ZERO, Equation
 from lagcli.problem_data import Contact
 from lagcli.reader.file_reader import Required
-from lagcli.reader.habits import name_meant
+from lagcli.reader.habits import key_meant, name_meant
 from lagcli.reader.misshapen import is_sentence, source_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
@@ -152,7 +152,10 @@ def _gap(file: FileReader, node: DocumentNode, what: str) -> Equation:
     if len(file.diagnostics) == before and not file.scope.refused:
         orders = [derivative_order(side, file.scope) for side in (gap.left, gap.right)]
         if max(orders) < 0:
-            file.error(f"{what} contains no coordinate", node.span, "as in floor: y >= 0")
+            hint = "as in floor: y >= 0"
+            if key_meant(what.split("'")[1], ("restitution",)) and isinstance(node, Scalar):
+                hint = f"it stands with its gap: floor: {{gap: y >= 0, restitution: {node.value}}}"
+            file.error(f"{what} contains no coordinate", node.span, hint)
     return gap
 
 

@@ -275,7 +275,8 @@ class FileReader:
         """
         found = {}
         names = tuple(known)
-        as_one = as_map(node, names, self.scope.of_kind("coordinate"))
+        is_map = isinstance(node, Mapping)
+        as_one = "" if is_map else as_map(node, names, self.scope.of_kind("coordinate"))
         if what.startswith("the question") and what.split("'")[1] in FOUND:
             as_one = ALREADY_FOUND
         entries = list(self.entries(node, what, as_one))

@@ -39,8 +39,6 @@ def _mend(
 
     `rest[i]` is the text that continues a formula when entry i is a piece of one.
     """
-    from lagcli.reader.foreign.vectors import components
-
     keep = [True] * len(values)
     mistakes = []
     i = 0
@@ -54,6 +52,8 @@ def _mend(
             open_ += piece.value.count("(") - piece.value.count(")")
             last += 1
         if last > i and open_ == 0:
+            from lagcli.reader.foreign.vectors import components
+
             first = values[i]
             end = rest[last].end
             whole = first.text.source.text[first.start : end]

@@ -128,6 +128,8 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"\s+//\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
     _assumed,
+    lambda line: re.sub(r"\\\[([A-Z])([a-z]+)\]", lambda m: m[1].lower() + m[2], line),
+    lambda line: re.sub(r"^([TVLH]:)\s+[a-z][a-z ]*:(?=\s)", r"\1", line),
     _with_units,
     lambda line: re.sub(r"^(\s*[\w ]+:\s+)(\|[^|]+\|.*)$", r'\1"\2"', line),
     lambda line: re.sub(r"^(\s*)[*•·–—+]\s+(?=[^\W\d]\w*\s*$)", r"\1- ", line),

@@ -35,6 +35,8 @@ FRICTION = "a friction force -c*x' is written dissipation: c*x'^2/2"
 WITHOUT_HYPHENS = "leave out the '-' before each key"
 
 
+#: `x = l*sin(a)`, several of them.
+_ASSIGNED_PARTS = regex(r"(\w+)\s*=\s*(.*?)(?=[\s,;]+\w+\s*=|\s*$)")
 #: A velocity, or a difference of some.
 _LINEAR = regex(r"\w+'|\(\s*-?\w+'(?:\s*[-+]\s*\w+')*\s*\)")
 #: At least two words.
@@ -169,6 +171,11 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
         entries = re.sub(r"(?:^|(?<=, ))(position|mass|force) +", r"\1: ", written)
         if re.match(r"(position|mass) ", written):
             return f"write {{{entries}}}"
+        if parts := dict(_ASSIGNED_PARTS.findall(written)):
+            axes = [parts[axis].strip(" ,") for axis in "xyz" if axis in parts]
+            mass = (parts.get("mass") or parts.get("m") or "").strip(" ,")
+            if axes:
+                return f"write {{position: [{', '.join(axes)}]{f', mass: {mass}' * bool(mass)}}}"
         if not present and written.isidentifier():  # ball: m
             return f"write {{position: [x, y], mass: {written}}}"
     for key, kinds, form, advice in habits()["maps"]:

@@ -156,8 +156,9 @@ def _indexed(name: str, node: DocumentNode | None) -> str:
         given = [(key.label, value) for key, value in node.entries]
     elif isinstance(node, Sequence):
         given = [(str(place), value) for place, value in enumerate(node.items, start=1)]
-    numbers = all(isinstance(value, Scalar) and is_constant("x", value.value) for _, value in given)
-    if len(given) < 2 or not numbers or not all(index.isdigit() for index, _ in given):
+    if len(given) < 2 or not all(index.isdigit() for index, _ in given):
+        return ""
+    if not all(isinstance(value, Scalar) and is_constant("x", value.value) for _, value in given):
         return ""
     written = ", ".join(f"{name}_{index}: {source_of(value)}" for index, value in given)
     return f"write {written}; several are run by lagcli sweep --vary"
@@ -343,6 +344,8 @@ def _list_advice(text: str) -> str:
         pairs = [f"{name}: {value.strip()}" for name, value in declared if value.strip()]
         listed = ", ".join(pairs or [name for name, _ in declared])
         return f"write {{{listed}}}" if pairs else f"write [{listed}]"
+    if re.search(r"\d,\d+\s*(?:;|$)", text) and (";" in text or text.count(",") == 1):
+        text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     if told := re.fullmatch(r"\s*([^\W\d]\w*)\s+(?:is|=|means)\s+((?:the|a)\s+.*\S)\s*", text):
         return f"write {{{told[1]}: {{description: {told[2]}}}}}"
     text = re.sub(r"^([\w\s,]*\w)\s+(?:y|e|i)\s+([^\W\d]\w*\s*)$", r"\1, \2", text)

@@ -153,6 +153,8 @@ def _meant_of_problem(
         return None, f"the state at t = 0 stands under initial: write initial: {{{state}}}"
     if written and (force := _force_meant(word, written, around)):
         return None, f"forces stand by coordinate: write forces: {{{force}}}"
+    if form := _quadratic_form(word, value, _coordinates(around)):
+        return None, form
     if (
         word.casefold() in _FRICTIONS
         and re.search(r"(?<!\w)(?:mu|μ)", written)
@@ -225,6 +227,30 @@ def _force_meant(word: str, written: str, around: Mapping) -> str:
     if along.isdigit() and 0 < int(along) <= len(coordinates):
         along = coordinates[int(along) - 1]
     return f"{along}: {written}" if along in coordinates and not is_constant(word, written) else ""
+
+
+#: The function of whose second derivatives a matrix consists.
+_MATRICES = {"m": "T", "mass": "T", "inertia": "T", "k": "V", "stiffness": "V", "c": "dissipation",
+             "d": "dissipation", "damping": "dissipation"}  # fmt: skip
+
+
+def _quadratic_form(word: str, value: DocumentNode, coordinates: list[str]) -> str:
+    """`write T: (m*x1'^2 + m*x2'^2)/2` for a mass matrix; nothing for other keys."""
+    key = _MATRICES.get(re.sub(r"[_ ]?matrix$", "", word.casefold()), "")
+    rows = [each.items for each in getattr(value, "items", ()) if isinstance(each, Sequence)]
+    size = len(coordinates)
+    if not key or not size or [len(row) for row in rows] != [size] * size:
+        return ""
+    prime = "'" * (key != "V")
+    terms = []
+    for i, x in enumerate(coordinates):
+        for j, y in enumerate(coordinates[i:], start=i):
+            entry = source_of(rows[i][j])
+            entry = f"({entry})" if re.search(r"\S\s*[-+]", entry) else entry
+            pair = f"{x}{prime}^2" if i == j else f"{x}{prime}*{y}{prime}"
+            if entry != "0":
+                terms.append(f"{'2*' * (i != j)}{entry}*{pair}")
+    return f"write {key}: ({' + '.join(terms)})/2" if terms else ""
 
 
 def _letter_used(word: str, around: Mapping) -> str:

@@ -34,6 +34,8 @@ def _apart(name: str) -> str:
     """`Nm` -> `N m`, `m2` -> `m^2`, `rads` -> `rad`."""
     letters = name.rstrip("0123456789")
     digits = name[len(letters) :]
+    if digits and not meaning(letters) and (two := _apart(letters)):
+        return f"{two}^{digits}"
     if name[-1:] == "s" and meaning(name[:-1]):
         return name[:-1]
     if digits and letters and meaning(letters):
@@ -48,6 +50,10 @@ def _apart(name: str) -> str:
 _SYMBOLS = "kg g m cm mm km s N J W C V A T rad K Pa".split()
 
 
+#: Symbols by their names, for names that are misspelled.
+_FULL = {"hertz": "Hz", "Hertz": "Hz", "newton": "N", "Newton": "N", "joule": "J", "Joule": "J"}
+
+
 def _other_case(name: str) -> str:
     known = [*_SYMBOLS, *known_names()]
     return next((other for other in known if other.lower() == name.lower()), "")
@@ -55,5 +61,6 @@ def _other_case(name: str) -> str:
 
 def _near(name: str) -> str:
     long_names = [known for known in known_names() if len(known) > 2]
+    long_names = [*long_names, *_FULL]
     near = get_close_matches(name, long_names, n=1, cutoff=0.7)
-    return near[0] if near else ""
+    return _FULL.get(near[0], near[0]) if near else ""

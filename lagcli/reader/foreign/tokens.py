@@ -117,6 +117,8 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = along_z[0] if len(along_z) == 1 else text
     text = _products_of_vectors(written_out(text, names), names)
     text = re.sub(r"->|→|⇒", "=", text) if names.related else text
+    if names.related and not {"d", "dt"} & {*names.known} and re.search(r"\bd[^\W\dt]", text):
+        text = re.sub(r"(?<=[\w)'])\s*\*?\s*\bdt\b|\bdt\s*\*\s*", "", text)
     for words, sign in _RELATIONS:
         text = words.sub(f" {sign} ", text)
     behind = re.search(r"\[([^\[\]]+)\]\s*$", text)
