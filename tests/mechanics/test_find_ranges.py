@@ -308,3 +308,20 @@ def test_a_length_that_may_be_negative_is_undecided(length):
         "r: R, theta: 0, theta': v0/R", f"r: {length}, theta: 0, theta': sqrt(2*g*l)/({length})"
     )
     assert "could not be followed" in why(text.replace("QUESTION", "{reaches: theta = pi, for: d}"))
+
+
+@pytest.mark.parametrize(
+    ("asked", "holds"), [("N >= 0", True), ("N > 0", True), ("N < 0", False), ("N <= -m*g", False)]
+)
+def test_what_all_states_share_needs_no_motion(asked, holds):
+    """A bead in a bowl z = r²/(2 a) that turns: N = m a (r'² + w² r² + a g)/(r² + a²) > 0."""
+    text = f"""
+coordinates: {{r: {{}}, z: {{}}}}
+parameters: {{m: POSITIVE, g: POSITIVE, w: POSITIVE, a: POSITIVE, v: POSITIVE}}
+T: m*(r'^2 + r^2*w^2 + z'^2)/2
+V: m*g*z
+constraints: {{bowl: {{equation: z = r^2/(2*a), multiplier: N}}}}
+initial: {{r: 0, r': v}}
+find: {{asked: {{always: "{asked}", for: w}}}}
+"""
+    assert found(text) == ([[]] if holds else [])

@@ -15,6 +15,7 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import Builder
 from lagcli.algebra.numeric import FINE_DIGITS, Evaluator
+from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.finding.line import FunctionsOnLine, NotAlgebraic
 from lagcli.mechanics.finding.passing import Passing
@@ -84,6 +85,10 @@ class LastingAnswer:
     def _lasting(self, question: Lasting, values: dict[Symbol, Expr]) -> list[Bounds]:
         strict = "=" not in question.condition.comparison
         margin = margin_of(question.condition, self.system.build)
+        known = self._in_every_state(margin, strict=strict)
+        if known is not None:
+            every = Bounds(None, None, lower_included=False, upper_included=False)
+            return [every] if known else []
         relations = self.along.dynamics.constraints.relations
         for u, rate in zip(self.system.q, self.system.qdot, strict=True):
             if is_zero(rate, relations) is True:
@@ -105,6 +110,14 @@ class LastingAnswer:
             self._why_not
             or "it is not a function of one coordinate, or of the time, along the motion"
         )
+
+    def _in_every_state(self, margin: Expr, *, strict: bool) -> bool | None:
+        """Whether the condition holds in all states, or in none; None where they differ."""
+        there = self.along.on_motion(margin)
+        known = None if there is None else sign(there)
+        if there is None or known is not None:
+            return None if known is None else known == 1 or (known == 0 and not strict)
+        return True if not strict and weak_sign(there) == 1 else None
 
     @property
     def _why_not(self) -> str:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 
-from sympy import Add, Expr, asin, atan
+from sympy import Add, Expr, Pow, asin, atan, default_sort_key
 
 from lagcli.algebra import simplify
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.positivity import deciding, weak_sign
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign_beside_zero
@@ -32,12 +33,37 @@ def as_parts(
 
 
 def real_where(roots: Iterable[Expr]) -> Iterator[Remark]:
-    """What arccosines, arcsines and square roots of parameters ask for to be real."""
+    """What arccosines, arcsines and square roots of parameters ask for to be real and finite."""
+    roots = tuple(roots)
     bounds = (simplify(bound) for root in roots for bound in not_negative_where_real(root))
     open_ = (deciding(bound) for bound in bounds if sign_beside_zero(bound) is None)
+    divisors = {
+        factor
+        for root in roots
+        for power in root.atoms(Pow)
+        if power.exp.is_negative
+        for factor in _factors(power.base)
+    }
     for bound in dict.fromkeys(each for each in open_ if each != 1):
         less, more = _sides(bound)
-        yield ("real for ", less, " ≤ ", more)
+        factors = _factors(bound)
+        divided = factors & divisors
+        if divided == factors:
+            yield ("real for ", less, " < ", more)
+        else:
+            yield ("real for ", less, " ≤ ", more, *_not_zero(divided))
+
+
+def _factors(product: Expr) -> set[Expr]:
+    """What it is made of besides numbers, each of f and -f in one form."""
+    found = (f for f, _ in factors_of(product) if not f.is_number)
+    return {-f if f.could_extract_minus_sign() else f for f in found}
+
+
+def _not_zero(divisors: Iterable[Expr]) -> Iterator[str | Expr]:
+    for each in sorted(divisors, key=default_sort_key):
+        less, more = _sides(each)
+        yield from (", ", less, " ≠ ", more)
 
 
 def positive_where(roots: Iterable[Expr]) -> Iterator[Remark]:
