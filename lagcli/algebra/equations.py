@@ -120,7 +120,7 @@ def _under_inverse(node: Expr, values: list[Expr] | None, unknown: Symbol) -> Ro
 
 
 def _with_powers(field: Field, poly: Poly, unknown: Symbol) -> Roots | None:
-    """With open exponents: of each factor; a power alone has no root, its base being positive."""
+    """With open exponents: of each factor; a power alone where its base is 0, if it may be."""
     parts: list[Roots | None] = []
     for factor, _ in factorization(field.ring.lift(poly))[1]:
         used = [field.generators[g] for g in field.ring.used(factor)]
@@ -129,6 +129,8 @@ def _with_powers(field: Field, poly: Poly, unknown: Symbol) -> Roots | None:
         plain = field.polynomial_to_sympy(factor)
         if powers and len(factor) > 1:
             parts.append(_between_two_powers(plain, unknown))
+        elif powers:
+            parts += (_of_a_power(g.expression, unknown) for g in powers)
         elif within and not powers:
             parts.append(solve_for(plain, unknown))
     found = [part for part in parts if part is not None]
@@ -136,6 +138,17 @@ def _with_powers(field: Field, poly: Poly, unknown: Symbol) -> Roots | None:
         return None
     roots = [root for part in found for root in part.values]
     return Roots(tuple(dict.fromkeys(roots)), angle=any(part.angle for part in found))
+
+
+def _of_a_power(power: Expr, unknown: Symbol) -> Roots | None:
+    """Where u^n with an open exponent is 0: at u = 0 if n > 0, nowhere if n < 0 or u > 0."""
+    base, exponent = power.as_base_exp()
+    least = {n: 1 + sympy.Dummy(integer=True, nonnegative=True) for n in exponent.free_symbols
+             if n.is_integer and n.is_positive}  # fmt: skip
+    exponent = sympy.expand(exponent.xreplace(least))
+    if sign(base) == 1 or exponent.is_negative:
+        return Roots((), angle=False)
+    return solve_for(base, unknown) if exponent.is_positive else None
 
 
 def _between_two_powers(expression: Expr, unknown: Symbol) -> Roots | None:

@@ -558,3 +558,18 @@ def test_half_angles_beside_whole_ones_have_two_turns(seed):
     assert len({round(u % (4 * math.pi), 6) for u in found}) == len(found)
     assert len(found) == sum(m != n for m, n in pairwise(signs))
     assert all(abs(slope(u)) < 1e-9 for u in found)
+
+
+@pytest.mark.parametrize("coordinate", ["x: {}", "x: {assume: nonnegative}"])
+@pytest.mark.parametrize("exponent", ["n", "2*n", "2*n + 1", "n + 3"])
+def test_a_power_with_an_open_exponent_may_vanish_with_its_base(coordinate, exponent):
+    """V = x^n has its only place of rest at 0; nothing says that there is none."""
+    rest = RestPoints(
+        derive(
+            f"coordinates: {{{coordinate}}}\n"
+            "parameters: {n: {assume: positive, integer: true}}\n"
+            f"T: x'^2/2\nV: x^({exponent})\n"
+        ).dynamics
+    )
+    places = [float(p.values[rest.system.q[0]]) for p in rest.points or ()]
+    assert places == [0] or not (rest.complete and rest.points is not None)

@@ -55,7 +55,7 @@ def test_a_period_with_other_conditions_is_refuted(hoop: str, where: str) -> Non
 @pytest.mark.parametrize(
     ("coordinates", "physics"),
     [
-        ("{x: {assume: positive}, u: {}}", "L: m*(x'^2 + x^2*u'^2)/2 + k*exp(-x/b)/x"),
+        ("{x: {assume: positive}, u: {}}", "L: m*(x'^2 + x^2*u'^2)/2 + k*exp(-x)/x"),
         ("x", "L: m*x'^2/2 - k*sin(w*sin(x))"),
     ],
 )
@@ -69,6 +69,18 @@ def test_a_period_about_a_minimum_that_is_rarely_there_is_examined(coordinates, 
     false = replace(section, one_freedom=replace(one, periods=false_periods))
     _, warnings = after(problem, answers, false)
     assert any("period" in w and "could not be confirmed" in w for w in warnings)
+
+
+@pytest.mark.parametrize("assume", ["positive", "negative", "nonnegative", "nonzero"])
+def test_a_minimum_where_a_coordinate_may_not_be_is_none(assume: str) -> None:
+    """V = (x - a)^2 with any a: rest, and a period, where the coordinate may be a."""
+    text = (
+        f"coordinates: {{x: {{assume: {assume}}}}}\nparameters: {{a: }}\nL: x'^2/2 - (x - a)^2/2\n"
+    )
+    problem = read_problem("t.yaml", text.encode()).checked()
+    for section in ("equilibria", "reduction"):
+        answers = statements(derive(problem)).answers([section])
+        assert verified(problem, answers) is answers
 
 
 @pytest.mark.parametrize("V", ["k*x^2/2", "-k*cos(x)", "b*x^4 - k*x^2", "k*x"])

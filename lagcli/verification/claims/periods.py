@@ -15,7 +15,7 @@ from random import Random
 from flint import arb, ctx
 
 from lagcli.statements.motions import OneFreedom, PeriodSeries
-from lagcli.verification.claims.rest import BITS, conditions
+from lagcli.verification.claims.rest import BITS, conditions, has_sign
 from lagcli.verification.examination import LOOKED_AT, Examination
 from lagcli.verification.linear import size
 from lagcli.verification.phase_points import Environment
@@ -26,6 +26,8 @@ _NODES = 24
 #: Parameters of other sizes for each state: R w > g for R w² > g is then seen in 99 of 100 cases.
 _SPREAD = 6
 _STEPS = 40
+#: Powers of 2 with which a minimum that is not solved for is sought.
+_STARTS = (0, -2, 2, -4, -6)
 _ARRIVED = 1e-60
 _SAME = 1e-9
 
@@ -53,6 +55,8 @@ class Well:
         self.q, self.v = (program.symbol(one.coordinate, k) for k in (0, 1))
         self.momentum = by(energy, self.v)
         self.M = by(self.momentum, self.v)
+        given = (c.assume for c in x.problem.coordinates if c.name == one.coordinate)
+        self.assume = next(given, "real")
         self.U = energy  # where q' = 0
         self.slope = by(energy, self.q)
         self.curvature = by(self.slope, self.q)
@@ -94,8 +98,8 @@ class Well:
             at = x.reference.values(known)
             if not all(at(place) > 0 for place in above):
                 continue
-            q0 = self._root(known, root[0]) if root else at(places[-1])
-            if q0 is None or not q0.is_finite() or (root and not self._is_minimum(known, q0)):
+            q0 = self._minimum(known, root[0]) if root else at(places[-1])
+            if q0 is None or not q0.is_finite():
                 continue
             if self._value(known, self.M, q0) < 0:  # with which the motion is about a maximum
                 continue
@@ -129,13 +133,22 @@ class Well:
             q0, holds = at(place), [at(each) for each in above]
             if q0.is_finite() and self._value(known, self.M, q0) < 0:
                 continue
-            real = q0.is_finite() and not (self.one.positive and q0 < 0)
+            real = q0.is_finite() and has_sign(self.assume, q0)
             minimum = real and self._is_minimum(known, q0)
             if all(each > 0 for each in holds) and not minimum:
                 return "its conditions hold where there is no minimum"
             if any(each < 0 for each in holds) and minimum:
                 return "there is a minimum where its conditions do not hold"
         return ""
+
+    def _minimum(self, known: Environment, place: int) -> arb | None:
+        """A root of what vanishes at a minimum that is one, from starts of several sizes."""
+        start = known[self.one.coordinate, 0]
+        for power in _STARTS:
+            q = self._root(known, place, start * arb(2) ** power)
+            if q is not None and q.is_finite() and self._is_minimum(known, q):
+                return q
+        return None
 
     def _is_minimum(self, known: Environment, q: arb) -> bool:
         slope, curvature, M = (
@@ -261,7 +274,7 @@ class Well:
                 q = self._root(known, self.slope, abs(start) if one.positive else start)
                 if q is None or size(q) > 3.2 or not self._is_minimum(known, q):
                     continue
-                if (one.positive and not q > 0) or self._is_listed(known, q, listed):
+                if not has_sign(self.assume, q) or self._is_listed(known, q, listed):
                     continue
                 if not self._value(known, self.U, q).is_finite():  # as log(cos(q)) beyond pi/2
                     continue

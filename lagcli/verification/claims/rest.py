@@ -141,7 +141,7 @@ class RestPlace:
             if 0 < weights[name] < float("inf"):
                 goal = arb(side * weights[name]) * _BESIDE
                 there = self._with(known, name, bound, goal)
-                if there is not None and _has_sign(signs[name], there[name, 0]):
+                if there is not None and has_sign(signs[name], there[name, 0]):
                     return there
         return None
 
@@ -173,7 +173,7 @@ class RestPlace:
         if allowed is any(at(place) < 0 for place in self.where):
             return None
         sure = not allowed or all(at(place) > 0 for place in self.where)
-        signs = all(_has_sign(c.assume, environment[c.name, 0]) for c in self.x.problem.coordinates)
+        signs = all(has_sign(c.assume, environment[c.name, 0]) for c in self.x.problem.coordinates)
         return LinearMotion(self.x, environment) if sure and signs else None
 
     def dimension(self, near: LinearMotion) -> int:
@@ -275,8 +275,15 @@ def held_at(x: Examination, what: str, near: LinearMotion, where: Sequence[Above
     return [bool(each) and all(near.at(place) > 0 for place in each) for each in places]
 
 
-def _has_sign(assume: str, x: arb) -> bool:
-    return not ((assume == "positive" and x <= 0) or (assume == "negative" and x >= 0))
+def has_sign(assume: str, x: arb) -> bool:
+    """Whether a number is surely not what an assumption excludes."""
+    excluded = {
+        "positive": x <= 0,
+        "negative": x >= 0,
+        "nonnegative": x < 0,
+        "nonzero": x == 0,
+    }
+    return not excluded.get(assume, False)
 
 
 def not_confirmed(what: str) -> str:
