@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -32,7 +32,7 @@ from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.motions import SteadyMotion, SteadySection
-from lagcli.statements.plus_minus import single, steady_in_pairs, unlike
+from lagcli.statements.plus_minus import mirror_images, single, steady_in_pairs, unlike
 from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     capitalized,
@@ -43,6 +43,7 @@ from lagcli.statements.wording import (
     linear_equations,
     listed,
     none_found,
+    other_places,
     place_rows,
     the_equilibria,
     there_may_be_others,
@@ -94,15 +95,15 @@ def blocks(section: SteadySection, answers: Answers) -> Iterator[Block]:
     if not section.motions:
         complete, where = section.complete, section.sought
         yield none_found("steady motion", section.unless, complete=complete, where=where)
-    for number, motion in enumerate(steady_in_pairs(section.motions), 1):
+    for number, group in enumerate(mirror_images(steady_in_pairs(section.motions)), 1):
         yield Heading(f"Steady motion {number}", 2)
-        yield from _motion(motion)
+        yield from _motion(group[0], group[1:])
     yield from in_moving_frames(section)
     if section.motions and not section.complete:
         yield there_may_be_others(section)
 
 
-def _motion(motion: SteadyMotion) -> Iterator[Block]:
+def _motion(motion: SteadyMotion, alike: Sequence[SteadyMotion] = ()) -> Iterator[Block]:
     rows = [*place_rows(motion.at, motion.on)]
     rates = motion.rates or {}
     rows += [Row(Name(name, 1), value) for name, value in rates.items() if value != Name(name, 1)]
@@ -113,6 +114,7 @@ def _motion(motion: SteadyMotion) -> Iterator[Block]:
     ]
     if rows:
         yield Equations(tuple(rows))
+    yield from other_places(motion, alike)
     parts = [*_any_value(motion)]
     if motion.where:
         at_rest = "; at equality at rest" if motion.rests else ""

@@ -113,6 +113,34 @@ def _one_motion(one: SteadyMotion, other: SteadyMotion) -> SteadyMotion | None:
     return replace(one, at=at, rates=rates if one.rates is not None else None, momenta=momenta)
 
 
+def mirror_images(motions: Iterable[SteadyMotion]) -> list[list[SteadyMotion]]:
+    """The motions, those together that differ in their place alone, or in the sign of C, too.
+
+    Those with the C of the first come first.
+    """
+    groups: dict[object, list[SteadyMotion]] = {}
+    for number, motion in enumerate(motions):
+        rest, entries = replace(motion, at={}, velocity=()), _turning(motion)
+        lead = next((sign for sign, _ in entries if sign), 1)
+        like = (repr(rest), tuple(motion.at), tuple((s * lead, repr(key)) for s, key in entries))
+        groups.setdefault(number if motion.rolling else like, []).append(motion)
+    return [
+        sorted(group, key=lambda each, first=group[0]: not turns_alike(each, first))  # type: ignore[misc]
+        for group in groups.values()
+    ]
+
+
+def _turning(motion: SteadyMotion) -> list[tuple[int, object]]:
+    """The signs of the entries of C, and what they are up to it."""
+    entries = [x for row in motion.velocity for x in row]
+    return [(0, None) if x == ZERO else signed_key(x) for x in entries]
+
+
+def turns_alike(one: SteadyMotion, other: SteadyMotion) -> bool:
+    """Whether C is the same at both, and not of opposite signs."""
+    return _turning(one) == _turning(other)
+
+
 def modes_in_pairs(modes: Iterable[ModesOfFrequency]) -> list[ModesOfFrequency]:
     """The modes about one equilibrium, two that differ in the sign of a root as one with ±."""
     return put_together(modes, _one_mode)

@@ -33,7 +33,14 @@ from lagcli.statements.answers import (
     SpecialValue,
     Verification,
 )
-from lagcli.statements.motions import Above, Irreducible, OneFreedom, SteadySection
+from lagcli.statements.motions import (
+    Above,
+    Irreducible,
+    OneFreedom,
+    SteadyMotion,
+    SteadySection,
+)
+from lagcli.statements.plus_minus import turns_alike
 from lagcli.statements.questions import Answer, Solutions
 
 Part = str | Formula
@@ -299,6 +306,15 @@ def place_rows(
     """A state, or a family of them: what ties its coordinates, and their values."""
     ties = () if on is None else (Row(*on),)
     return (*ties, *(Row(Name(name), value) for name, value in at.items()))
+
+
+def other_places(motion: SteadyMotion, alike: Iterable[SteadyMotion]) -> Iterator[Block]:
+    """Where a steady motion is alike, with the same C or the opposite one."""
+    for each in alike:
+        same = turns_alike(motion, each)
+        C = Label("C", matrix=True)
+        yield Paragraph(("or at",) if same else ("or, with the opposite sign of ", C, " below, at"))
+        yield Equations(place_rows(each.at, each.on))
 
 
 def state_blocks(

@@ -1102,3 +1102,40 @@ def test_an_orbit_on_a_kink_may_be_one_more_steady_motion():
     [square] = motion.frequencies_squared
     assert to_grammar(square) == "3*k/(m*r)"
     assert not section.complete
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_steady_motions_that_differ_in_their_place_stand_together(seed):
+    """At u = 0 and at u = pi all is the same but the sign of the gyroscopic terms k cos(u)."""
+    given = random.Random(seed)
+    a, b, k = (given.randint(1, 9) for _ in range(3))
+    text = (
+        f"{{coordinates: [u, v], L: \"{a}*(u'^2 + v'^2)/2 + {k}*sin(u)*v' + {b}*cos(2*u)"
+        f' - {b}*v^2/2"}}'
+    )
+    told = said(text, "Steady motions", "steady_motions")
+    assert told.count("or, with the opposite sign of") == told.count("Stable: ") == 1
+    told = said(text.replace("sin(u)*v'", "sin(2*u)*v'"), "Steady motions", "steady_motions")
+    assert "or at" in told
+    assert "opposite" not in told
+    assert told.count("Stable: ") == 1
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_where_a_contact_would_have_to_pull_is_said(seed):
+    """Inside of a loop the track carries at the bottom alone, outside of a sphere at the top."""
+    given = random.Random(seed)
+    side, turned = given.choice([1, -1]), given.choice(["0", "pi", "pi/2"])
+    equation = "R = r" if side > 0 else "r = R"
+    text = (
+        "{coordinates: [r, u], parameters: {m: {assume: positive}, g: {assume: positive}, "
+        f"R: {{assume: positive}}}}, T: m*(r'^2 + r^2*u'^2)/2, V: m*g*r*cos(u - {turned}), "
+        f"constraints: {{c: {{equation: '{equation}', multiplier: N%s}}}}}}"
+    )
+    alone = said(text % ", holds_while: N >= 0", "Equilibria", "equilibria")
+    both = said(text % "", "Equilibria", "equilibria")
+    pulls = "The forces balance, but a one-sided constraint would not hold, at"
+    assert (alone.count(pulls), both.count(pulls)) == (1, 0)
+    assert alone.count("Stable:") == (side > 0)
+    assert alone.count("Unstable:") == (side < 0)
+    assert (both.count("Stable:"), both.count("Unstable:")) == (1, 1)

@@ -130,12 +130,32 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         firm = holding(each)
         limit = at_the_limit(each.where, sticking=each.sticking)
         yield says(firm, *stability(each.verdict, each.free, each.on, each.at), limit)
+    if _one_sided(explainer):
+        yield from _where_a_contact_pulls(explainer)
     if states.periods:
         yield says(*repeating(states.periods))
     if found and not states.complete:
         yield says("There may be others.")
     if found:
         yield from recurring(explainer)
+
+
+def _one_sided(explainer: Explainer) -> bool:
+    """Whether constraints have conditions, and no contact may hold it instead."""
+    problem = explainer.problem
+    conditional = any(each.holds_while is not None for each in problem.constraints)
+    return conditional and not problem.contacts
+
+
+def _where_a_contact_pulls(explainer: Explainer) -> Iterator[Block]:
+    """What solves the conditions and is no equilibrium."""
+    from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
+
+    lead = "The forces balance, but a one-sided constraint would not hold,"
+    for at in SmallOscillations(explainer.dynamics).excluded:
+        yield says(f"{lead} at")
+        yield _state(at)
+        lead = "and"
 
 
 def _constraints_hold(explainer: Explainer) -> str:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from typing import cast
 
@@ -17,7 +17,7 @@ from lagcli.mechanics.explaining.words import Part, displacements, listed, names
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import Section
 from lagcli.statements.motions import SteadyMotion, SteadySection
-from lagcli.statements.plus_minus import steady_in_pairs, unlike
+from lagcli.statements.plus_minus import mirror_images, steady_in_pairs, unlike
 from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     POTENTIALS,
@@ -26,6 +26,7 @@ from lagcli.statements.wording import (
     in_moving_frames,
     in_polar_coordinates,
     linear_equations,
+    other_places,
     place_rows,
     the_equilibria,
     there_may_be_others,
@@ -140,9 +141,9 @@ def _steady_states(explainer: Explainer, found: SteadySection) -> Iterator[Block
         yield says(f"No steady motion was found: {found.reason}.")
     elif not found.motions:
         yield says(_none(found))
-    for number, motion in enumerate(steady_in_pairs(found.motions or ()), 1):
+    for number, group in enumerate(mirror_images(steady_in_pairs(found.motions or ())), 1):
         yield Heading(f"Steady motion {number}", 2)
-        yield from _motion(explainer, motion)
+        yield from _motion(explainer, group[0], group[1:])
     yield from in_moving_frames(found)
     yield from in_polar_coordinates(found)
     if found.motions and not found.complete:
@@ -159,9 +160,13 @@ def _none(found: SteadySection) -> list[Part]:
     return ["These have no solution: ", *none, "."]
 
 
-def _motion(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
+def _motion(
+    explainer: Explainer, motion: SteadyMotion, alike: Sequence[SteadyMotion] = ()
+) -> Iterator[Block]:
+    """One motion, or all of those `alike` at other places."""
     if motion.rolling:
-        yield from _rolling(explainer, motion)
+        for each in (motion, *alike):
+            yield from _rolling(explainer, each)
         return
     placed = bool(motion.at) or motion.on is not None
     rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
@@ -174,6 +179,7 @@ def _motion(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
         yield says("For any value of ", _free(motion), known)
     if placed:
         yield Equations(place_rows(motion.at, motion.on))
+    yield from other_places(motion, alike)
     if rates:
         if placed or not motion.free:
             yield says(f"The {velocities} then")

@@ -59,6 +59,7 @@ from lagcli.mechanics.stability.judge import (
     DRIFTS,
     EXCLUDED,
     GRAZES,
+    NEUTRAL,
     NO_MOTION,
     judge,
     judge_on_average,
@@ -238,7 +239,7 @@ class Place:
         for point in self._apart.points() or ():
             found = Place(self._apart, point, self._apart).verdict
             if not point.values and found.stable:
-                return Stability(stable=True, released=True, neutral=True)
+                return Stability(stable=True, reason=NEUTRAL, released=True, neutral=True)
         return None
 
     @property
@@ -329,6 +330,14 @@ class SmallOscillations:
         ]
         known = [place.point.values for place in places]
         return [place for place in places if place.without_indeterminate not in known]
+
+    @property
+    def excluded(self) -> tuple[Mapping[str, Expression], ...]:
+        """Where forces balance, and a contact would have to pull."""
+        kept = [place.point.values for place in self.places or ()]
+        found = (point for each in self.held for point in each.excluded())
+        places = (self._at(p) for p in found if p.values not in kept and p.family is None)
+        return tuple({tuple(at.items()): at for at in places if at}.values())
 
     @property
     def complete(self) -> bool:

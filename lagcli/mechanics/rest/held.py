@@ -103,6 +103,16 @@ class HeldCombination:
         kept = (self._allowed(point) for point in points)
         return tuple(point for point in kept if point is not None)
 
+    def excluded(self) -> tuple[RestPoint, ...]:
+        """Where forces balance, and the condition of a constraint fails: a contact would pull."""
+        if not self.demands:
+            return ()
+        return tuple(point for point in self.rest.points or () if self._demands_fail(point))
+
+    def _demands_fail(self, point: RestPoint) -> bool:
+        values = [self._at_rest(demand, point) for demand in self.demands]
+        return any(v is not None and sign_of(v, point.positive) == -1 for v in values)
+
     def _allowed(self, point: RestPoint) -> RestPoint | None:
         """The equilibrium with the conditions for it; None where one fails."""
         conditions: list[Expr] = []

@@ -40,6 +40,8 @@ DRIFTS = "a velocity constraint has a term without velocities that depends on th
 #: Of a system without a degree of freedom.
 EXCLUDED = "the constraints exclude every displacement"
 _OPEN_INERTIA = "every position is an equilibrium, and the kinetic energy may be negative"
+#: Where all rest everywhere.
+NEUTRAL = "every possible position near it is an equilibrium, and the kinetic energy does not grow"
 _POWERS = "all roots are 0, and to first order displacements grow in proportion to a power of t"
 NO_MOTION = "the equations of motion are singular there"
 _JUMPS = "a force jumps there, or its derivative does"
@@ -132,7 +134,7 @@ def _among_equilibria(near: Near, reason: str = "") -> Stability | None:
         return None
     if not stays:
         return undecided(_OPEN_INERTIA) if near.has_energy and reason == NO_FORCE else None
-    return Stability(stable=True, across=True, minimum=(), neutral=True)
+    return Stability(stable=True, reason=NEUTRAL, across=True, minimum=(), neutral=True)
 
 
 def _judged(near: Near) -> Stability:
