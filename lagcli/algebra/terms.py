@@ -269,7 +269,8 @@ class _Splitter:
             if len(fast) == 1 and fast[0][1] == 2:
                 key = frozenset((self._factor(monomial)[1], c) for monomial, c in group)
                 shared = self._parameters(shapes[place])
-                if any(isinstance(f, (Name, Power)) for f in shared):
+                halves = any(isinstance(f, Quotient) for f in shared)  # of an energy, no force
+                if halves and any(isinstance(f, (Name, Power)) for f in shared):
                     key = "squares", shared
             elif self._degree(fast) == (0, 1):
                 key = self._parameters(shapes[place]) or self._bracket(shapes[place]) or place
@@ -351,10 +352,11 @@ class _Splitter:
         """m (r'² + r² φ'²)/2 of terms with the same parameters."""
         writer, one = self.shaper.writer, Fraction(1)
         _, above, below = parts_of(terms[0])
-        outside = [(f, one) for f in above if self._is_parameter(f)]
+        every = frozenset.intersection(*(frozenset(parts_of(term)[1]) for term in terms))
+        outside = [(f, one) for f in above if self._is_parameter(f) or f in every]
         inside = []
         for minus, factors, _ in map(parts_of, terms):
-            kept = [(f, one) for f in factors if not self._is_parameter(f)]
+            kept = [(f, one) for f in factors if not self._is_parameter(f) and f not in every]
             inside.append(writer.product(-one if minus else one, kept))
         return writer.product(
             one, [*outside, (writer.sum(inside), one), *((f, -one) for f in below)]
