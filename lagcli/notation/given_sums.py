@@ -372,7 +372,9 @@ class GivenPotential:
         value = None if shown is None else multiplied_out(shown)
         if shown is None or value is None or len(value) != len(self._value):
             return node
-        if len(ours) + len(others) < len(still):  # (k − m w²) x²
+        first = terms.index(still[0])
+        apart = others and [*terms[first : first + len(still)]] != still
+        if apart or len(ours) + len(others) < len(still):  # (k − m w²) x²
             return node
         ratios = {
             c / self._value[term] if term in self._value else None for term, c in value.items()
@@ -386,7 +388,6 @@ class GivenPotential:
         behind = ratios == {Fraction(-1)} or isinstance(together[0], Negative)  # T0 − V, V − T0
         late = behind and others and not isinstance(others[0], Negative)
         together = [*others, *together] if late else [*together, *others]
-        first = terms.index(still[0])
         before, after = terms[:first], [t for t in terms[first:] if t not in still]
         found = (*before, *together, *after)
         worse = isinstance(found[0], Negative) and not isinstance(terms[0], Negative)
