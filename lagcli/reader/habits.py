@@ -49,7 +49,7 @@ _WITH_UNIT = regex(
     r"[-+]?[\d.]+(?:[eE][-+]?\d+|/\d+)?\s*(?:[,;]\s+)?"
     r"(?P<unit>(?:[kmcµu]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa)|rad|deg|rpm|min|h|mol)(?:[ \^*/].*)?)"
 )
-_ANGLES = frozenset("theta phi psi alpha beta gamma varphi angle θ φ ϕ ψ α β γ".split())
+_ANGLES = frozenset("theta th phi ph psi alpha beta gamma varphi angle θ φ ϕ ψ α β γ".split())
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 #: How often a function differentiates.
 RATES = {**dict.fromkeys("Derivative derivative D ddt dt Dt der deriv diff dot".split(), 1),
@@ -200,11 +200,14 @@ def unit_behind(text: str) -> str:
 
 def _named_unit(text: str) -> tuple[str, str] | None:
     """`10` and `kg` of `10 Kilogramm`; None for units by their symbols."""
-    found = re.fullmatch(r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*([^\W\d_].*)", text.strip())
-    words = found[2] if found else ""
-    unit = spoken_unit(words)
-    is_spoken = unit != words and _is_unit(unit)
-    return (found[1], unit) if found and is_spoken else None
+    found = re.fullmatch(
+        r"([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*(?![eE][-+]?\d)([^\W\d_].*)", text.strip()
+    )
+    if found is None:
+        return None
+    unit = spoken_unit(found[2])
+    is_spoken = unit != found[2] and _is_unit(unit)
+    return (found[1], unit) if is_spoken else None
 
 
 def spoken_unit(text: str) -> str:
@@ -266,7 +269,7 @@ def names_among(text: str) -> list[str]:
 
 def is_angle(name: str) -> bool:
     """Whether a name is that of an angle in most books."""
-    return name.partition("_")[0] in _ANGLES
+    return name.partition("_")[0].rstrip("0123456789") in _ANGLES
 
 
 def foreign_function(name: str) -> bool:

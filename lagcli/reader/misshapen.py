@@ -178,6 +178,8 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
                 return f"write {{position: [{', '.join(axes)}]{f', mass: {mass}' * bool(mass)}}}"
         if not present and written.isidentifier():  # ball: m
             return f"write {{position: [x, y], mass: {written}}}"
+    if names[0] == "until" and (end := range_end(re.split(r"[,;]", written)[0])):
+        return f"write {{until: {end}}}"
     for key, kinds, form, advice in habits()["maps"]:
         found = re.fullmatch(form, written or "…") if kind(node) in kinds else None
         if found and names[0] == key:

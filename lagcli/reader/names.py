@@ -79,7 +79,8 @@ def name_mistakes(
                 yield from _name(node, scope, role, what, before)
             case Call():
                 yield from _call(node, scope, role, what)
-                if node.function not in scope.kinds and instead(node.function):
+                known = node.function in FUNCTIONS or node.function in scope.kinds
+                if not known and instead(node.function):
                     covered |= {id(each) for each in walk(node)}
             case PartialCall():
                 yield from _partial_call(node, scope)

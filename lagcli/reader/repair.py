@@ -61,7 +61,7 @@ _BOTH_ROOTS = regex(
     r"(?P<left>[^=±]+)=\s*(?:±|\+/?[-−]|\\pm\b)\s*(?:sqrt|√|\\sqrt)\s*[({](?P<inner>(?:[^()]|\([^()]*\))+)[)}]\s*"
 )
 #: What stands before a formula that is given as an equation: `T =`, `V(x) =`, `kinetic energy =`.
-_LEFT_SIDE = regex(r"^\s*(?:T\s*[-−]\s*V|[^\W\d][\w ]*(?:\(\w+\))?)\s*:?=(?!=)")
+_LEFT_SIDE = regex(r"^\s*(?:T\s*[-−]\s*V|[^\W\d][\w ]*(?:\([\w', ]+\))?)\s*:?=(?!=)")
 
 
 def with_whole(

@@ -103,6 +103,9 @@ NAMES = Vocabulary(("x", "theta"), frozenset({"m", "k", "g", "l", "a", "t", "pi"
         ("a cos lt", "a*cos(l*t)"),
         ("m＊x'ˆ2", "m*x'^2"),
         ("m*Derivative[1][x][t]^2", "m*x'^2"),
+        ("mu_k x'", "mu_k*x'"),
+        ("1/2 m*'x^2 + F_n x", "1/2*m*x'^2 + F_n*x"),
+        ("(k*x).simplify()", "(k*x)"),
     ],
 )
 def test_a_formula_is_read_as_its_author_reads_it(text, meant):

@@ -11,6 +11,7 @@ import pytest
 
 from lagcli.library import entries
 from lagcli.reader import read_problem
+from lagcli.reader.habits import habits, meanings
 from lagcli.statements.registry import section_names
 
 GOOD = {
@@ -756,3 +757,12 @@ points: {bob: {mass: m, position: [l*sin(theta), -l*cos(theta)]}}
 V: m*g*bob.y + m*g*bob.x^2/l
 """)
     assert said.endswith("write m*g*(-l*cos(theta)) + m*g*(l*sin(theta))^2/l")
+
+
+def test_a_good_file_needs_no_table_of_habits():
+    for entry in list(entries())[::5]:
+        habits.cache_clear()
+        meanings.cache_clear()
+        found = read_problem(entry.name, entry.path.read_bytes()).diagnostics
+        assert not any(each.is_error for each in found)
+        assert habits.cache_info().currsize == 0, entry.name

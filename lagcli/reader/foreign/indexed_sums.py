@@ -6,7 +6,7 @@ import itertools
 import re
 from functools import partial
 
-from lagcli.reader.foreign.words import UnclearText, Vocabulary
+from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant
 from lagcli.reader.regex import regex
 
 #: The limits behind the term, in the call of a function: i=1..3, (i, 1, 3), i, 1, 3.
@@ -27,6 +27,7 @@ _INDEXED = regex(r"(?<=[^\W_])(?:_\{?|\[)(?P<index>[i-n])(?![\w])(?P<first>)")
 _LETTERS = regex(
     r"(?<![\w.\\])(?P<stem>[^\W\d_]+)_\{?(?P<index>(?=[i-n\d]*[i-n])[i-n\d]{1,2})\}?(?!\w)"
 )
+_SQUARED = regex(r"['’′]*\s*(?:\^\s*2|\*\*\s*2|²)")
 _MOST = 12
 
 
@@ -61,27 +62,36 @@ def written_out(text: str, names: Vocabulary) -> str:
 
 
 def _repeated(text: str, names: Vocabulary) -> str:
-    """`(1/2 M11 q1' q1' + …)` for `1/2 M_ij q_i' q_j'`: over each index that stands twice."""
+    """`(1/2 M11 q1' q1' + …)` for `1/2 M_ij q_i' q_j'`: over each index that stands twice.
+
+    A name of the file, and one of which the file has none with a number, has no index: mu_k.
+    """
     counted = (re.search(r"\d+$", x) for x in names.coordinates)
     places = sorted({found[0] for found in counted if found})
     parts = re.split(r"(?<=[\w)'}²])(\s*[-+]\s*)(?![^(]*\))", text)
     for place, part in enumerate(parts[::2]):
-        letters = sorted({each for found in _LETTERS.finditer(part) for each in found["index"]
-                          if each.isalpha()})  # fmt: skip
-        if not letters:
+        given = [each for each in _LETTERS.finditer(part) if each[0] not in names.known]
+        written = [letter for each in given for letter in each["index"] if letter.isalpha()]
+        letters = sorted({*written})
+        squares = {each["index"] for each in given if _SQUARED.match(part, each.end())}
+        if any(written.count(letter) < 2 and letter not in squares for letter in letters):
             continue
-        if not 0 < len(places) ** len(letters) <= _MOST:
-            raise UnclearText
-        terms = []
-        for chosen in itertools.product(places, repeat=len(letters)):
-            given = dict(zip(letters, chosen, strict=True))
-            terms.append(_LETTERS.sub(partial(_numbered, given, names), part).strip())
+        if not letters or not 0 < len(places) ** len(letters) <= _MOST:
+            continue
+        ways = itertools.product(places, repeat=len(letters))
+        chosen = [dict(zip(letters, way, strict=True)) for way in ways]
+        try:
+            terms = [_LETTERS.sub(partial(_numbered, way, names), part).strip() for way in chosen]
+        except UnclearText:
+            continue
         parts[2 * place] = f"({' + '.join(terms)})"
     return "".join(parts)
 
 
 def _numbered(places: dict[str, str], names: Vocabulary, found: re.Match[str]) -> str:
     """The name of the file for M_ij; M12 also for M21."""
+    if found[0] in names.known:
+        return found[0]
     index = "".join(places.get(each, each) for each in found["index"])
     spelled = [
         f"{found['stem']}{gap}{order}" for order in (index, index[::-1]) for gap in ("_", "")
@@ -95,7 +105,7 @@ def _terms(term: str, limits: re.Match[str], names: Vocabulary) -> str:
     """`(m_1*x_1'^2 + m_2*x_2'^2)` for `m_i*x_i'^2`."""
     index = limits["index"]
     used = re.compile(
-        rf"(?P<stem>[^\W\d_](?:\w*[^\W_])??)(?:_\{{?|\[)\s*{index}\s*(?P<step>[-+]\s*\d+)?\s*[\]}}]?(?!\w)"
+        rf"(?P<stem>[^\W\d_](?:\w*[^\W_])??[\u0307\u0308]?)(?:_\{{?|\[)\s*{index}\s*(?P<step>[-+]\s*\d+)?\s*[\]}}]?(?!\w)"
         rf"|(?<![\w.]){index}(?!\w)"
     )
     stems = {found["stem"] for found in used.finditer(term) if found["stem"]}
@@ -118,6 +128,9 @@ def _terms(term: str, limits: re.Match[str], names: Vocabulary) -> str:
             here = place + int((found["step"] or "0").replace(" ", ""))
             spelled = (f"{found['stem']}_{here}", f"{found['stem']}{here}")
             found_names = [each for each in (*spelled, found["stem"]) if each in names.known]
+            name, primes = meant(f"{found['stem']}_{here}", names)
+            if not found_names and primes and name in names.coordinates:
+                return name + "'" * primes
             if not found_names or found_names[0] in {*names.coordinates} - {*spelled}:
                 raise UnclearText
             return found_names[0]

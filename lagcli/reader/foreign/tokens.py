@@ -53,7 +53,9 @@ _NO_FORMULA = regex(
     r"\(\s*[^\W\d]{3,}(?:\s+[^\W\d]+)+\s*\)\s*$|\[\s*[\w'.]+(?:\s+[-\w'.]+)+\s*\]|<[^<>=]+>"
 )
 #: The length of a position: |r|, ||r||, |\\vec{r}|.
-_LENGTH = regex(r"(?:\\?\|){1,2}\s*(?:\\(?:vec|mathbf)\s*)?\{?r\}?\s*(?:\\?\|){1,2}")
+_LENGTH = regex(
+    r"\b(?:\w+\.)*(?:norm|abs|length|mag)\(\s*r\s*\)|(?:\\?\|){1,2}\s*(?:\\(?:vec|mathbf)\s*)?\{?r\}?\s*(?:\\?\|){1,2}"
+)
 _SPEED_LENGTH = regex(
     r"(?:\\?\|){1,2}\s*(?:\\(?:vec|mathbf)\s*)?\{?v\}?\s*(?:\\?\|){1,2}"
     r"|\b(?:abs|norm|(?:np\.)?linalg\.norm)\(\s*v\s*\)"

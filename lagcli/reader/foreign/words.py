@@ -139,6 +139,8 @@ def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
         found |= {(x, 1) for x in alike if len(alike) == 1 and (alone or turns or not radial)}
     if names.momenta and alone and word in {"p", "P"}:
         found.add((f"p_{names.coordinates[0]}", 0))
+    if names.momenta and alone and word in {"q", "Q"}:
+        found.add((names.coordinates[0], 0))
     if names.momenta:
         found |= {(f"p_{x}", 0) for x in names.coordinates if word in _momenta(spelled_out(x))}
     return found.pop() if len(found) == 1 else None
