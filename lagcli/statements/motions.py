@@ -35,6 +35,7 @@ class Verdict:
     `theorem` is the name of the one that decides.  `critical` is the order of the minimum at
     equality in the one condition of `minimum`, or minus that of the first derivative that is not
     0 where there is none, and it is unstable; 0, the potential is constant; None, not known.
+    It `grows_at_equality` in the one condition of `spectrum` in proportion to a power of t.
     """
 
     stable: bool | None
@@ -54,6 +55,7 @@ class Verdict:
     gyroscopic: bool = False
     rapid: Expression | None = None
     critical: int | None = None
+    grows_at_equality: bool = False
 
 
 @record(kw_only=True)

@@ -153,6 +153,10 @@ def _by_roots(verdict: Verdict, stable: str, along: Sequence[Part]) -> list[Part
         parts = ["Stable to first order, all frequencies being real and distinct"]
         parts += [", where ", *conditions(spectrum)] if spectrum else []
     parts += _opposite(verdict.unstable if spectrum else ())
+    if verdict.grows_at_equality and len(spectrum) == 1 and not spectrum[0].besides:
+        sides = sorted((spectrum[0].left, spectrum[0].right), key=_is_number)
+        parts += ["For ", sides[0], " = ", sides[1], " it is unstable, too: roots coincide, "]
+        parts += ["and some displacements grow as a power of the time. "]
     if verdict.gyroscopic:
         potential = _potential(verdict.potential)
         parts += ["Where ", potential, " has no minimum, damping of all motions destroys this "]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import random
 
+import mpmath
 import pytest
 import sympy
 
@@ -1139,3 +1140,36 @@ def test_where_a_contact_would_have_to_pull_is_said(seed):
     assert alone.count("Stable:") == (side > 0)
     assert alone.count("Unstable:") == (side < 0)
     assert (both.count("Stable:"), both.count("Unstable:")) == (1, 1)
+
+
+def _norm_of_motion(m, c, k, t):
+    """|exp(A t)| of M x'' + C x' + K x = 0 in the plane, with C = c (0, -1; 1, 0), K = diag(k)."""
+    A = mpmath.matrix(
+        [[0, 0, 1, 0], [0, 0, 0, 1], [-k[0] / m, 0, 0, c / m], [0, -k[1] / m, -c / m, 0]]
+    )
+    return mpmath.norm(mpmath.expm(A * t))
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("trap", ["saddle", "top"])
+def test_on_the_edge_of_bounded_motion_it_is_unstable_where_roots_coincide(seed, trap):
+    """A turning saddle is left at k = m w^2, a hill in a field at c^2 = 4 m k: |exp(A t)| ~ t."""
+    given = random.Random(seed)
+    a, b, s = given.randint(1, 9), given.randint(1, 9), given.choice(["w", "v", "e"])
+    if trap == "saddle":
+        L = f"{a}*((x' - {s}*y)^2 + (y' + {s}*x)^2)/2 - {b}*k*(x^2 - y^2)/2"
+        w = (b / a) ** 0.5  # at k = 1
+        edge = (a, 2 * a * w, (b - a * w**2, -(b + a * w**2)))
+    else:
+        L = f"{a}*(x'^2 + y'^2)/2 + {s}*(x*y' - y*x')/2 + {b}*k*(x^2 + y^2)/2"
+        edge = (a, (4 * a * b) ** 0.5, (-b, -b))
+    text = (
+        f"{{coordinates: [x, y], parameters: {{{s}: {{assume: positive}}, k: {{assume: positive}}}}"
+        f', L: "{L}"}}'
+    )
+    told = said(text, "Equilibria", "equilibria")
+    assert "it is unstable, too: roots coincide" in told
+    ratio = _norm_of_motion(*edge, 800) / _norm_of_motion(*edge, 400)
+    assert 1.9 < ratio < 2.1
+    inside = (edge[0], edge[1] * 1.2, edge[2] if trap == "top" else (-0.44 * b, -2.44 * b))
+    assert _norm_of_motion(*inside, 800) < 100

@@ -19,6 +19,7 @@ from sympy import Expr
 from lagcli.algebra import simplify
 from lagcli.algebra.positivity import sign_of, weak_sign
 from lagcli.mechanics.inequalities import contradictory, one_is_negative
+from lagcli.mechanics.stability.at_the_limit import grows_at_equality
 from lagcli.mechanics.stability.hurwitz import hurwitz_conditions
 from lagcli.mechanics.stability.lyapunov import GROWING, growing
 from lagcli.mechanics.stability.near import Near
@@ -75,9 +76,12 @@ def _imaginary(near: Near, open_: tuple[Expr, ...]) -> Stability:
         beside = "beside a slow drift along the family " if across else ""
         reason = f"the equations of motion are linear, and {beside}all their solutions are bounded"
         return Stability(stable=True, reason=reason, spectrum=(), exact=True, across=across)
+    limit = exact and bool(open_) and grows_at_equality(near.linear, open_)
     fed = not exact and not (near.linear.rest.energy_never_grows and near.linear.has_potential)
     reason = _MAY_FEED if fed else ""
-    return Stability(spectrum=open_, exact=exact, reason=reason, across=across)
+    return Stability(
+        spectrum=open_, exact=exact, reason=reason, across=across, grows_at_equality=limit
+    )
 
 
 def _multiple(near: Near) -> Stability:

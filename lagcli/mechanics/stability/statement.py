@@ -63,6 +63,7 @@ def stated(
         gyroscopic=gyroscopic and found.spectrum is not None,
         rapid=None if found.rapid is None else written(found.rapid, order),
         critical=found.critical,
+        grows_at_equality=found.grows_at_equality,
     )
 
 

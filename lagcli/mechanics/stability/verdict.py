@@ -40,6 +40,9 @@ class Stability:
         It is unstable where one of these is negative, and they are nowhere all positive.
     rapid
         The frequency of a drive: the verdict is on the averaged motion where that is large.
+    grows_at_equality
+        Linear equations have solutions that grow where the one condition of `spectrum` is an
+        equality.
     critical
         Where the one condition of `minimum` is an equality, the order of the first derivative
         that is not 0: of the minimum, or negative where there is none, so that it is unstable;
@@ -62,6 +65,7 @@ class Stability:
     growing: Expr | None = None
     opposed: tuple[Expr, ...] = ()
     rapid: Expr | None = None
+    grows_at_equality: bool = False
     critical: int | None = None
 
     @property
