@@ -213,7 +213,8 @@ class AlgebraSection:
     `independent` is None where no state was found, or not in the work allowed.
     `closed`: every bracket is a combination of all of them and of constants.  `integrable` is
     True or None; `separates` where the Hamilton-Jacobi equation shows it, not the charges.
-    `named_where`: the name is another one where the charges are not real.  Where the motion
+    `named_where`: the name is another one where the charges are not real.  `autonomous`: how many
+    charges do not depend on t, and the name of the algebra that they make.  Where the motion
     `is_prescribed`, no symmetry was sought.
     """
 
@@ -229,6 +230,7 @@ class AlgebraSection:
     special: tuple[SpecialValue, ...] = ()
     named_where: tuple[Above, ...] = ()
     is_prescribed: bool = False
+    autonomous: tuple[int, str] | None = None
 
     @property
     def dimension_counts(self) -> str:

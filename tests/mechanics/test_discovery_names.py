@@ -398,3 +398,24 @@ def test_what_is_named_as_a_momentum_is_the_canonical_one(seed):
     assert found.keys() & momenta == cyclic
     assert all(is_zero(found[n].charge - momenta[n]) is True for n in cyclic)
     assert found.keys() >= {f"translation_{n.removeprefix('p_')}" for n in momenta.keys() - cyclic}
+
+
+@pytest.mark.parametrize(
+    ("given", "q", "V", "algebra"),
+    [
+        ("k: {assume: positive}", "xy", "k*(x^2 + y^2)/2", (4, "so(3) + R")),
+        ("k: {assume: positive}", "uv", "3*k^2*(u^2 + v^2)/2", (4, "so(3) + R")),
+        ("k: {assume: negative}", "xy", "k*(x^2 + y^2)/2", (4, "sl(2,R) + R")),
+        ("k: {}", "xy", "k*(x^2 + y^2)/2", None),
+        ("k: {assume: positive}", "xy", "k*(x^2 + 5*y^2)/2", None),
+    ],
+)
+def test_the_algebra_of_what_does_not_depend_on_the_time(given, q, V, algebra):
+    """u(2) of the plane oscillator, u(1, 1) or sl(2,R) + R of the hill: Fradkin, Am. J. Phys. 33
+    (1965) 207; which of the two it is depends on the sign of k."""
+    a, b = q
+    text = (
+        f"{{coordinates: [{a}, {b}], parameters: {{m: {POS}, {given}}}, "
+        f'T: "m*({a}\'^2 + {b}\'^2)/2", V: "{V}"}}'
+    )
+    assert summary(derive(text).discovery).autonomous == algebra

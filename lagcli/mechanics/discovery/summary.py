@@ -36,6 +36,7 @@ class Summary:
     integrable: bool | None
     notes: tuple[str, ...] = ()
     closed: bool = False  # all brackets are combinations of the charges and of constants
+    autonomous: tuple[int, str] | None = None  # of those without t: how many, and their algebra
 
 
 def algebra_section(
@@ -62,6 +63,7 @@ def algebra_section(
         separates=separable,
         number=len(discovery.charges),
         closed=found.closed,
+        autonomous=found.autonomous,
         is_prescribed=discovery.is_prescribed,
     )
 
@@ -115,6 +117,7 @@ def _free(discovery: Discovery) -> Summary:
         if name is None:
             notes.append("the integrals of second degree are not counted in the dimension")
     t = discovery.system.t
+    alone = None if closed else _without_time(discovery)
     autonomous = t not in discovery.system.L.free_symbols
     fixed = [
         k for k, c in enumerate([*charges, *more])
@@ -139,7 +142,23 @@ def _free(discovery: Discovery) -> Summary:
         involution == freedom or None,
         tuple(notes),
         closed,
+        alone,
     )
+
+
+def _without_time(discovery: Discovery) -> tuple[int, str] | None:
+    """The algebra of the charges without t where these close, as u(2) of the plane oscillator.
+
+    None where it is abelian, or another one for other parameters, also where others are not real.
+    """
+    t = discovery.system.t
+    charges = [c.charge for c in discovery.charges if t not in c.charge.free_symbols]
+    if not 3 <= len(charges) < len(discovery.charges):
+        return None
+    brackets, chosen = ChargeBrackets(charges, discovery.dynamics, Allowance()), range(len(charges))
+    structure = brackets.structure(chosen)
+    name = None if structure is None else _name(brackets, chosen, structure)
+    return (len(charges), name) if name and not name.startswith("R") else None
 
 
 def _over_energy(

@@ -200,6 +200,7 @@ def _dimension(found: AlgebraSection) -> Iterator[Block]:
                 f"The dimension of the {kind} found is {found.dimension}. Their algebra is not "
                 "one of those with a name here."
             )
+        yield from _without_time(found, [])
         return
     name = found.name.removesuffix(MODULO_CONSTANTS)
     where = [" where ", *conditions(found.named_where)] if found.named_where else []
@@ -211,6 +212,15 @@ def _dimension(found: AlgebraSection) -> Iterator[Block]:
             f"{found.dimension} modulo constants and {found.dimension + 1} with them: {name}"
         )
     yield says(lead, where, ".")
+    yield from _without_time(found, where)
+
+
+def _without_time(found: AlgebraSection, where: list[Part]) -> Iterator[Block]:
+    """The algebra of the charges that do not depend on t, where it has a name of its own."""
+    if found.autonomous is not None:
+        number, name = found.autonomous
+        close = f"The {number} conserved quantities that do not depend on t close under the bracket"
+        yield says(f"{close}: {name.removesuffix(MODULO_CONSTANTS)}", where, ".")
 
 
 def _integrability(found: AlgebraSection, n: int) -> list[Part]:
