@@ -228,3 +228,23 @@ V: (R - a)*({n}*m*g + (R - a)*k)*(1 - cos(u))
     for R, a in ((4, 1), (1, 4), (1, 1 + Rational(6 * n, 5) + 7)):
         value = sympy.sympify(to_grammar(condition.left)).subs({**at, "R": R, "a": a})
         assert (value > 0) == ((R - a) * (n * 6 + (R - a) * 5) > 0)
+
+
+@pytest.mark.parametrize(("a", "b"), [(3, 2), (2, -1), (-2, 3), (1, -3), (-1, -2)])
+def test_what_has_no_inertia_must_be_held_by_the_potential(a, b):
+    """0 = a (y - x) + b y gives y: x then has the spring a b/(a + b)."""
+    verdict = origin(
+        "coordinates: {x: {}, y: {}}\nparameters: {m: POSITIVE}\nT: m*x'^2/2\n"
+        f"V: {a}*(x - y)^2/2 + {b}*y^2/2"
+    ).verdict
+    assert verdict.stable in ((True,) if a > 0 and b > 0 else (None,))
+    assert not verdict.stable or a * b / (a + b) > 0
+
+
+def test_a_multiplier_among_the_coordinates_is_no_minimum():
+    """L = m (x' - y)²/2 + u (x - y) - k x²/2: x = y and m x'' = (m - k) x."""
+    verdict = origin(
+        "coordinates: {x: {}, y: {}, u: {}}\nparameters: {m: POSITIVE, k: POSITIVE}\n"
+        "L: m*(x' - y)^2/2 + u*(x - y) - k*x^2/2"
+    ).verdict
+    assert verdict.stable is None

@@ -162,9 +162,14 @@ def complement(basis: Matrix, null: Matrix) -> Matrix:
 
 def singular(dynamics: Dynamics) -> str:
     """What is singular: L in the velocities, where it is so at rest everywhere, or coordinates."""
-    whole = determinant(dynamics.lagrange.mass_matrix_at_rest)
-    everywhere = whole is not None and is_zero(whole) is True
+    everywhere = singular_everywhere(dynamics)
     return "the Hessian of L in the velocities is" if everywhere else "the coordinates are"
+
+
+def singular_everywhere(dynamics: Dynamics) -> bool:
+    """Whether the mass matrix is singular at rest wherever it is: something has no inertia."""
+    whole = determinant(dynamics.lagrange.mass_matrix_at_rest)
+    return whole is not None and is_zero(whole) is True
 
 
 def is_singular(linear: Linearization) -> bool:

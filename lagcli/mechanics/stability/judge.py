@@ -18,13 +18,14 @@ from lagcli.algebra.positivity import sign_of
 from lagcli.mechanics.averaged import averaged
 from lagcli.mechanics.rest.characteristic import Characteristic
 from lagcli.mechanics.rest.linearization import Linearization
-from lagcli.mechanics.rest.singular import OnMeridians, singular
+from lagcli.mechanics.rest.singular import OnMeridians, singular, singular_everywhere
 from lagcli.mechanics.stability.corners import by_both_sides
 from lagcli.mechanics.stability.lagrange_dirichlet import (
     NO_FORCE,
     by_higher_order,
     by_minimum,
     by_separate_curvatures,
+    without_inertia,
 )
 from lagcli.mechanics.stability.lyapunov import FALLS, by_a_growing_root, falls
 from lagcli.mechanics.stability.near import Near
@@ -92,6 +93,9 @@ def judge_on_meridians(linear: OnMeridians) -> Stability:
             return undecided(no_coordinates)
         if near.hypotheses.lacking:
             return undecided(near.hypotheses.lacking)
+        if singular_everywhere(linear.dynamics):
+            whole = Near(Linearization(linear.rest, linear.point))
+            return without_inertia(whole) or undecided(no_coordinates)
         if falls(near) and not linear.turns:
             return unstable(FALLS)
         found = by_minimum(near)

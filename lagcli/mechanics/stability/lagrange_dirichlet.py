@@ -20,7 +20,8 @@ from functools import partial
 
 from sympy import Dummy, Expr, Symbol, count_ops
 
-from lagcli.algebra import is_zero
+from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of, weak_sign
 from lagcli.mechanics.inequalities import contradictory
@@ -174,6 +175,25 @@ def at_strict_minimum(near: Near) -> Stability:
         falling = f"{_STRICT} there, and every motion loses energy"
         return replace(_stable(falling, LASALLE), asymptotic=True)
     return _stable(f"{_STRICT} there")
+
+
+def without_inertia(near: Near) -> Stability | None:
+    """By a minimum in all displacements, those without inertia among them; None: not known.
+
+    T bounds nothing that has no share in it: a minimum across the rest of V is not enough, nor
+    does a force along it move it away.
+    """
+    K = near.linear.K
+    minors = [determinant([row[:k] for row in K[:k]]) for k in range(1, len(K) + 1)]
+    if None in minors:
+        return None
+    signs = near.signs([simplify(minor) for minor in minors if minor is not None])
+    if set(signs) - {1, None}:
+        return None
+    open_ = tuple(m for m, known in zip(minors, signs, strict=True) if m is not None and not known)
+    if not open_:
+        return _stable(f"{_STRICT} there")
+    return Stability(by=LAGRANGE_DIRICHLET, minimum=open_)
 
 
 def _theorem(near: Near) -> Theorem:
