@@ -1,9 +1,9 @@
-"""One coordinate under a rapidly oscillating force: the potential of the averaged motion.
+"""Motion under a rapidly oscillating force: the potential of the averaged motion.
 
-Where M q'' = F0(q) + F1(q) cos(w t) + F2(q) sin(w t) with constant M, and w is large against the
-frequencies of the motion in F0, the coordinate averaged over 2 pi/w moves as in
+Where M q'' = F0(q) + F1(q) cos(w t) + F2(q) sin(w t) with constant M and F0 = -grad V0, and w is
+large against the frequencies of the motion in F0, the coordinates averaged over 2 pi/w move as in
 
-    V_eff = V0 + (F1^2 + F2^2)/(4 M w^2),    V0' = -F0,
+    V_eff = V0 + (F1^T M^-1 F1 + F2^T M^-1 F2)/(4 w^2)
 
 up to terms that are smaller by powers of 1/w.
 
@@ -15,14 +15,18 @@ Arnold, *Mathematical Methods of Classical Mechanics*, 2nd ed., section 52 (aver
 
 from __future__ import annotations
 
-import sympy
-from sympy import Expr
+from collections.abc import Sequence
 
-from lagcli.algebra import is_zero, simplify
+import sympy
+from sympy import Expr, Symbol
+
+from lagcli.algebra import dot, is_zero, simplify, solve_linear
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.record import record
+
+_MOST_COORDINATES = 4
 
 
 @record
@@ -34,31 +38,49 @@ class Averaged:
 
 
 def averaged(dynamics: Dynamics) -> Averaged | None:
-    """V_eff of a system with one coordinate; None where the force is not of that form."""
+    """V_eff of a system without constraints; None where the force is not of that form."""
     system = dynamics.system
-    if len(system.q) != 1 or dynamics.constraints.equations:
+    n = len(system.q)
+    if not 0 < n <= _MOST_COORDINATES or dynamics.constraints.equations:
         return None
-    q, t = system.q[0], system.t
-    M = simplify(dynamics.lagrange.mass_matrix[0][0])
-    force = sympy.expand(dynamics.lagrange.forcing[0])
-    if not free_of(M, (q, t, *system.qdot)) or not free_of(force, system.qdot):
+    q, t = system.q, system.t
+    M = [[simplify(x) for x in row] for row in dynamics.lagrange.mass_matrix]
+    force = [sympy.expand(f) for f in dynamics.lagrange.forcing]
+    if not all(free_of(x, (*q, t, *system.qdot)) for row in M for x in row):
         return None
-    waves = [f for f in force.atoms(sympy.sin, sympy.cos) if f.has(t)]
+    if not all(free_of(f, system.qdot) for f in force):
+        return None
+    waves = [f for F in force for f in F.atoms(sympy.sin, sympy.cos) if f.has(t)]
     rates = {_positive(simplify(f.args[0].diff(t))) for f in waves}
     if len(rates) != 1 or any(is_zero(f.args[0].subs(t, 0)) is not True for f in waves):
         return None
     w = rates.pop()
     cosine, sine = sympy.cos(w * t), sympy.sin(w * t)
-    F1, F2 = force.coeff(cosine), force.coeff(sine)
-    F0 = sympy.expand(force - F1 * cosine - F2 * sine)
-    if not all(free_of(f, (t,)) for f in (F0, F1, F2, w)) or is_zero(w) is not False:
+    F1, F2 = [f.coeff(cosine) for f in force], [f.coeff(sine) for f in force]
+    F0 = [sympy.expand(f - a * cosine - b * sine) for f, a, b in zip(force, F1, F2, strict=True)]
+    if not all(free_of(f, (t,)) for f in (*F0, *F1, *F2, w)) or is_zero(w) is not False:
         return None
-    if free_of(F1, [q]) and free_of(F2, [q]):  # it shakes the body, and no more
+    if all(free_of(f, q) for f in (*F1, *F2)):  # it shakes the body, and no more
         return None
-    slow = antiderivative(simplify(F0), q) if F0 != 0 else sympy.S.Zero
-    if slow is None:
+    slow = _potential(F0, q)
+    solved = [solve_linear(M, F) for F in (F1, F2)]
+    if slow is None or any(each is None or each.singular for each in solved):
         return None
-    return Averaged(w, simplify(-slow + (F1**2 + F2**2) / (4 * M * w**2)))
+    moved = (dot(F, each.values) for F, each in zip((F1, F2), solved, strict=True) if each)
+    return Averaged(w, simplify(slow + sympy.Add(*moved) / (4 * w**2)))
+
+
+def _potential(force: Sequence[Expr], q: Sequence[Symbol]) -> Expr | None:
+    """V with -grad V = F, by one coordinate after another; None where there is none."""
+    V = sympy.S.Zero
+    for f, x in zip(force, q, strict=True):
+        rest = simplify(f + V.diff(x))
+        part = antiderivative(rest, x) if rest != 0 else sympy.S.Zero
+        if part is None:
+            return None
+        V -= part
+    balanced = (is_zero(f + V.diff(x)) for f, x in zip(force, q, strict=True))
+    return V if all(each is True for each in balanced) else None
 
 
 def _positive(rate: Expr) -> Expr:

@@ -67,7 +67,7 @@ def _on_average(verdict: Verdict, frequency: Expression) -> list[Part]:
     parts: list[Part] = ["For ", frequency, " large against the frequencies without the drive "]
     parts += ["and a small amplitude of the drive: "]
     if verdict.minimum is None:
-        parts += ["unstable, since ", V, " has a maximum there "]
+        parts += ["unstable, since ", V, " has no minimum there "]
     elif not verdict.minimum:
         parts += ["stable, since ", V, " has a minimum there "]
     else:

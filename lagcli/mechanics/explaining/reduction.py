@@ -125,7 +125,7 @@ def averaged_potential(explainer: Explainer) -> Iterator[Block]:
         "(Landau and Lifshitz, section 30)",
     )
     yield shows(Label("V", ("eff",)), write(found.potential))
-    if not RestPoints(derivation.dynamics).points:
+    if len(derivation.system.q) == 1 and not RestPoints(derivation.dynamics).points:
         yield from _averaged_equilibria(derivation, found.potential)
 
 

@@ -13,6 +13,7 @@ Where signs depend on values, the conditions are given instead.
 
 from __future__ import annotations
 
+from lagcli.algebra import simplify
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import sign_of
 from lagcli.mechanics.averaged import averaged
@@ -77,12 +78,17 @@ def judge_on_average(linear: Linearization) -> Stability | None:
     found, point = averaged(linear.dynamics), linear.point
     if found is None or point.free:
         return None
-    curvature = at(found.potential.diff(linear.system.q[0], 2), point.values)
-    known = sign_of(curvature, point.positive)
-    if known == 0:
+    q, V = linear.system.q, found.potential
+    curvatures = [at(V.diff(x, 2), point.values) for x in q]
+    pairs = ((x, y) for k, x in enumerate(q) for y in q[:k])
+    if any(simplify(at(V.diff(x, y), point.values)) != 0 for x, y in pairs):
         return None
-    minimum = {1: (), -1: None, None: (curvature,)}[known]
-    return Stability(rapid=found.frequency, minimum=minimum, reverses=known is None)
+    signs = [sign_of(k, point.positive) for k in curvatures]
+    if 0 in signs:
+        return None
+    open_ = tuple(k for k, known in zip(curvatures, signs, strict=True) if known is None)
+    minimum = None if -1 in signs else open_
+    return Stability(rapid=found.frequency, minimum=minimum, reverses=bool(minimum))
 
 
 def judge_on_meridians(linear: OnMeridians) -> Stability:
