@@ -287,6 +287,10 @@ def explain(
     ProblemError
         When the derivation finds that the problem cannot be meant.
     """
+    if derivation.no_lagrangian:
+        from lagcli.mechanics.explaining.from_hamiltonian import explanation_from_hamiltonian
+
+        return _ended(lambda: explanation_from_hamiltonian(derivation, also))
     large = derivation.large_form
     if large is not None:
         from lagcli.mechanics.explaining.large import explanation_of_large

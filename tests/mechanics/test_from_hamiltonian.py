@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import random
+
 import pytest
 
 from lagcli.diagnostics import ProblemError
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.legendre import LegendreTransform
-from lagcli.pipeline import Request, state, with_lagrangian
+from lagcli.pipeline import Request, explain, state, with_lagrangian
 from lagcli.reader import read_problem
 
 from .derived import derive, same
+from .test_explanation import words
 
 FREE = "coordinates: [x, y]\nparameters: {m: {assume: positive}, c: {assume: positive}, w: {}}\n"
 
@@ -171,3 +174,31 @@ def test_constraints_need_a_lagrangian():
     [mistake] = raised.value.diagnostics
     assert "constraint 'line'" in mistake.message
     assert mistake.span.line == 4
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_an_h_without_a_lagrangian_is_explained_by_its_canonical_equations(seed):
+    """Of first degree in the momenta, as of a ray: Landau and Lifshitz, *Fields*, section 53."""
+    given = random.Random(seed)
+    a, b, c = (given.randint(1, 9) for _ in range(3))
+    still = given.choice("xy")
+    other = "xy".replace(still, "")
+    timed = seed == 1
+    H = f"{a}*sqrt(p_x^2 + {b}*p_y^2)*(1 + {c}*{other}^2{'*cos(t)' if timed else ''})"
+    account = explain(derive(f'{{coordinates: [x, y], H: "{H}"}}'), ("equilibria",))
+    assert [step.title for step in account.steps] == [
+        "The Hamiltonian",
+        "Canonical equations",
+        "Conserved quantities",
+    ]
+    told = " ".join(words(account, step.title) for step in account.steps)
+    assert "homogeneous of first degree" in told
+    assert ("So it is conserved." in told) is not timed
+    assert told.count("is constant.") == 1
+    assert any("needs a Lagrangian" in warning for warning in account.warnings)
+
+
+def test_an_h_of_another_degree_is_not_called_homogeneous():
+    """H = x p + 1 is linear in p, and p q' - H is -1."""
+    account = explain(derive("{coordinates: [x], H: x*p_x + 1}"))
+    assert "homogeneous" not in words(account, "The Hamiltonian")
