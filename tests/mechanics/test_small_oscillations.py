@@ -560,3 +560,19 @@ def test_an_unstable_top_on_a_smooth_floor_falls_alike_in_all_directions():
     assert [(to_grammar(m.frequency_squared), m.multiplicity) for m in found] == [
         ("-m*g*l/A", 2), ("0", 3),
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_corner_of_the_wire_has_no_small_oscillations(seed):
+    """y = b x² + a |x|, with no corner for a = 0: w² = 2 b g, whatever c x² |x| is added."""
+    source = Random(seed)
+    b, c = source.randint(1, 5), source.randint(0, 3)
+    a = source.choice([0, 0, 1, 2])
+    found = modes(
+        dynamics(
+            "coordinates: {x: {}, y: {}}\nparameters: {m: POSITIVE, g: POSITIVE}\n"
+            "T: m*(x'^2 + y'^2)/2\nV: m*g*y\n"
+            f"constraints: {{wire: 'y = {b}*x^2 + {a}*abs(x) + {c}*x^2*abs(x)'}}"
+        )
+    ).modes
+    assert [normal(m.frequency) for m in found or ()] == ([] if a else formulas(f"sqrt({2 * b}*g)"))

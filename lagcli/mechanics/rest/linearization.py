@@ -127,11 +127,12 @@ class Linearization:
 
     @cached_property
     def smooth(self) -> bool:
-        """Whether the forces have a derivative there: |v| v has one at 0, |x| has none."""
+        """Whether forces and constraints have derivatives there: |v| v has one at 0, |x| has none."""
         state = (*self.system.q, *self.system.qdot)
+        rows = (row for each in self.dynamics.constraints.equations for row in each.row)
         return all(
             self._vanish([node.args[0]]) is False or self._vanish(_steps(force, node, state))
-            for force in self.dynamics.lagrange.forcing
+            for force in (*self.dynamics.lagrange.forcing, *rows)
             for node in force.atoms(sympy.sign, sympy.Abs)
             if not free_of(node, state)
         )
