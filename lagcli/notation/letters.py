@@ -24,7 +24,7 @@ _OWN = "&"
 #: What a sentence says where a letter is the file's; the first that fits counts.  In T' and
 #: T = 0 it is the file's.
 _WORDS = (
-    ("T + V", "TV", "the sum of the kinetic and the potential energy"),
+    (r"\bT \+ V\b", "TV", "the sum of the kinetic and the potential energy"),
     (r"\bL\b(?!['(]| [=><≠])", "L", "the Lagrangian"),
     (r"\bH\b(?!['(]| [=><≠])", "H", "the Hamiltonian"),
     (r"\bV\b(?!['(]| [=><≠])", "V", "the potential energy"),
@@ -33,6 +33,8 @@ _WORDS = (
     (r"^S = ", "S", "S_sys = "),
     (r"\bthe derivative of S\b", "S", "the derivative of the action"),
 )
+#: Names there are those of the file.
+_OF_THE_FILE = re.compile(r"(\bthe functions? .*? (?:is|are) not specified)")
 _LETTERS = re.compile(
     r"(?<![\w'])(T \+ V|[LH]|T(?= is | plus )|V(?= depends | without )|t(?= explicitly))(?![\w'])"
 )
@@ -57,11 +59,12 @@ def settled(page: Page, taken: Collection[str]) -> Page:
 
 def sentence(text: str, taken: Collection[str]) -> str:
     """The sentence with words for the letters that are taken."""
+    parts = _OF_THE_FILE.split(text)
     for pattern, letters, words in _WORDS:
         clash = letters in taken or (len(letters) == 2 and any(x in taken for x in letters))
         if clash:
-            text = re.sub(pattern, words, text)
-    return text
+            parts[::2] = (re.sub(pattern, words, part) for part in parts[::2])
+    return "".join(parts)
 
 
 def _settled(value: Any, taken: Collection[str]) -> Any:
