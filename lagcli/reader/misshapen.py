@@ -237,7 +237,8 @@ def key_by_shape(value: DocumentNode, problem: Mapping) -> str | None:
         numbers = [isinstance(v, Scalar) and is_constant("x", v.value) for _, v in value.entries]
         if all(numbers):
             listed = given.get("coordinates")
-            known = [each.value for each in getattr(listed, "items", ())]
+            items = getattr(listed, "items", ())
+            known = [each.value for each in items if isinstance(each, Scalar)]
             known += [key.label for key, _ in getattr(listed, "entries", ())]
             stated = all(key.label.rstrip("'") in known for key, _ in value.entries)
             key = "initial" if stated else "parameters"

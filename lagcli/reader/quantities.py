@@ -346,7 +346,10 @@ def _list_advice(text: str) -> str:
         return f"write {{{listed}}}" if pairs else f"write [{listed}]"
     if re.search(r"\d,\d+\s*(?:;|$)", text) and (";" in text or text.count(",") == 1):
         text = re.sub(r"(?<=\d),(?=\d)", ".", text)
-    if told := re.fullmatch(r"\s*([^\W\d]\w*)\s+(?:is|=|means)\s+((?:the|a)\s+.*\S)\s*", text):
+    if told := re.fullmatch(
+        r"\s*([^\W\d]\w*)\s+(?:is|ist|est|es|è|=|means)\s+((?:the|a|der|die|das|l[ea']|el|un|une|eine?)\s*\b.*\S)\s*",
+        text,
+    ):
         return f"write {{{told[1]}: {{description: {told[2]}}}}}"
     text = re.sub(r"^([\w\s,]*\w)\s+(?:y|e|i)\s+([^\W\d]\w*\s*)$", r"\1, \2", text)
     if vector := re.fullmatch(r"\s*\w+\s*=\s*[(\[<]([\w\s,']+)[)\]>](?:\^?T)?\s*", text):

@@ -36,7 +36,7 @@ def _apart(name: str) -> str:
     digits = name[len(letters) :]
     if digits and not meaning(letters) and (two := _apart(letters)):
         return f"{two}^{digits}"
-    if name[-1:] == "s" and meaning(name[:-1]):
+    if name[-1:] == "s" and meaning(name[:-1]) and name[:-1] not in {"N", "J", "Pa", "W"}:
         return name[:-1]
     if digits and letters and meaning(letters):
         return f"{letters}^{digits}"

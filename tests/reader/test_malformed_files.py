@@ -315,3 +315,16 @@ def test_a_letter_that_is_missing_is_one_mistake_wherever_it_stands():
     text = b"coordinates: [x]\nparameters: [m]\nT: m*x'^2/2\nV: k*x^2/2 + k*x + g*x\n"
     found = read_problem("f.yaml", text).diagnostics
     assert [one.message for one in found] == ["unknown names k, g: the first stands in V"]
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "coordinates: [[x]]\nparameters_of_it: {m: 1}\nT: m*x'^2/2\n",
+        "coordinates: [x, {y: 1}]\nparameters_of_it: {m: 1}\nT: m*x'^2/2\n",
+        "coordinates: [x]\nparameters: {_: 1, m: 2}\nT: mq*x'^2/2 + mk\n",
+        "coordinates:\\theta_{2 [x]\npara)meters: {m: 1}\nT: (m*omega1^2)/2\n",
+    ],
+)
+def test_names_that_are_lists_and_the_name_of_one_underscore_are_mistakes_alone(written):
+    assert any(each.is_error for each in read_problem("f.yaml", written.encode()).diagnostics)

@@ -84,6 +84,9 @@ _LETTERS_OF_VECTORS = regex(
 _DOT_BEFORE = regex(r"(?<![\\\w.])(d)?dot\s+(?P<name>[^\W\d]\w*)")
 #: Relations in words: y is 0, N is positive, x is less than l.
 _RELATIONS = (
+    (re.compile(r"(?<=[\w)'])\s+plus\s+(?=[\w(])"), "+"),
+    (re.compile(r"(?<=[\w)'])\s+minus\s+(?=[\w(])"), "-"),
+    (re.compile(r"(?<=[\w)'])\s+times\s+(?=[\w(])"), "*"),
     (re.compile(r"\s+(?:is\s+|stays\s+|remains\s+)?(?:positive|nonnegative)\s*$"), ">= 0"),
     (re.compile(r"\s+(?:is\s+)?(?:greater|larger|bigger|more)\s+than\s+"), ">"),
     (re.compile(r"\s+(?:is\s+)?(?:less|smaller)\s+than\s+"), "<"),

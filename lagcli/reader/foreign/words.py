@@ -84,12 +84,13 @@ def parts_of(word: str, names: Vocabulary) -> list[str]:
     apart = unicodedata.normalize("NFD", word)
     letters = {BY_NAME[each] for each in names.known if each in BY_NAME}
     lowered = {each.replace("_", "").translate(_LOWERED) for each in names.known}
-    spelled = sorted({*names.known, *letters, *lowered, *FUNCTIONS}, key=len, reverse=True)
+    spelled = {*names.known, *letters, *lowered, *FUNCTIONS} - {""}  # of the name _
+    longest_first = sorted(spelled, key=len, reverse=True)
 
     def split(text: str) -> list[str] | None:
         if not text:
             return []
-        for each in (unicodedata.normalize("NFD", name) for name in spelled):
+        for each in (unicodedata.normalize("NFD", name) for name in longest_first):
             end = len(each)
             while text.startswith(each) and text[end : end + 1] in _DOTS and end < len(text):
                 end += 1
