@@ -21,7 +21,7 @@ _ZERO = 1e-25  # of 40 digits: those of a number that is not 0 do not cancel so 
 
 def vanishing_factors(equation: Expr, unknowns: Sequence[Symbol]) -> list[Expr] | None:
     """The factors that can vanish: None for 0 = 0, empty for a contradiction."""
-    equation = _without_signs(equation)
+    equation = _of_exponents(_without_signs(equation), unknowns)
     field = Field([equation], closed=True)
     try:
         element = field(equation)
@@ -48,6 +48,24 @@ def vanishing_factors(equation: Expr, unknowns: Sequence[Symbol]) -> list[Expr] 
     # sin(y - 2 x) is not multiplied out: its roots are y = 2 x + n pi
     whole = len(open_) == 1 and not field.ring.used(element.denominator)
     return [equation] if whole and _is_one_wave(equation, unknowns) else open_
+
+
+def _of_exponents(equation: Expr, unknowns: Sequence[Symbol]) -> Expr:
+    """u - v - ln(-b/a) for a exp(u) + b exp(v) with constants a and b of opposite signs."""
+    terms = sympy.Add.make_args(sympy.expand(equation, power_exp=False))
+    if len(terms) != 2:
+        return equation
+    parts = []
+    for term in terms:
+        exponentials = [f for f in sympy.Mul.make_args(term) if f.func is sympy.exp]
+        size = term / sympy.Mul(*exponentials)
+        if not free_of(size, unknowns) or sign(size) not in (1, -1):
+            return equation
+        parts.append((size, sympy.Add(*(f.args[0] for f in exponentials))))
+    (a, u), (b, v) = parts
+    if sign(a) == sign(b) or free_of(u - v, unknowns):
+        return equation
+    return u - v - sympy.log(-b / a)
 
 
 def _is_one_wave(equation: Expr, unknowns: Sequence[Symbol]) -> bool:

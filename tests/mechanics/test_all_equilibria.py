@@ -10,6 +10,7 @@ import random
 from itertools import pairwise
 
 import pytest
+import sympy
 from sympy import Rational, cos, expand, lambdify, pi, sin, symbols
 
 from lagcli.algebra.equations import solve_for
@@ -573,3 +574,25 @@ def test_a_power_with_an_open_exponent_may_vanish_with_its_base(coordinate, expo
     )
     places = [float(p.values[rest.system.q[0]]) for p in rest.points or ()]
     assert places == [0] or not (rest.complete and rest.points is not None)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_chain_of_exponential_springs_rests_at_equal_forces_and_nowhere_else(seed):
+    """V = sum a_i exp(u_i - u_j) around a ring is convex, so that its equilibria are one line:
+    a_1 exp(u_1 - u_2) = a_2 exp(u_2 - u_3) = …; Toda, *Theory of Nonlinear Lattices*."""
+    given = random.Random(seed)
+    n, rate = given.choice([2, 3]), given.randint(1, 3)
+    a = [given.randint(1, 9) for _ in range(n)]
+    names = given.sample("uvwxyz", n)
+    ring = " + ".join(f"{a[k]}*exp({rate}*({names[k]} - {names[(k + 1) % n]}))" for k in range(n))
+    T = " + ".join(f"{x}'^2/2" for x in names)
+    section = equilibria(
+        derive(f'{{coordinates: [{", ".join(names)}], T: "{T}", V: "{ring}"}}').dynamics
+    )
+    [found] = section.equilibria
+    assert section.complete
+    [free] = found.free
+    at = {name: float(sympy.sympify(to_grammar(found.at[name]).replace("^", "**"), locals={free: 0}))
+          if name != free else 0.0 for name in names}  # fmt: skip
+    pulls = [a[k] * math.exp(rate * (at[names[k]] - at[names[(k + 1) % n]])) for k in range(n)]
+    assert pulls == pytest.approx([pulls[0]] * n)
