@@ -13,6 +13,7 @@ from lagcli.record import replace
 from lagcli.statements.answers import EquilibriaSection, Equilibrium
 from lagcli.statements.motions import Above, SteadyMotion, SteadySection, Verdict
 from lagcli.verification.claims.eliminated import reduced_momenta
+from lagcli.verification.claims.held import stays_held
 from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues_of_motion, occur
 from lagcli.verification.claims.poles import refuted_at_a_pole
 from lagcli.verification.claims.rest import (
@@ -62,7 +63,9 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
                 x.refute(what, "a coordinate with a value is called free")
                 return replace(section, equilibria=None, reason=not_confirmed("an equilibrium"))
             if each.sticking or each.kinked:
-                x.unchecked.append(what)
+                place = RestPlace(x, what, each.at, {}, each.on, each.where)
+                if not stays_held(x, what, place, each):
+                    return replace(section, equilibria=None, reason=not_confirmed("an equilibrium"))
                 found.append(each)
                 continue
             y = without_open(x, each.open)
