@@ -51,3 +51,8 @@ def test_a_root_is_real_and_finite_just_where_the_note_says_so(seed):
             continue  # 0/0, or a divisor of the formula itself, which is said elsewhere
         value = root.subs(values)
         assert bool(value.is_real and value.is_finite) is all(holds(r, values) for r in remarks)
+
+
+def test_what_is_real_everywhere_is_not_remarked():
+    """sqrt(c² + a d²/b): squares over what is positive."""
+    assert not list(real_where([sympy.sqrt(c**2 + a * d**2 / b)]))

@@ -10,7 +10,6 @@ from lagcli.algebra import simplify
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.positivity import deciding, weak_sign
 from lagcli.algebra.real_roots import not_negative_where_real
-from lagcli.algebra.signs import sign_beside_zero
 from lagcli.expression import Expression
 
 Remark = str | tuple[str | Expr, ...]
@@ -36,7 +35,7 @@ def real_where(roots: Iterable[Expr]) -> Iterator[Remark]:
     """What arccosines, arcsines and square roots of parameters ask for to be real and finite."""
     roots = tuple(roots)
     bounds = (simplify(bound) for root in roots for bound in not_negative_where_real(root))
-    open_ = (deciding(bound) for bound in bounds if sign_beside_zero(bound) is None)
+    open_ = (deciding(bound) for bound in bounds if weak_sign(bound) is None)
     divisors = {
         factor
         for root in roots

@@ -127,7 +127,7 @@ class Linearization:
 
     @cached_property
     def smooth(self) -> bool:
-        """Whether forces and constraints have derivatives there: |v| v has one at 0, |x| has none."""
+        """Whether forces and constraints have derivatives there: |v| v has one at 0, |x| none."""
         state = (*self.system.q, *self.system.qdot)
         rows = (row for each in self.dynamics.constraints.equations for row in each.row)
         return all(
