@@ -189,6 +189,13 @@ class _Composer:
             if split is None or not isinstance(key, Scalar):
                 mended += [key, value]
                 continue
+            equations = [each for each in values if isinstance(each, Scalar) and "=" in each.value]
+            if equations and "=" in key.value and split["key"] not in SECTIONS:
+                message = f"the equation '{key.value}' has no name"
+                self._report(key.start, key.end, message, f"write name: {key.value}")
+                value = Scalar(self.text, key.start, key.end, key.value, "", True)
+                mended += [Scalar(self.text, key.start, key.start, "name", "", True), value]
+                continue
             hint = f"write {split['key']}: {split['value']}"
             self._report(key.start, key.end, f"': ' is missing behind '{split['key']}'", hint)
             at = key.start + split.start("value")

@@ -51,6 +51,14 @@ def _closed(line: str) -> str:
     return line.rstrip().rstrip(",") + "".join(reversed(open_)) if open_ else line
 
 
+def _without_last(line: str) -> str:
+    """`[x]` for `[x]]`."""
+    found = re.fullmatch(r"(.*([\]}]))\2\s*", line)
+    opened = {"]": "[", "}": "{"}
+    is_left = found is not None and line.count(found[2]) > line.count(opened[found[2]])
+    return found[1] if found is not None and is_left else line
+
+
 def _paired(line: str) -> str:
     """`[x]` for `[x)`, and `"x"` for `"x'`."""
     found = re.fullmatch(r"(\s*[\w ]+:\s+)([\[{\"'])(.*)([\]})\"'])\s*", line)
@@ -147,6 +155,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"\s+#\s*([^\]}#]*)([\]}]+)\s*$", r"\2  # \1", line),
     lambda line: re.sub(r"(?<=[\w)])\s+\[[\w*/^ ]+\](?=\s*[,}])", "", line),
     _paired,
+    _without_last,
     _with_points,
     lambda line: line.replace(";", ",") if re.search(r"[\[{].*;", line) else line,
     lambda line: re.sub(r"\s+(?:%|--|;)\s*(?=\S)", "  # ", line, count=1),
