@@ -19,6 +19,7 @@ from sympy import Expr
 
 from lagcli.algebra import Shapes, dot, is_zero, left_nullspace, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
+from lagcli.algebra.linear import LinearSolution
 from lagcli.algebra.numeric import DIGITS
 from lagcli.algebra.row_rank import independent_rows
 from lagcli.diagnostics import Diagnostic, ProblemError
@@ -179,12 +180,7 @@ class Dynamics:
     @cached_property
     def motion(self) -> SolvedMotion | None:
         """The verified solution; None where the system is singular or too large."""
-        kept = self.independent_constraints
-        n, m = len(self.system.q), len(kept)
-        if n + m > READABLE_UNKNOWNS:
-            return None
-        matrix, right = self._bordered
-        solution = solve_linear(matrix, right, shapes=self.shapes)
+        kept, n, solution = self.independent_constraints, len(self.system.q), self._solution
         if solution is None or solution.singular:
             return None
         chosen = [sympy.S.Zero] * len(self.constraints)
@@ -198,6 +194,19 @@ class Dynamics:
         undetermined = self._undetermined
         multipliers = tuple(None if k in undetermined else value for k, value in enumerate(chosen))
         return SolvedMotion(accelerations, multipliers, tuple(chosen), verified)
+
+    @property
+    def singular(self) -> bool:
+        """Whether the linear equations for q'' and the multipliers are known to be singular."""
+        return self._solution is not None and self._solution.singular
+
+    @cached_property
+    def _solution(self) -> LinearSolution | None:
+        """q'' and the multipliers of independent constraints; None where they are too many."""
+        if len(self.system.q) + len(self.independent_constraints) > READABLE_UNKNOWNS:
+            return None
+        matrix, right = self._bordered
+        return solve_linear(matrix, right, shapes=self.shapes)
 
     @property
     def _bordered(self) -> tuple[list[list[Expr]], list[Expr]]:

@@ -13,7 +13,7 @@ from lagcli.mechanics.branches import of_another_rank, sentence
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import SolvedMotion
 from lagcli.mechanics.readable import Readable
-from lagcli.mechanics.stating import Stating
+from lagcli.mechanics.stating import Kept, Stating
 from lagcli.notation.manner import Manner
 from lagcli.record import replace
 from lagcli.statements.answers import Answers, Section
@@ -72,6 +72,10 @@ class Statements(Stating):
             [[write(self.as_written(entry)) for entry in row] for row in lagrange.mass_matrix],
             [write(self.by_terms(force)) for force in lagrange.forcing],
         )
+
+    def abbreviated(self, find: Callable[[ClosedForm], Kept | None]) -> Kept | None:
+        """A closed form with its abbreviations noted; None where there is none, or no pivot."""
+        return None if self.dynamics.singular else super().abbreviated(find)
 
     # -- shapes ---------------------------------------------------------------------------
 
