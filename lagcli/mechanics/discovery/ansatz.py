@@ -25,6 +25,7 @@ from lagcli.mechanics.discovery.spectrum import (
     differences,
     exponents,
     forced_motion,
+    has_unsolved_exponents,
     sums,
 )
 from lagcli.mechanics.discovery.time_dependent import of_changing_coefficients
@@ -43,6 +44,7 @@ class TimeFunctions:
     exponents: tuple[Exponent, ...]
     forced: tuple[Expr, ...] = ()
     changing: bool = False  # with the solutions of a linear equation whose coefficients change
+    lacking: bool = False  # no closed form was found of exponents of linear equations
     unsolved: bool = False  # no formula is known for solutions of such an equation
 
 
@@ -78,6 +80,7 @@ def time_functions(
         tuple(found),
         tuple(f for f in forced if f != t),
         bool(changing),
+        has_unsolved_exponents(accelerations, equations.q, equations.v, t),
         not solved,
     )
 

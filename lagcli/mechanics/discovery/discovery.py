@@ -199,6 +199,11 @@ class Discovery(Setting):
         constraints = self.dynamics.constraints.equations
         search, words = self._search(self.coordinate_kinds, allowed)
         self.words.append(words)
+        if self.time_functions.lacking:
+            self.words.append(
+                "symmetries with the exponents of the linear equations were not sought where no "
+                "closed form was found for these"
+            )
         if self.time_functions.unsolved:
             self.stopped.append(
                 "symmetries made of the solutions of the linear part, whose coefficients change, "

@@ -47,13 +47,37 @@ def exponents(
     accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
 ) -> list[Exponent]:
     """The exponents of the linear part, none of them 0, none twice."""
-    n = len(q)
-    rows = [_linear_part(x, [*q, *v], t) for x in accelerations]
     found: list[Exponent] = []
+    for determinant, lam in _characteristic(accelerations, q, v, t):
+        for exponent in roots_of(determinant, lam) if determinant is not None else ():
+            _keep(found, exponent)
+    return found
+
+
+def has_unsolved_exponents(
+    accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
+) -> bool:
+    """Whether linear equations have exponents without a closed form here."""
+    parts = [a.diff(x) for a in accelerations for x in (*q, *v)]
+    if any(part.free_symbols & {*q, *v, t} for part in parts):
+        return False
+    return any(
+        determinant is None
+        or any(factor.degree() and not _roots(factor) for factor, _ in _factors(determinant, lam))
+        for determinant, lam in _characteristic(accelerations, q, v, t)
+    )
+
+
+def _characteristic(
+    accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
+) -> Iterator[tuple[Expr | None, Symbol]]:
+    """det(lambda^2 - C lambda - K) of coupled coordinates; None of too many."""
+    n, lam = len(q), Symbol("#lambda", real=True)
+    rows = [_linear_part(x, [*q, *v], t) for x in accelerations]
     for block in _blocks(rows, n):
         if len(block) > _LARGEST_BLOCK:
+            yield None, lam
             continue
-        lam = Symbol("#lambda", real=True)
         matrix = sympy.Matrix(
             [
                 [
@@ -63,21 +87,23 @@ def exponents(
                 for i in block
             ]
         )
-        for exponent in roots_of(matrix.det(method="berkowitz"), lam):
-            _keep(found, exponent)
-    return found
+        yield matrix.det(method="berkowitz"), lam
 
 
 def roots_of(determinant: Expr, lam: Symbol) -> Iterator[Exponent]:
     """The exponents that a characteristic equation has, by its factors."""
+    for factor, multiplicity in _factors(determinant, lam):
+        for exponent in _roots(factor):
+            yield Exponent(exponent.growth, exponent.frequency, multiplicity > 1)
+
+
+def _factors(determinant: Expr, lam: Symbol) -> list[tuple[sympy.Poly, int]]:
     numerator = sympy.numer(sympy.together(sympy.expand(determinant)))
     try:
         factors = sympy.factor_list(numerator, lam)[1]
     except sympy.PolynomialError:
-        return
-    for factor, multiplicity in factors:
-        for exponent in _roots(factor.as_poly(lam)):
-            yield Exponent(exponent.growth, exponent.frequency, multiplicity > 1)
+        return []
+    return [(factor.as_poly(lam), multiplicity) for factor, multiplicity in factors]
 
 
 def differences(found: Sequence[Exponent], most: int = 8) -> list[Exponent]:
