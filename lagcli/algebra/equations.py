@@ -9,6 +9,7 @@ from collections.abc import Sequence
 
 import sympy
 from sympy import Expr, Symbol
+from sympy.simplify.fu import TR8
 
 from lagcli.algebra.build import free_of
 from lagcli.algebra.circular_roots import angle_roots, hyperbolic_roots, logarithms
@@ -91,6 +92,8 @@ def solve_for(expression: Expr, unknown: Symbol) -> Roots | None:
         return None
     angles = angle_roots(field, poly, cosine)
     if angles is None:
+        angles = _in_sums(expression.xreplace({unknown: unknown / factor}), unknown)
+    if angles is None:
         return None
     angles = [rounded(angle) for angle in angles]
     if factor == 1:
@@ -167,6 +170,15 @@ def _between_two_powers(expression: Expr, unknown: Symbol) -> Roots | None:
         constant, exponent = 1 / constant, -exponent
     value = (1 / constant) ** (1 / exponent)
     return solve_for(base - value, unknown) if side == 1 else Roots((), angle=False)
+
+
+def _in_sums(expression: Expr, unknown: Symbol) -> list[Expr] | None:
+    """The angles by sines of multiple angles that have a common one: a - k sin(2 x)/2 = 0."""
+    sums = sympy.expand(TR8(sympy.expand(expression)))
+    if common_multiple(sums, unknown) == 1:
+        return None
+    found = solve_for(sums, unknown)
+    return None if found is None else list(found.values)
 
 
 def _over_all_turns(angles: Sequence[Expr], n: int) -> tuple[Expr, ...]:

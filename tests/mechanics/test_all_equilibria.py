@@ -596,3 +596,32 @@ def test_a_chain_of_exponential_springs_rests_at_equal_forces_and_nowhere_else(s
           if name != free else 0.0 for name in names}  # fmt: skip
     pulls = [a[k] * math.exp(rate * (at[names[k]] - at[names[(k + 1) % n]])) for k in range(n)]
     assert pulls == pytest.approx([pulls[0]] * n)
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("length", ["1", "b"])
+def test_products_of_sines_with_a_constant_force_are_solved_by_a_double_angle(seed, length):
+    """V = k f(x) g(x) + a x: V' is a sine of 2 x and a constant; all its zeros in one period."""
+    draw = random.Random(seed)
+    f, g = draw.choice(("cos", "sin")), draw.choice(("cos", "sin"))
+    k, a = draw.randint(2, 5), draw.randint(1, 3)
+    V = f"{k}*c*{f}(x/{length})*{g}(x/{length}) + {a}*c*x/({length}*4)"
+    rest = RestPoints(
+        derive(
+            "coordinates: [x]\nparameters: {b: {assume: positive}, c: {assume: positive}}\n"
+            f"T: x'^2/2\nV: {V}\n"
+        ).dynamics
+    )
+    assert rest.complete
+    [x] = rest.system.q
+    known = {p: {"b": 0.7, "c": 1}[p.name] for p in rest.system.parameters}
+    scale = 0.7 if length == "b" else 1
+    found = [float(p.values[x].subs(known)) / scale for p in rest.points]
+    u = symbols("u", real=True)
+    slope = lambdify(u, (k * {"cos": cos, "sin": sin}[f](u) * {"cos": cos, "sin": sin}[g](u)
+                         + Rational(a, 4) * u).diff(u))  # fmt: skip
+    assert all(abs(slope(value)) < 1e-9 for value in found)
+    grid = [math.pi * n / 9973 + 0.0003 for n in range(9974)]
+    zeros = sum((slope(s) > 0) != (slope(t) > 0) for s, t in pairwise(grid))
+    classes = {round(math.sin(2 * v), 6) + 10 * round(math.cos(2 * v), 6) for v in found}
+    assert len(classes) == zeros

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
-from itertools import islice, product
+from itertools import chain, islice, product
 
 import mpmath
 import sympy
@@ -211,7 +211,7 @@ class RestPoints(RestConditions):
         q = self.system.q
         if len(q) != 1 or len(solutions) < 2 or self.dynamics.constraints.equations:
             return solutions
-        period = least_period([self.system.L, *self.system.applied_forces], q[0])
+        period = least_period([*chain(*self.mass_matrix), *self.forcing], q[0])
         if period is None or any(list(each.values) != list(q) for each in solutions):
             return solutions
         kept = one_of_each((each.values[q[0]] for each in solutions), period)
