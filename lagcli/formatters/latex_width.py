@@ -17,15 +17,20 @@ BINARY, RELATION = 12.3, 13.4
 THIN_SPACE = 1.7
 QUAD = 10.0
 
-# The wider of cmmi10 and cmr10, with the italic correction.
+# The wider of cmmi10 and cmr10, with the italic correction (Knuth, Computer Modern Typefaces).
 _WIDTHS = {
-    **dict.fromkeys("ijl,.;:'|!", 4.4),
-    **dict.fromkeys("()[]frst", 5.2),
+    **dict.fromkeys("ijl,.;:'|!", 4.7),
+    **dict.fromkeys("()[]", 5.2),
     **dict.fromkeys("0123456789", 5.05),
-    **dict.fromkeys("abcdeghknopquvxyz", 5.9),
-    **dict.fromkeys("mwMW", 10.8),
-    **dict.fromkeys("IJ", 6.6),
-    **dict.fromkeys("ABCDEFGHKLNOPQRSTUVXYZ", 9.1),
+    **dict.fromkeys("crst", 4.8),
+    **dict.fromkeys("aegoqvyz", 5.3),
+    **dict.fromkeys("bdhkpux", 5.8),
+    **dict.fromkeys("fn", 6.0),
+    **dict.fromkeys("wm", 8.8),
+    **dict.fromkeys("IJLS", 6.8),
+    **dict.fromkeys("ABCEFGOPQRTUVYZ", 8.1),
+    **dict.fromkeys("DHKNX", 9.2),
+    **dict.fromkeys("MW", 10.8),
 }
 _OTHER = 8.5
 
