@@ -437,3 +437,18 @@ def test_what_linear_equations_have_without_a_closed_form_is_said_not_to_be_soug
     of_first_degree = [c for c in discovery.point_charges if c.name != "energy"]
     said = any("were not sought where no closed form" in word for word in discovery.words)
     assert (len(of_first_degree) >= 4, said) == (closed, not closed)
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("turning", [False, True])
+def test_what_is_linear_in_the_velocities_is_no_energy_of_a_coordinate(seed, turning):
+    """m x'^2/2 + k x^2/2 of a saddle at rest; where it turns, x and y are coupled."""
+    given = Random(seed)
+    a, b, w = given.randint(1, 9), given.randint(1, 9), given.randint(1, 5) if turning else 0
+    text = (
+        f"{{coordinates: [x, y], parameters: {{k: {POS}, w: {POS}}}, "
+        f"L: \"((x' - {w}*w*y)^2 + (y' + {w}*w*x)^2)/2 - k*({a}*x^2 - {b}*y^2)/2\"}}"
+    )
+    found = names_of(text)
+    assert ("energy_x" in found) is not turning
+    assert len(found) >= 2

@@ -47,7 +47,19 @@ class HiddenNames:
         self._tensors = list(self._known_tensors())
 
     def of(self, functions: Sequence[tuple[Slot, Expr]], charge: NoetherCharge) -> tuple[str, Expr]:
-        """The name, empty for none, and the factor that makes the charge the textbook's."""
+        """The name, empty for none, and the factor that makes the charge the textbook's.
+
+        What is linear in the velocities, too, as in a turning frame, is no energy of a coordinate.
+        """
+        name, factor = self._named(functions, charge)
+        back = dict(zip(self.v, (-v for v in self.v), strict=True))
+        Q = charge.charge
+        odd = name.startswith("energy") and is_zero(Q - Q.xreplace(back)) is not True
+        return ("", sympy.S.One) if odd else (name, factor)
+
+    def _named(
+        self, functions: Sequence[tuple[Slot, Expr]], charge: NoetherCharge
+    ) -> tuple[str, Expr]:
         if any(self.t in f.free_symbols for _, f in functions):
             return self._timed(functions)
         if functions and all(not (f.free_symbols & set(self.q)) for _, f in functions):
