@@ -143,11 +143,15 @@ class Hamiltonian:
 
     @property
     def shifts(self) -> dict[Symbol, Expr]:
-        """What of each momentum does not vanish with the velocities: q A of m x' + q A."""
+        """What of each momentum does not vanish with the velocities: q A of m x' + q A.
+
+        A momentum that has no value at rest, as that of sqrt(x'^2 + y'^2), has none.
+        """
         still = dict.fromkeys(self.system.qdot, sympy.S.Zero)
         momenta = self.dynamics.lagrange.momenta
         at_rest = (simplify(p.xreplace(still)) for p in momenta)
-        return {p: b for p, b in zip(self.system.momenta, at_rest, strict=True) if b != 0}
+        pairs = zip(self.system.momenta, at_rest, strict=True)
+        return {p: b for p, b in pairs if b != 0 and not b.has(*NO_VALUE)}
 
     @property
     def canonical_equations(self) -> tuple[tuple[Expr, Expr], ...] | None:
