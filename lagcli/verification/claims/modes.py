@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from flint import arb, ctx
 
-from lagcli.expression import ZERO, Call, Expression, Number, Power, Product, Quotient
+from lagcli.expression import Call, Expression, Number, Power, Product, Quotient
 from lagcli.record import replace
 from lagcli.statements.answers import ModesOfFrequency, ModesSection, Pole
 from lagcli.verification.claims.near import NOTHING, LinearMotion, eigenvalues, occur
@@ -94,8 +94,10 @@ def _squares(
             continue
         if mode.frequency is not None:
             W = [near.at(p) ** 2 for p in x.places(what, [mode.frequency]) or ()]
-        else:
-            W = [near.at(p) for p in x.places(what, [mode.frequency_squared or ZERO]) or ()]
+        elif mode.frequency_squared is not None:
+            W = [near.at(p) for p in x.places(what, [mode.frequency_squared]) or ()]
+        else:  # roots that are not real
+            continue
         found += W * mode.multiplicity
     return found
 

@@ -11,7 +11,7 @@ with given momenta.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from math import pi
+from math import ceil, pi
 from random import Random
 
 from flint import arb, ctx
@@ -137,8 +137,14 @@ class Balance:
         return None
 
     def _counts(self, near: LinearMotion) -> bool:
-        """Whether it is a regular place that the file allows, within two turns of the origin."""
+        """Whether it is a regular place that the file allows, within two turns of the origin.
+
+        What is a whole number of turns away from a place in (-pi, pi] counts as that place.
+        """
         x = self.x
+        turned = self._within_a_turn(near)
+        if turned is not None and self.is_period(near, turned):
+            return False
         places = (float(near.environment[n, 0].mid()) for n in x.reference.names)
         if not all(abs(place) < 4 * pi for place in places):
             return False
@@ -150,6 +156,16 @@ class Balance:
             return False
         held = (c.holds_while for c in x.problem.constraints)
         return all(h is None or _holds(x, near, h) for h in held)
+
+    def _within_a_turn(self, near: LinearMotion) -> LinearMotion | None:
+        """The same with each coordinate in (-pi, pi]; None where all are."""
+        environment = dict(near.environment)
+        for n in self.x.reference.names:
+            turns = ceil((float(environment[n, 0].mid()) - pi - _SAME) / (2 * pi))
+            if turns:
+                environment[n, 0] = environment[n, 0] - 2 * turns * arb.pi()
+        same = all(environment[key] is value for key, value in near.environment.items())
+        return None if same else LinearMotion(self.x, environment)
 
     def is_period(self, near: LinearMotion, listed: LinearMotion) -> bool:
         """Whether the laws at places this far from each other are the same."""
