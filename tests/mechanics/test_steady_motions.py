@@ -596,3 +596,22 @@ def test_two_cyclic_coordinates_turn_in_either_sense_each(i, j):
             for sense in (1, -1) if each.mirrored else (1,):
                 turning.add((sense * a > 0, sense * b > 0))
     assert len(turning) == 4
+
+
+@pytest.mark.parametrize("n", [1, 2, 5])
+def test_a_circular_orbit_is_stable_where_its_inertia_is_positive_with_it(n):
+    """About f = 1 - n k/r beyond 3 n k, three horizons: Hartle, Gravity, section 9.3."""
+    [orbit] = motions(
+        "coordinates: {r: POSITIVE, u: {}, a: {}}\nparameters: {k: POSITIVE}\n"
+        f"L: (-(1 - {n}*k/r)*u'^2 + r'^2/(1 - {n}*k/r) + r^2*a'^2)/2"
+    )
+    assert orbit.verdict.stable is None
+    assert orbit.verdict.minimum
+    assert not orbit.verdict.spectrum
+    for r, k in ((2, 1), (1, 1), (4, 1.1), (4.2, 1.5), (9, 0.7)):
+        at = {"r": r, "k": k, "p_a": 0.6, "p_u": 0.8, "u'": 0.4, "a'": 0.3}
+        holds = [
+            evaluated(c.left, at, FUNCTIONS) > evaluated(c.right, at, FUNCTIONS)
+            for c in orbit.verdict.minimum
+        ]
+        assert all(holds) == (r > 3 * n * k)

@@ -37,6 +37,12 @@ def test_a_steady_motion_that_is_left_out_is_missed(left_out: int) -> None:
     assert any("no other steady motion" in each for each in warnings)
 
 
+@pytest.mark.parametrize("V", ["k*abs(x^2 - b^2)", "k*x*abs(x)", "k*abs(x) + b*x^2"])
+def test_a_kink_has_no_frequency_that_could_be_left_out(V: str) -> None:
+    _, _, section = derived("x", f"T: m*x'^2/2\nV: {V}", "steady_motions")
+    assert section.motions
+
+
 @pytest.mark.parametrize("power", [-1, 1, 2])
 def test_a_steady_motion_at_a_rate_that_stays_free_is_complete(power: int) -> None:
     """dy/dz of circular orbits in the metric -f dz² + dx²/f + x² dy², f = 1 - k x^power."""

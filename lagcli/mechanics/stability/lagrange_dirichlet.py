@@ -18,12 +18,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 
-from sympy import Dummy, Expr, Symbol, count_ops
+from sympy import Dummy, Expr, Mul, Symbol, count_ops, prod
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.determinants import determinant
 from lagcli.algebra.place import at
-from lagcli.algebra.positivity import sign_of, weak_sign
+from lagcli.algebra.positivity import deciding, sign_of, weak_sign
 from lagcli.mechanics.inequalities import contradictory
 from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.mechanics.stability.higher import (
@@ -55,7 +55,7 @@ _FLAT = "{V} has no second derivative there"
 def by_minimum(near: Near) -> Stability | None:
     """The verdict by the second derivatives of V; None where a hypothesis is not known to hold."""
     if near.hypotheses.lacking:
-        return None
+        return _where_inertia_is_positive(near)
     open_: list[tuple[Expr, ...]] = []
     for curvatures in near.curvatures:
         signs = near.signs(curvatures)
@@ -85,6 +85,22 @@ def by_minimum(near: Near) -> Stability | None:
             derivatives, near.positive, partial(_is_free, near.linear), near.linear.M[0][0]
         ),
     )
+
+
+def _where_inertia_is_positive(near: Near) -> Stability | None:
+    """Of one freedom, if its inertia m is positive where k/m is: r > 2 M where r > 6 M.
+
+    Where k/m is negative, one root is positive, whatever the sign of m.
+    """
+    linear = near.linear
+    if len(linear.M) != 1 or not near.has_energy or linear.nonholonomic or not linear.regular:
+        return None
+    m, k = linear.M[0][0], linear.K[0][0]
+    square = deciding(simplify(k / m), near.positive)
+    odd = prod(f for f in Mul.make_args(square) if not (f.is_Pow and f.exp.is_even))
+    if sign_of(square, near.positive) is not None or sign_of(m, (*near.positive, odd)) != 1:
+        return None
+    return Stability(by=_theorem(near), asymptotic=near.decays, minimum=(square,), reverses=True)
 
 
 def _is_free(linear: Linearization, values: Mapping[Symbol, Expr]) -> bool:
