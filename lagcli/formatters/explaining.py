@@ -7,6 +7,7 @@ from importlib import import_module
 
 from lagcli.document import Block, Document, Heading, Paragraph
 from lagcli.formatters.options import Options
+from lagcli.notation.letters import names_in, with_names
 from lagcli.statements.explanation import Explanation
 
 #: The formats that set pages; `json` lists the steps.
@@ -40,7 +41,8 @@ def to_document(explanation: Explanation) -> Document:
         blocks += [Heading(f"{number}. {step.title}"), *step.blocks]
     if explanation.warnings:
         blocks.append(Heading("Warnings"))
-        blocks += [Paragraph((warning,)) for warning in explanation.warnings]
+        names = (*explanation.coordinates, *names_in(explanation.steps))
+        blocks += [Paragraph(with_names(warning, names)) for warning in explanation.warnings]
     return Document(
         explanation.title, tuple(blocks), explanation.coordinates, explanation.symbols, prose=True
     )

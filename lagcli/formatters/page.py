@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping
 
 from lagcli.document import Block, Document, Heading, Paragraph
 from lagcli.expression import Expression
-from lagcli.notation.letters import names_in, settled
+from lagcli.notation.letters import names_in, settled, with_names
 from lagcli.notation.naming import Names
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Declaration
@@ -16,6 +16,7 @@ from lagcli.statements.wording import listed, rows_by_name
 
 def to_document(answers: Answers) -> Document:
     """Word the answers to one file, section by section."""
+    given = (*answers.coordinates, *answers.parameters, *answers.multipliers)
     blocks: list[Block] = [_system(answers)]
     declared = in_order((*answers.sections, *answers.absent))
     worded = [(Heading(each.heading), *_worded(each, answers)) for each in declared]
@@ -31,9 +32,8 @@ def to_document(answers: Answers) -> Document:
         blocks += section
     if answers.warnings:
         blocks.append(Heading("Warnings"))
-        blocks.extend(Paragraph((warning,)) for warning in answers.warnings)
+        blocks.extend(Paragraph(with_names(warning, given)) for warning in answers.warnings)
     page = Document(answers.title, tuple(blocks), answers.coordinates, answers.symbols)
-    given = (*answers.coordinates, *answers.parameters, *answers.multipliers)
     used = names_in(answers.sections) - set(answers.where)
     return settled(page, Names((*given, *answers.symbols.values(), *used)))
 

@@ -52,6 +52,25 @@ def names_in(value: object) -> set[str]:
     return {part.name for part in parts if isinstance(part, Name)} | called - FUNCTIONS.keys()
 
 
+def with_names(text: str, names: Collection[str]) -> tuple[str | Name, ...]:
+    """The sentence with names of the file as they are set: θ in "there is one at theta = 0".
+
+    One letter may be a word: it is a name with primes, or before a relation.
+    """
+    ordered = sorted((re.escape(n) for n in names), key=len, reverse=True)
+    long, short = ("|".join(n for n in ordered if (len(n) > 1) == several) for several in (1, 0))
+    either = [f"({long})('*)"] * bool(long) + [f"({short})('+|(?= [=<>≠] ))"] * bool(short)
+    if not either:
+        return (text,)
+    parts: list[str | Name] = []
+    end = 0
+    for found in re.finditer(rf"(?<![\w'])(?:{'|'.join(either)})(?![\w'(])", text):
+        name, primes = (g for g in found.groups() if g is not None)
+        parts += [text[end : found.start()], Name(name, len(primes))]
+        end = found.end()
+    return tuple(part for part in (*parts, text[end:]) if part != "")
+
+
 def settled(page: Page, taken: Collection[str]) -> Page:
     """The page with every letter of its own free of those that are taken."""
     return cast(Page, _settled(page, taken))
