@@ -412,7 +412,7 @@ def test_an_angle_that_a_force_of_its_own_gives_is_listed_once():
     assert rest.complete
 
 
-@pytest.mark.parametrize("curve", ["a*cos(x/a)", "x^2/a + a*cos(x/a)", "a*exp(-x^2/a^2)"])
+@pytest.mark.parametrize("curve", ["a*cos(x/a)", "x^2/a + a*cos(x/a)", "a*cos(x/a)*exp(-x^2/a^2)"])
 def test_an_evident_place_on_a_curve_is_that_of_its_coordinate(curve):
     """m g F'(x) + k x = 0 has no closed solution but x = 0, with y = F(0)."""
     letters = "".join(f"{name}: {{assume: positive}}, " for name in "mgka")

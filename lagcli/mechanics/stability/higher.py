@@ -88,14 +88,17 @@ def order_at_critical_values(
         [root] = roots.values
         if symbol.is_positive and sign_of(root, positive) in (0, -1):
             continue
-        if {sign_of(p.xreplace({symbol: root}), positive) for p in positive} & {0, -1}:
-            continue
-        if is_zero(mass.xreplace({symbol: root})) is not False:
+        there, others, inertia = (
+            [each.xreplace({symbol: root}) for each in group]
+            for group in (positive, derivatives, [mass])
+        )
+        if any(e.has(S.ComplexInfinity, S.NaN, S.Infinity) for e in (*there, *others, *inertia)):
+            continue  # the place goes to infinity
+        if {sign_of(p, positive) for p in there} & {0, -1} or is_zero(inertia[0]) is not False:
             continue
         if is_free({symbol: root}):
             return 0
-        others = [simplify(each.xreplace({symbol: root})) for each in derivatives]
-        return order_of_minimum(others, [p.xreplace({symbol: root}) for p in positive])
+        return order_of_minimum([simplify(each) for each in others], there)
     return None
 
 
