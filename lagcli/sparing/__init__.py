@@ -4,7 +4,7 @@
 fifty: two thirds of its time are matrices, integrals, sets of solutions, geometry, plots.
 A process that derives one small system spends most of its life there.  So SymPy's packages
 hand out their names when these are used, and whatever is used is SymPy's own.  `lagcli solve
-hoop` then takes 1.2 times the processor time of `import sympy`, and 1.5 times without.
+hoop` then takes 1.3 times the processor time of `import sympy`, and 1.5 times without.
 """
 
 from __future__ import annotations
