@@ -180,7 +180,7 @@ class Inversion:
                     values = whole.where_defined({**state, **moved})
                     if values is None or not all(map(is_real, values)):
                         continue
-                    found.add(_clear_sign(mpmath.matrix(size, size), values[1 + size :]))
+                    found.add(_clear_sign(values[1 + size :], size))
                 if not {1, -1} <= found:
                     return False
         return True
@@ -308,12 +308,11 @@ class LegendreTransform(Inversion):
         )
 
 
-def _clear_sign(matrix: Any, entries: Sequence[Any]) -> int:
-    """Of the determinant of a matrix with these entries, row by row; 0 where it is not seen."""
-    n = matrix.rows
-    for k, entry in enumerate(entries):
-        matrix[k // n, k % n] = mpmath.re(entry)
-    value, scale = mpmath.det(matrix), max(abs(mpmath.re(e)) for e in entries) ** n
+def _clear_sign(entries: Sequence[Any], n: int) -> int:
+    """Of the determinant of n rows with these entries; 0 where it is not seen."""
+    real = [mpmath.re(entry) for entry in entries]
+    value = mpmath.det(mpmath.matrix([real[k * n : (k + 1) * n] for k in range(n)]))
+    scale = max(map(abs, real)) ** n
     return 0 if abs(value) <= mpf(10) ** -(DIGITS // 2) * scale else 1 if value > 0 else -1
 
 
