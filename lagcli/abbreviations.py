@@ -21,11 +21,13 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    all_negative,
     children,
     operation_count,
     opposite,
     postorder,
     walk,
+    without_minus,
 )
 from lagcli.notation.letters import names_in
 from lagcli.notation.likeness import EVEN, ODD, SignedNumbers, parity
@@ -330,14 +332,13 @@ def _with_sign_before(node: Expression) -> Expression:
     match node:
         case Negative(operand=Negative(operand=inner)):
             return inner
-        case Product(factors=factors) if any(_is_opposite(f) for f in factors):
-            bare = tuple(_opposite(f) if _is_opposite(f) else f for f in factors)
-            minus = sum(_is_opposite(f) for f in factors) % 2
-            return Negative(Product(bare)) if minus else Product(bare)
-        case Quotient(numerator=above, denominator=below) if _is_opposite(above):
-            return opposite(_with_sign_before(Quotient(_opposite(above), below)))
-        case Quotient(numerator=above, denominator=below) if _is_opposite(below):
-            return Negative(Quotient(above, _opposite(below)))
+        case Product(factors=factors) if any(map(all_negative, factors)):
+            bare = Product(tuple(map(without_minus, factors)))
+            return Negative(bare) if sum(map(all_negative, factors)) % 2 else bare
+        case Quotient(numerator=above, denominator=below) if all_negative(above):
+            return opposite(_with_sign_before(Quotient(without_minus(above), below)))
+        case Quotient(numerator=above, denominator=below) if all_negative(below):
+            return Negative(Quotient(above, without_minus(below)))
         case Power(base=Negative(operand=base), exponent=exponent) if parity(exponent) is not None:
             power = Power(base, exponent)
             return Negative(power) if parity(exponent) else power
@@ -349,19 +350,6 @@ def _with_sign_before(node: Expression) -> Expression:
             return Sum(tuple(positive_first(terms)))
         case _:
             return node
-
-
-def _is_opposite(node: Expression) -> bool:
-    """Whether every term has a minus: −a, −a − b."""
-    terms = node.terms if isinstance(node, Sum) else (node,)
-    return all(isinstance(term, Negative) for term in terms)
-
-
-def _opposite(node: Expression) -> Expression:
-    """The same with a plus for every minus."""
-    if isinstance(node, Sum):
-        return Sum(tuple(opposite(term) for term in node.terms))
-    return opposite(node)
 
 
 # -- written out again ------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 
-from lagcli.expression import ZERO, Expression, Negative, opposite, sum_of, terms_of
+from lagcli.expression import ZERO, Expression, without_minus
 from lagcli.record import field, record
 from lagcli.units import Unit
 
@@ -115,11 +115,7 @@ def equations_of(
 
 def vanishing(values: Iterable[Expression]) -> Equations:
     """A display of 0 = each value, without a minus before all of it."""
-    found = (
-        sum_of(map(opposite, t) if all(isinstance(x, Negative) for x in t) else t)
-        for t in map(terms_of, values)
-    )
-    return equations_of((ZERO, value) for value in dict.fromkeys(found))
+    return equations_of((ZERO, value) for value in dict.fromkeys(map(without_minus, values)))
 
 
 @record

@@ -265,6 +265,16 @@ def opposite(node: Expression) -> Expression:
     return node.operand if isinstance(node, Negative) else Negative(node)
 
 
+def all_negative(node: Expression) -> bool:
+    """Whether every term has a minus: −a, −a − b."""
+    return all(isinstance(term, Negative) for term in terms_of(node))
+
+
+def without_minus(node: Expression) -> Expression:
+    """a + b for −a − b; anything else as it is."""
+    return sum_of(map(opposite, terms_of(node))) if all_negative(node) else node
+
+
 def operation_count(node: Expression) -> int:
     """How many operations a formula shows: signs, sums, products, powers, calls.
 

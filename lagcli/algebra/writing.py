@@ -20,11 +20,13 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    all_negative,
     multiple_of,
     operation_count,
     opposite,
     product_of,
     terms_of,
+    without_minus,
 )
 from lagcli.notation.ordering import Factor, Ordering, positive_first
 
@@ -352,9 +354,9 @@ def _flattened(coefficient: Fraction, factors: Iterable[Factor]) -> tuple[Fracti
                 stack.append((_modulus(inner_base), exponent * value))  # sqrt(f²) = |f|
             case Call(function="sqrt", arguments=(radicand,)):
                 stack.append((radicand, exponent / 2))
-            case Sum(terms=terms) if whole and _all_negative(base):
+            case Sum() if whole and all_negative(base):
                 coefficient = -coefficient if exponent % 2 else coefficient
-                result.append((Sum(tuple(t.operand for t in terms)), exponent))  # type: ignore[attr-defined]
+                result.append((without_minus(base), exponent))
             case _:
                 result.append((base, exponent))
     return coefficient, result
@@ -363,10 +365,6 @@ def _flattened(coefficient: Fraction, factors: Iterable[Factor]) -> tuple[Fracti
 def _modulus(node: Expression) -> Expression:
     absolute = isinstance(node, Call) and node.function in ("abs", "exp", "cosh", "sqrt")
     return node if absolute else Call("abs", (node,))
-
-
-def _all_negative(node: Sum) -> bool:
-    return all(isinstance(term, Negative) for term in node.terms)
 
 
 def _powers_of_moduli(pairs: list[Factor]) -> list[Factor]:

@@ -17,6 +17,7 @@ from lagcli.expression import (
     Product,
     Quotient,
     Sum,
+    all_negative,
     children,
     factors_of,
     opposite,
@@ -87,7 +88,7 @@ class SumSigns:
                     sign, key = signed_key(part)
                     if part is not node:
                         self._brackets.add(key)
-                    if _all_negative(part):
+                    if all_negative(part):
                         continue
                     self._file[key] = sign if self._file.get(key, sign) == sign else 0
 
@@ -171,7 +172,7 @@ class SumSigns:
             return isinstance(number, Negative)
         if (momentum := self._momenta.turned(node)) is not None:
             return momentum
-        return True if _all_negative(node) else None
+        return True if all_negative(node) else None
 
     def _constant_term(self, node: Sum) -> Expression | None:
         """The a⁴ of a⁴ − (a² − b²) x²; None where others have no square of a coordinate."""
@@ -219,10 +220,6 @@ def odd_sums(node: Expression) -> Iterator[Sum]:
             found = (odd_base(factor) for factor in (*above, *below))
             yield from (base for base, odd in found if base is not None and odd)
         stack += children(part)
-
-
-def _all_negative(node: Sum) -> bool:
-    return all(isinstance(term, Negative) for term in node.terms)
 
 
 def _squared_letter(node: Expression) -> Expression | None:
