@@ -135,35 +135,39 @@ class RandomStates:
         others = {k: e for k, e, _ in first if k not in self._open}
         self.other_surfaces = [(self._forms[k], e) for k, e in others.items()]
         yield from (state for _, e, state in first if e == self.elimination)
-        for _, _, state in self._generate():
+        for _, _, state in self._generate(self._open):
             if state not in self._kept:
                 yield state
 
     def _first_of_each_surface(self) -> list[tuple[int, Elimination, State]]:
-        """One state; where there are several surfaces, some of each that has regular ones."""
-        wanted = 1 if self.surfaces == 1 else 2 * self.surfaces
+        """One state; where there are several surfaces, two of each that has regular ones."""
         found: list[tuple[int, Elimination, State]] = []
-        try:
-            for each in islice(self._generate(), wanted):
-                found.append(each)  # noqa: PERF402 - what came before a contradiction counts
-        except Contradiction:
-            if not found:
-                raise
+        failed: list[Contradiction] = []
+        for surface in self._open:  # each by itself: few draws reach z = u = π on z = u, sin z = 0
+            try:
+                for each in islice(self._generate([surface]), 1 if self.surfaces == 1 else 2):
+                    found.append(each)  # noqa: PERF402 - what came before a contradiction counts
+            except Contradiction as contradiction:
+                failed.append(contradiction)
+        if not found:
+            raise failed[0]
         return found
 
-    def _generate(self) -> Iterator[tuple[int, Elimination, State]]:
+    def _generate(self, surfaces: Sequence[int]) -> Iterator[tuple[int, Elimination, State]]:
+        """States of the surfaces in turn; ends with a contradiction where too many draws fail."""
         with mpmath.workdps(DIGITS + _GUARD):
             source = random.Random("lagcli")
         failures: dict[int, int] = {}
         attempts = 0
         for draw in count():
             attempts += 1
-            surface = self._open[draw % self.surfaces]
+            surface = surfaces[draw % len(surfaces)]
             self._f, self._f_rows = self._surfaces[surface]
             scale = 1.0 if attempts % 3 else 0.1
             with mpmath.workdps(DIGITS + _GUARD):
                 # the branches of x^2 = y^2 or cos(x) = cos(y) are met from all sides
-                wide = attempts % 2 == 1 if len(self._kept) >= _NEAR else attempts % 3 == 0
+                often = len(self._surfaces) > 1 or len(self._kept) >= _NEAR
+                wide = attempts % 2 == 1 if often else attempts % 3 == 0
                 state = self._draw(source, scale, wide=wide)
                 if attempts > _AS_DRAWN:
                     self._adapt(state, surface)

@@ -149,3 +149,14 @@ def test_beside_another_constraint_a_power_is_refused_too(power):
     with pytest.raises(ProblemError) as refused:
         _ = derive(text % power).dynamics.independent_constraints
     assert "the derivatives of constraint 'c2' vanish" in str(refused.value.diagnostics)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("a", ["2", "-3", "3/2", "5/2"])
+def test_points_that_few_draws_reach_are_met(a):
+    """z (z - u) = 0 and sin(z) (z - a u) = 0: rank 1 on z = 0, rank 2 at z = u = n pi."""
+    text = FREE.replace("[x, y]", "[x, z, u]") + "T: m*(x'^2 + z'^2 + u'^2)/2\nV: k*x\n"
+    d = derive(f'{text}constraints: {{c1: "z^2 - z*u = 0", c2: "sin(z)*(z - ({a})*u) = 0"}}')
+    assert d.dynamics.redundant == ()
+    [told] = [w for w in Statements(d).answers(["charges"]).warnings if "rank" in w]
+    assert "the constraints have rank 1, not 2: the answers do not hold there" in told
