@@ -231,3 +231,36 @@ def test_a_ladder_that_stands_at_the_wall_falls(inertia):
         for e in equilibria(derive(ladder).dynamics).equilibria
     }
     assert verdicts == {"0": False, "pi": None}
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("outside", [True, False])
+def test_what_turns_with_a_drive_keeps_to_a_surface_that_can_only_push(seed, outside):
+    """N = m (g cos θ - R w² sin²θ) outside of a sphere, the opposite inside of it.
+
+    w² cos θ = -g/R or sin θ = 0: outside only the top is left, inside all but the top.
+    """
+    source = random.Random(seed)
+    R, g = source.randint(1, 4), source.randint(1, 9)
+    w = source.randint(g, g + 3)
+    side = "r" if outside else "-r"
+    text = (
+        f"{{coordinates: {{r: {_UP}, theta: {{assume: nonnegative}}, phi: {{}}}}, "
+        f"T: (r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2, V: {g}*r*cos(theta), "
+        f"constraints: {{s: {{equation: {side} = {R if outside else -R}, multiplier: N, "
+        f"holds_while: N >= 0}}, d: phi' = {w}}}}}"
+    )
+    section, _ = steady_motions(derive(text))
+    found = {to_grammar(value) for each in section.motions or () for value in each.at.values()}
+    expected = {0} if outside else {sympy.pi, sympy.acos(-sympy.Rational(g, R * w**2))}
+    assert {sympy.sympify(x) for x in found} == expected
+
+
+def test_what_rolls_off_a_cylinder_has_no_steady_motion_below_it():
+    text = (
+        "{coordinates: {r: {assume: positive}, theta: {}, phi: {}}, "
+        "T: r'^2 + r^2*theta'^2 + phi'^2, V: r*cos(theta), constraints: "
+        "{s: {equation: r = 3, multiplier: N, holds_while: N >= 0}, roll: phi' = 3*theta'}}"
+    )
+    section, _ = steady_motions(derive(text))
+    assert [to_grammar(each.at["theta"]) for each in section.motions or ()] == ["0"]

@@ -7,7 +7,7 @@ Pfeiffer, Glocker, *Multibody Dynamics with Unilateral Contacts* (1996), section
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cached_property
 
 from sympy import Expr, S, Symbol
@@ -17,10 +17,46 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
+from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.reduction.routh import Routh
 from lagcli.mechanics.reduction.steady_motion import Steady
 from lagcli.mechanics.rest.held import one_sided
 from lagcli.record import replace
+
+#: What is not negative on a motion, and whether it is not 0 either.
+Demand = tuple[Expr, bool]
+
+
+def demands_on_motion(dynamics: Dynamics) -> tuple[Demand, ...]:
+    """What the one-sided contacts demand, in the q and q' that the relations do not solve for."""
+    demands: list[Demand] = []
+    for each in one_sided(dynamics):
+        parts = each.demands if each.given else (each.gap,)
+        found = [dynamics.on_motion(part) for part in parts if part is not None]
+        demands += [(part, not each.given) for part in found if part is not None]
+    system, solved = dynamics.system, _solved(dynamics)
+    demands += [(q, bool(q.is_positive)) for q in solved if q.is_nonnegative]
+    flow = dict(zip(system.q, system.qdot, strict=True))
+    for q, value in reversed([(q, v) for q, v in solved.items() if q in flow]):
+        put_in = {q: value, flow[q]: system.total_derivative(value)}
+        demands = [(part.xreplace(put_in), strict) for part, strict in demands]
+    return tuple(demands)
+
+
+def pressed(demands: Iterable[Demand], positive: Iterable[Expr]) -> tuple[Expr, ...] | None:
+    """`positive` and what else is positive where all demands are met; None where one is not."""
+    known = list(positive)
+    for value, strict in demands:
+        side = sign(value, known)
+        if side == -1 or (side == 0 and strict) or weak_sign(value, known) == -1:
+            return None
+        known += [value] if side is None else []
+    return tuple(dict.fromkeys(known))
+
+
+def _solved(dynamics: Dynamics) -> dict[Symbol, Expr]:
+    relations = dynamics.constraints.relations
+    return {} if relations is None else dict(relations.solved)
 
 
 class SteadyContacts:
@@ -32,31 +68,14 @@ class SteadyContacts:
         self.system = routh.reduced.system
 
     @cached_property
-    def _demands(self) -> tuple[tuple[Expr, bool], ...]:
-        """What is not negative on the motion, and what is not 0 either, in q and q' of `full`."""
-        given = self.routh.given.dynamics
-        demands: list[tuple[Expr, bool]] = []
-        for each in one_sided(given):
-            parts = each.demands if each.given else (each.gap,)
-            found = [given.on_motion(part) for part in parts if part is not None]
-            demands += [(part, not each.given) for part in found if part is not None]
-        solved = self._solved
-        demands += [(q, bool(q.is_positive)) for q in solved if q.is_nonnegative]
-        flow = dict(zip(given.system.q, given.system.qdot, strict=True))
-        for q, value in reversed([(q, v) for q, v in solved.items() if q in flow]):
-            put_in = {q: value, flow[q]: given.system.total_derivative(value)}
-            demands = [(part.xreplace(put_in), strict) for part, strict in demands]
-        return tuple(demands)
-
-    @property
-    def _solved(self) -> dict[Symbol, Expr]:
-        relations = self.routh.given.dynamics.constraints.relations
-        return {} if relations is None else dict(relations.solved)
+    def _demands(self) -> tuple[Demand, ...]:
+        return demands_on_motion(self.routh.given.dynamics)
 
     @property
     def signed(self) -> tuple[str, ...]:
         """The coordinates that are eliminated and that the file assumes not to be negative."""
-        signs = {q: sign(value) for q, value in self._solved.items() if q.is_nonnegative}
+        solved = _solved(self.routh.given.dynamics)
+        signs = {q: sign(value) for q, value in solved.items() if q.is_nonnegative}
         return tuple(q.name for q, known in signs.items() if known is None)
 
     @property
@@ -66,15 +85,10 @@ class SteadyContacts:
 
     def standing(self, motion: Steady) -> Steady | None:
         """The motion where every one-sided contact holds; None where one does not."""
-        positive = list(motion.positive)
-        for value, strict in self._pressing(motion):
-            known = sign(value, positive)
-            if known == -1 or (known == 0 and strict) or weak_sign(value, positive) == -1:
-                return None
-            positive += [value] if known is None else []
-        return replace(motion, positive=tuple(dict.fromkeys(positive)))
+        positive = pressed(self._pressing(motion), motion.positive)
+        return None if positive is None else replace(motion, positive=positive)
 
-    def _pressing(self, motion: Steady) -> list[tuple[Expr, bool]]:
+    def _pressing(self, motion: Steady) -> list[Demand]:
         """What is not negative on it, and whether it is not 0; only what is known."""
         rates = motion.rates
         if rates is None:

@@ -34,15 +34,16 @@ from lagcli.algebra.vanishing_factors import squares_divided_by
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.minimal import integrated, minimal
 from lagcli.mechanics.oscillations.small_oscillations import SmallOscillations
+from lagcli.mechanics.reduction.steady_contacts import Demand, demands_on_motion, pressed
 from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.rest.exceptions import without_unknowns
 from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.mechanics.rest.rest_conditions import RestPoint
-from lagcli.mechanics.stability.judge import judge
+from lagcli.mechanics.stability.judge import GRAZES, judge
 from lagcli.mechanics.stability.roots import by_polynomial
 from lagcli.mechanics.stability.uniform import by_uniform_acceleration
 from lagcli.mechanics.stability.verdict import Stability, undecided
-from lagcli.record import record
+from lagcli.record import record, replace
 
 _UNIFORM = "these velocities are constant in every motion"
 _DRIFTING = "the velocities that are 0 in all of it are constant in every motion"
@@ -87,6 +88,7 @@ class RollingMotions:
     """
 
     def __init__(self, derivation: Derivation, choice: int = 0) -> None:
+        self.given = derivation
         self.derivation = minimal(derivation, rolling=True)
         self.choice = choice
         self.dynamics = self.derivation.dynamics
@@ -225,8 +227,10 @@ class RollingMotions:
             self.reason = "the equations depend on coordinates whose velocities are eliminated"
             return None
         found: list[RollingMotion] = []
-        for each in self._solved(list(self.conditions.values()), {}, (), 0):
-            if self._holds(each.values) and not any(_within(each, other) for other in found):
+        solved = self._solved(list(self.conditions.values()), {}, (), 0)
+        standing = (self._standing(each) for each in solved if self._holds(each.values))
+        for each in standing:
+            if each is not None and not any(_within(each, other) for other in found):
                 found = [other for other in found if not _within(other, each)] + [each]
         if not found and not self.complete:
             self.reason = "the conditions could not be solved"
@@ -323,6 +327,27 @@ class RollingMotions:
             return False
         return True
 
+    def _standing(self, motion: RollingMotion) -> RollingMotion | None:
+        """The motion where every one-sided contact holds; None where one does not."""
+        positive = pressed(self._pressing(motion.values), motion.positive)
+        return None if positive is None else replace(motion, positive=positive)
+
+    def _pressing(self, values: Mapping[Symbol, Expr]) -> list[Demand]:
+        """What the one-sided contacts demand there, where it has a value."""
+        assert self.chart is not None
+        try:
+            found = [
+                (at(x.xreplace(self.chart[1]).xreplace(self._still), values), strict)
+                for x, strict in self._demands
+            ]
+        except ZeroDivisionError:
+            return []
+        return [(x, strict) for x, strict in found if not x.has(*NO_VALUE)]
+
+    @cached_property
+    def _demands(self) -> tuple[Demand, ...]:
+        return demands_on_motion(self.given.dynamics)
+
     def _moves(self, values: Mapping[Symbol, Expr]) -> bool:
         return any(values.get(self.system.qdot[j]) != 0 for j in self.turning)
 
@@ -337,6 +362,8 @@ class RollingMotions:
             return Stability(stable=True, reason=_UNIFORM), ()
         if self._drifts_uniformly:
             return Stability(stable=True, reason=_DRIFTING, across=True), ()
+        if any(is_zero(value) is True for value, _ in self._pressing(motion.values)):
+            return undecided(GRAZES), ()
         jacobian = self._jacobian(motion.values)
         powers = None if jacobian is None else _characteristic(jacobian)
         if powers is None:
