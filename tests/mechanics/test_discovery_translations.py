@@ -4,6 +4,7 @@ Folland, *Harmonic Analysis in Phase Space*, section 4.1: quadratic forms act on
 matrices of sp(2 d), and the commutators with the constants are those of h(d).
 """
 
+from itertools import combinations_with_replacement
 from random import Random
 
 import pytest
@@ -75,7 +76,42 @@ def test_a_schroedinger_algebra_dilates_all_coordinates():
     hyperbolic = [U * V, X * Y, X * U + Y * V, X * U - Y * V, X, Y, U, V]
     assert name_of(structure(hyperbolic)).startswith("sl(2,R) + so(1,1) with Heisenberg h(2)")
     in_a_part = [U**2, X**2, X * U, V**2 - Y**2, X, Y, U, V]
-    assert "sch(1)" in name_of(structure(in_a_part))
+    name = "sl(2,R) + R with Heisenberg h(2), modulo constants"
+    assert name_of(structure(in_a_part)) == name
+
+
+PARTS = {  # of a coordinate a and its momentum b: generators, and what they are beside h(1)
+    "h(1)": ([], ()),
+    "Galilei": (["b^2"], ("R",)),
+    "oscillator": (["b^2 + a^2"], ("R",)),
+    "hyperbolic": (["a*b"], ("R",)),
+    "sch(1)": (["b^2", "a^2", "a*b"], ("sl(2,R)",)),
+}
+ACTING = {
+    (): "", ("R",): "R with ", ("R", "R"): "R^2 with ", ("sl(2,R)",): "sl(2,R) with ",
+    ("R", "sl(2,R)"): "sl(2,R) + R with ", ("sl(2,R)", "sl(2,R)"): "so(2,2) with ",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(("one", "other"), [*combinations_with_replacement(PARTS, 2)])
+def test_parts_with_constants_share_one_centre(one, other):
+    """h(1) of x beside h(1) of y is h(2), of dimension 5, and not h(1) + h(1), of dimension 6."""
+    planes = ((one, {"a": X, "b": U}), (other, {"a": Y, "b": V}))
+    functions = [sympy.sympify(f).subs(at) for part, at in planes for f in PARTS[part][0]]
+    acting = ACTING[tuple(sorted(PARTS[one][1] + PARTS[other][1]))]
+    linear = [X, U, Y, V]
+    name = f"{acting}Heisenberg h(2)"
+    assert name_of(structure([*functions, *linear])) == f"{name}, modulo constants"
+    # the same with W^2, a charge, for the constant
+    scaled = [f * W if f in linear else f for f in [*functions, *linear]]
+    assert name_of(structure([*scaled, W**2])) == name
+
+
+def test_a_radical_that_does_not_commute_is_no_translation():
+    """sl(2,R) acts on R^3 in iso(2,1) and on h(1) in sch(1): dimension and signature are the same."""
+    assert name_of(structure([U**2, X**2, X * U, X * W, U * W, W**2])).startswith("Schrödinger")
+    x, y, z = TURNS[0], X * W + Z * U, Y * W + Z * V  # boosts and a turn of (x, y, z)
+    assert name_of(structure([x, y, z, U, V, W])) == "Poincaré iso(2,1)"
 
 
 def test_without_the_boosts_the_momenta_are_no_heisenberg_algebra():

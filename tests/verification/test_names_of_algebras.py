@@ -89,3 +89,15 @@ def test_two_bodies_have_a_name_whatever_they_are_called() -> None:
     found = solve(problem, ["discovered", "algebra"])
     assert found.sections["algebra"].name == "Galilei in 3 dimensions + so(3), modulo constants"
     assert not found.warnings
+
+
+def test_a_centre_among_the_charges_is_counted() -> None:
+    """Geodesics of the group of Heisenberg: {A, B} = p_z, a turn and the energy: dimension 5."""
+    text = "coordinates: [x, y, z]\nL: (x'^2 + y'^2 + (z' - x*y')^2)/2\n"
+    problem = read_problem("test.yaml", text.encode()).checked()
+    answers = solve(problem, ["discovered", "algebra"])
+    section = answers.sections["algebra"]
+    assert (section.dimension, section.name) == (5, "oscillator algebra + R")
+    for wrong in ("oscillator algebra + R, modulo constants", "oscillator algebra + R^2"):
+        beside = {**answers.sections, "algebra": replace(section, name=wrong)}
+        assert verified(problem, replace(answers, sections=beside)).sections["algebra"].name is None

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Sequence
+from itertools import chain
 
 import mpmath
 from mpmath import mpf
@@ -137,7 +138,7 @@ def _with_translations(C: list[list[Vector]], central: Sequence[Vector]) -> str 
             for i, s in enumerate(others)
         ]
         acting = _name([[[C[a][b][c] for c in others] for b in others] for a in others], inner)
-        if acting is not None and "Heisenberg" not in acting:
+        if acting is not None and not any(word in acting for word in _EXTENDED):
             return f"{acting} with Heisenberg h({len(ideal) // 2})"
     return None
 
@@ -169,14 +170,19 @@ def _commuting(C: list[list[Vector]], chosen: list[int], most: int = 16) -> list
 
 
 def _direct_sum(C: list[list[Vector]], central: Sequence[Vector]) -> str | None:
-    """Ideals that the basis vectors fall into, the largest first."""
+    """Ideals that the basis vectors fall into, the largest first.
+
+    Those with constants have one centre: h(1) beside h(1) is h(2), not h(1) + h(1) with two.
+    """
     parts = _ideals(C, central)
+    extended = [p for p in parts if not _are_shifts(*_restricted(C, central, p))]
+    parts = [p for p in parts if p not in extended]
+    parts += [sorted(chain(*extended))] if extended else []
     if len(parts) < 2:
         return None
     found = []
     for part in sorted(parts, key=len, reverse=True):
-        others = [i for i in range(len(C)) if i not in part]
-        name = _name(*_restricted(C, central, others))
+        name = _name(*_restricted(C, central, part))
         if name is None:
             return None
         found.append(name)
@@ -225,7 +231,7 @@ def _whole(C: list[list[Vector]], n: int, derived: int, *, extended: bool) -> st
     for d in range(1, 5):
         turns = d * (d - 1) // 2
         turned = turns if d > 2 else 0  # so(2) is no bracket
-        perfect = derived == n and d > 1 and not extended
+        perfect = derived == n and d > 1 and not extended and _has_abelian_radical(C)
         found = (n, plus, minus, derived)
         schroedinger = (3 + turns + 2 * d, 2, 1 + turns, 3 + turned + 2 * d)
         if extended and found == schroedinger and _nullity(C) == 1 + d // 2:
@@ -265,8 +271,7 @@ def _is_unimodular(C: list[list[Vector]]) -> bool:
     return all(abs(mpmath.fsum(row[b][b] for b in range(len(C)))) < _SMALL for row in C)
 
 
-def _signature(C: list[list[Vector]]) -> tuple[int, int]:
-    """How many positive and negative eigenvalues the Killing form has."""
+def _killing_form(C: list[list[Vector]]) -> mpmath.matrix:
     n = len(C)
     form = mpmath.matrix(n, n)
     for a in range(n):
@@ -277,7 +282,24 @@ def _signature(C: list[list[Vector]]) -> tuple[int, int]:
                     if C[a][c][d] and C[b][d][c]:
                         total += C[a][c][d] * C[b][d][c]
             form[a, b] = form[b, a] = total
-    values = mpmath.eigsy(form, eigvals_only=True)
+    return form
+
+
+def _has_abelian_radical(C: list[list[Vector]]) -> bool:
+    """Whether what the Killing form of a perfect algebra does not see commutes.
+
+    It is the radical: R^3 of iso(2,1), but h(1) of sch(1) with its centre, of the same signature.
+    """
+    n, radical = range(len(C)), nullspace(_killing_form(C).tolist())
+    return all(
+        abs(mpmath.fsum(x[a] * y[b] * C[a][b][c] for a in n for b in n)) < _SMALL
+        for x in radical for y in radical for c in n
+    )  # fmt: skip
+
+
+def _signature(C: list[list[Vector]]) -> tuple[int, int]:
+    """How many positive and negative eigenvalues the Killing form has."""
+    values = mpmath.eigsy(_killing_form(C), eigvals_only=True)
     scale = max((abs(x) for x in values), default=mpf(1)) or mpf(1)
     return (
         sum(1 for x in values if x > _SMALL * scale),
@@ -336,9 +358,8 @@ def _by_centre(
 
 
 def _restricted(
-    C: list[list[Vector]], central: Sequence[Vector], gone: Sequence[int]
+    C: list[list[Vector]], central: Sequence[Vector], kept: Sequence[int]
 ) -> tuple[list[list[Vector]], list[Vector]]:
-    kept = [i for i in range(len(C)) if i not in gone]
     return (
         [[[C[a][b][c] for c in kept] for b in kept] for a in kept],
         [[central[a][b] for b in kept] for a in kept],

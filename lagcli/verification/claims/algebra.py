@@ -25,14 +25,15 @@ _SMALL = 1e-12
 _NO_COEFFICIENT = 1e-25  # measured: zeros are below 2e-35
 #: Choices of the parameters at which the name is tried.
 _PARAMETERS = 12
+_MODULO_CONSTANTS = ", modulo constants"
 Signature = tuple[int, int, int]
 #: Dimension, and how many positive and negative eigenvalues the Killing form has.
 _KNOWN: dict[str, Signature] = {
     "so(3)": (3, 0, 3), "sl(2,R)": (3, 2, 1), "so(4)": (6, 0, 6), "so(3,1)": (6, 3, 3),
     "so(2,2)": (6, 4, 2), "su(3)": (8, 0, 8), "e(2)": (3, 0, 1), "R": (1, 0, 0),
-    "Poincaré iso(1,1)": (3, 1, 0), "oscillator algebra": (3, 0, 1), "so(1,1)": (0, 1, 0),
-    "oscillator algebra (hyperbolic)": (3, 1, 0),
-    "sl(2,R) + so(1,1) with Heisenberg h(2)": (8, 3, 1),
+    "Poincaré iso(1,1)": (3, 1, 0), "oscillator algebra": (4, 0, 1), "so(1,1)": (0, 1, 0),
+    "oscillator algebra (hyperbolic)": (4, 1, 0),
+    "sl(2,R) + so(1,1) with Heisenberg h(2)": (9, 3, 1),
 }  # fmt: skip
 
 
@@ -237,32 +238,29 @@ def _rank(rows: Sequence[Sequence[arb]], columns: int) -> int:
 
 
 def signature_of(name: str) -> Signature | None:
-    """Of a name, or of the parts of a direct sum; None where it is not known."""
-    name = name.removesuffix(", modulo constants")
-    if name not in _KNOWN and ("energy" in name or " with " in name):
-        return _with_heisenberg(name)
-    parts = [_one(part) for part in ([name] if name in _KNOWN else name.split(" + "))]
-    if any(part is None for part in parts):
+    """Of a name, or of the parts of a direct sum; None where it is not known.
+
+    The centre of an algebra with constants is one of the charges, or the constant 1.
+    """
+    alone = name.removesuffix(_MODULO_CONSTANTS)
+    found = re.fullmatch(r"(Schrödinger sch\(\d\)): .* with Heisenberg h\(\d\)(.*)", alone)
+    if found:
+        alone = found[1] + found[2]
+    elif alone not in _KNOWN and ("energy" in alone or " with " in alone):
         return None
+    parts = [_one(part) for part in ([alone] if alone in _KNOWN else alone.split(" + "))]
     known = [part for part in parts if part is not None]
-    return (sum(p[0] for p in known), sum(p[1] for p in known), sum(p[2] for p in known))
-
-
-def _with_heisenberg(name: str) -> Signature | None:
-    pattern = r"Schrödinger sch\((\d)\): .* with Heisenberg h\(\d\)(?: \+ (.*))?"
-    found = re.fullmatch(pattern, name)
-    rest = signature_of(found[2]) if found and found[2] else (0, 0, 0)
-    if found is None or rest is None:
+    if len(known) < len(parts):
         return None
-    d = int(found[1])
-    turns = d * (d - 1) // 2
-    return (3 + turns + 2 * d + rest[0], 2 + rest[1], 1 + turns + rest[2])
+    size_, plus, minus = map(sum, zip(*known, strict=True))
+    return (size_ - name.endswith(_MODULO_CONSTANTS), plus, minus)
 
 
 def _one(name: str) -> Signature | None:
     if name in _KNOWN:
         return _KNOWN[name]
-    found = re.fullmatch(r"(Heisenberg h\(|e\(|Galilei in |Poincaré iso\()(\d)\D.*|R\^(\d+)", name)
+    pattern = r"(Heisenberg h\(|e\(|Galilei in |Poincaré iso\(|Schrödinger sch\()(\d)\D.*|R\^(\d+)"
+    found = re.fullmatch(pattern, name)
     if found is None:
         return None
     if found[3]:
@@ -270,8 +268,9 @@ def _one(name: str) -> Signature | None:
     d = int(found[2])
     turns = d * (d - 1) // 2
     return {
-        "Heisenberg h(": (2 * d, 0, 0),
+        "Heisenberg h(": (2 * d + 1, 0, 0),
         "e(": (turns + d, 0, turns),
-        "Galilei in ": (1 + turns + 2 * d, 0, turns),
+        "Galilei in ": (2 + turns + 2 * d, 0, turns),
+        "Schrödinger sch(": (4 + turns + 2 * d, 2, 1 + turns),
         "Poincaré iso(": (turns + 2 * d + 1, d, turns),
     }.get(found[1])
