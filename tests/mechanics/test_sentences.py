@@ -171,6 +171,21 @@ KEPT = (
     ("forces: {y: k*x}", True, "a force that is not in L depends on it"),
     ("constraints: {c: x' = y'*z}", False, "the constraint 'c' acts along it"),
     ("constraints: {c: z' = y'*x}", True, "the constraint 'c' contains it"),
+    (
+        "constraints: {c: x' = y'*z}\nforces: {x: k}",
+        False,
+        "the constraint 'c' and a force that is not in L act along it",
+    ),
+    (
+        "constraints: {a: x' = u'*z, b: y' = x'*v, c: u' = v'*y}",
+        False,
+        "the constraints 'a' and 'b' act along it",
+    ),
+    (
+        "constraints: {a: u' = v'*cos(x), b: z' = v'*sin(x), c: y' = v'*z}",
+        True,
+        "the constraints 'a' and 'b' contain it",
+    ),
 )
 
 
@@ -178,8 +193,9 @@ KEPT = (
 @pytest.mark.parametrize(("acting", "conserved", "why"), KEPT)
 def test_a_cyclic_coordinate_is_kept_for_a_reason(acting, conserved, why):
     text = (
-        "coordinates: [x, y, z]\nparameters: [m, k]\nT: m*(x'^2 + y'^2 + z'^2)/2\n"
-        f"V: k*(y^4 + z^4)\n{acting}\n"
+        "coordinates: [x, y, z, u, v]\nparameters: [m, k]\n"
+        "T: m*(x'^2 + y'^2 + z'^2 + u'^2 + v'^2)/2\n"
+        f"V: k*(y^4 + z^4 + u^4 + v^4)\n{acting}\n"
     )
     section, _ = reduction(derive(text))
     assert section.irreducible["x"].why == why

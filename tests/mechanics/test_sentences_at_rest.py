@@ -579,7 +579,25 @@ def test_rest_is_not_denied_for_each_function_of_time(force):
         f"functions: {{{name}: [t]}}, T: m*th'^2/2, "
         f'V: "-m*g*cos(th) - ({force})*sin(th)"}}'
     )
-    assert "in general there is no equilibrium" in said(text, "Equilibria", "equilibria")
+    none = "In general this has no solution that holds at all times: there is no equilibrium."
+    assert none in said(text, "Equilibria", "equilibria")
+
+
+@pytest.mark.parametrize(
+    ("forces", "lead"),
+    [
+        ("u*F(0)", "In general this has no"),  # x'' = F(0) rests for each F with F(0) = 0
+        ("u*F(0) + v", "In general these have no"),
+        ("{a}*u", "This has no"),
+        ("{a}*u + {a}*v", "This has no"),  # the same condition twice
+        ("u + {a}*v^3", "These have no"),
+    ],
+)
+def test_no_solution_is_said_in_the_number_of_the_conditions(forces, lead):
+    forces = forces.format(a=random.Random(forces).randint(2, 9))
+    text = f"{{coordinates: [u, v], functions: {{F: [d]}}, L: \"(u'^2 + v'^2)/2 + {forces}\"}}"
+    assert f"{lead} solution: there is no equilibrium" in said(text, "Equilibria", "equilibria")
+    assert f"{lead} solution: there is no" in said(text, "Steady motions", "steady_motions")
 
 
 @pytest.mark.parametrize(

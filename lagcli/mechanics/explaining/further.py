@@ -13,7 +13,7 @@ from lagcli.expression import Expression
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.recurring import recurring
 from lagcli.mechanics.explaining.reduction import averaged_potential
-from lagcli.mechanics.explaining.words import Part, names, says, shows
+from lagcli.mechanics.explaining.words import Part, names, no_solution, says, shows
 from lagcli.mechanics.reduction.effective_potential import effective_potential
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.mechanics.statements import Statements
@@ -63,6 +63,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
     sticking = any(each.sticking for each in found or ())
     solved = () if rest.has_no_value else rest.equations
     conditions = unlike(explainer.readable.as_written(e) for e in solved)
+    one = len(conditions) == 1
     end = (
         "."
         if sticking or rest.has_no_value
@@ -96,7 +97,8 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
     elif any(each.open for each in found or ()):
         yield says("Each contact is either closed, and pushes, or open, and there is no force.")
     if states.at_all_times and found:
-        yield says("An equilibrium is where they hold at all times.")
+        hold = "it holds" if one else "they hold"
+        yield says(f"An equilibrium is where {hold} at all times.")
         yield from averaged_potential(explainer)
     still = explainer.system.L.xreplace(dict.fromkeys(explainer.system.qdot, S.Zero))
     named = any(each.verdict.potential == "V_eff" for each in found or ())
@@ -109,10 +111,10 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says(f"Here {states.reason}.")
         return
     if found is None:
-        yield says(f"These were not solved: {states.reason}.")
+        yield says(f"{'This was' if one else 'These were'} not solved: {states.reason}.")
         return
     if not found:
-        yield says(*_none(rest, states, "Neither case has a" if contacts else "These have no"))
+        yield says(*_none(rest, states, one=one))
     given = {constraint.name for constraint in explainer.system.problem.constraints}
     for number, each in enumerate(once(found), 1):
         yield Heading(f"Equilibrium {number}", 2)
@@ -166,19 +168,21 @@ def _constraints_hold(explainer: Explainer) -> str:
     return f"The constraint{'s hold' if len(equations) > 1 else ' holds'}, and "
 
 
-def _none(rest: RestPoints, states: EquilibriaSection, conditions: str) -> list[Part]:
-    """That there is no equilibrium, and why: the `conditions` "have no" solution."""
+def _none(rest: RestPoints, states: EquilibriaSection, *, one: bool) -> list[Part]:
+    """That there is no equilibrium, and why: the conditions, or the `one`, have no solution."""
     if not states.complete:
         return ["No solution was found."]
     assert rest.points is not None
     if rest.at_singular_coordinates:
-        where = "These hold only where the coordinates are singular"
+        where = f"{'This holds' if one else 'These hold'} only where the coordinates are singular"
         lead = f"{where}, and in regular coordinates that is not an equilibrium: "
         none = unless("equilibrium", states.unless) if states.unless != () else ["there is none"]
         return [lead, *none, "."]
-    lead = f"{conditions} solution{states.where}" + " that holds at all times" * states.at_all_times
+    lead = "this has no" if one else "these have no"
+    lead = no_solution("neither case has a" if rest.system.problem.contacts else lead, states)
+    lead += states.where + " that holds at all times" * states.at_all_times
     what = "equilibrium" + " there" * bool(states.where)
-    return [f"{lead}: ", *unless(what, states.unless, states.edge), "."]
+    return [f"{lead}: ", *unless(what, states.unless or (), states.edge), "."]
 
 
 def _state(

@@ -13,7 +13,7 @@ from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.given_momenta import two_rates
 from lagcli.mechanics.explaining.recurring import recurring
-from lagcli.mechanics.explaining.words import Part, displacements, listed, names, says
+from lagcli.mechanics.explaining.words import Part, displacements, listed, names, no_solution, says
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import Section
 from lagcli.statements.motions import SteadyMotion, SteadySection
@@ -156,8 +156,9 @@ def _none(found: SteadySection) -> list[Part]:
     """That no motion is steady, in what it was sought in."""
     if not found.complete:
         return ["No solution was found."]
-    none = unless(f"steady motion{found.sought}", found.unless)
-    return ["These have no solution: ", *none, "."]
+    none = unless(f"steady motion{found.sought}", found.unless or ())
+    lead = "this has no" if len(_wanted(found)) == 1 else "these have no"
+    return [no_solution(lead, found), ": ", *none, "."]
 
 
 def _motion(

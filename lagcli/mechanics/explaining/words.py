@@ -10,9 +10,10 @@ from lagcli.notation.given_formulas import names_of, symbols_of
 from lagcli.notation.letters import names_in
 from lagcli.notation.naming import free
 from lagcli.problem_data import Problem
+from lagcli.statements.answers import EquilibriaSection
 from lagcli.statements.explanation import Explanation, ExplanationStep
-from lagcli.statements.motions import Above
-from lagcli.statements.wording import conditions, constraints_named
+from lagcli.statements.motions import Above, SteadySection
+from lagcli.statements.wording import capitalized, conditions, constraints_named
 
 Part = str | Formula
 
@@ -87,6 +88,12 @@ def displacements(
         parts += [", for " if parts else "for ", *conditions(where)]
     if parts:
         yield says(*parts, ".")
+
+
+def no_solution(lead: str, found: EquilibriaSection | SteadySection) -> str:
+    """That there is none: in general, where special values were not excluded."""
+    general = "in general " * (found.unless is None)
+    return capitalized(f"{general}{lead} solution")
 
 
 def difference(first: Expression, second: Expression) -> Expression:

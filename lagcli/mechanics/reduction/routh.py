@@ -17,7 +17,7 @@ Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 8.3.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 from sympy import Expr, S, Symbol
@@ -34,11 +34,16 @@ from lagcli.mechanics.legendre import Inverse, LegendreTransform
 from lagcli.mechanics.minimal import minimal, with_lagrangian
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Constraint, Parameter
+from lagcli.statements.wording import constraints_named
 
 #: Why there is no reduced system where there are only momenta.
 ALL_CYCLIC = "every coordinate is cyclic"
 #: Why there is none where the constraints prescribe the whole motion.
 NONE_LEFT = "the constraints leave no coordinate"
+
+
+def _called(equations: Sequence[ConstraintEquation]) -> str:
+    return constraints_named("the constraint", [e.name for e in equations])
 
 
 class Routh:
@@ -96,16 +101,18 @@ class Routh:
         q, forces = self.system.q[j], self.system.applied_forces
         equations = self.full.dynamics.constraints.equations
         holding = [e for e in equations if is_zero(e.row[j]) is not True]
-        for equation in holding:
-            force = equation.multiplier * equation.row[j]
-            if self.full.dynamics.vanishes_on_motion(force).holds is not True:
-                return f"the constraint '{equation.name}' acts along it"
-        if is_zero(forces[j]) is not True:
-            return "a force that is not in L acts along it"
-        for equation in equations:
-            if not self._untouched(equation, j):
-                what = "its velocity" if equation in holding else "it"
-                return f"the constraint '{equation.name}' contains {what}"
+        vanishes = self.full.dynamics.vanishes_on_motion
+        acting = [e for e in holding if vanishes(e.multiplier * e.row[j]).holds is not True]
+        forced = is_zero(forces[j]) is not True
+        if acting or forced:
+            what = [_called(acting)] * bool(acting) + ["a force that is not in L"] * forced
+            act = "acts" if len(acting) + forced == 1 else "act"
+            return f"{' and '.join(what)} {act} along it"
+        containing = [e for e in equations if not self._untouched(e, j)]
+        if containing:
+            contain = "contains" if len(containing) == 1 else "contain"
+            rates = all(e in holding for e in containing)
+            return f"{_called(containing)} {contain} {'its velocity' if rates else 'it'}"
         assert not all(_independent(f, q) for f in forces)
         return "a force that is not in L depends on it"
 
