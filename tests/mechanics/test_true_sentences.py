@@ -153,6 +153,22 @@ def test_a_potential_without_a_second_derivative(order, factor, stable):
     assert state.verdict.stable is stable
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_momentum_that_is_critical_is_not_0(seed):
+    """U_eff = p² (1 + n x² + h x⁴)/2 − c x²/2 is p² h x⁴/2 up to a constant where n p² = c > 0."""
+    source = random.Random(seed)
+    n, h = source.randint(1, 9), source.choice([-2, -1, 1, 3])
+    motions, _ = steady_motions(
+        derive(
+            "coordinates: [x, psi]\nparameters: {c: {assume: positive}}\nV: -c*x^2/2\n"
+            f"T: x'^2/2 + psi'^2/(2*(1 + {n}*x^2 + ({h})*x^4))\n"
+        )
+    )
+    [there] = [m for m in motions.motions if m.at.get("x") is not None and "psi" in m.rates]
+    assert to_grammar(there.at["x"]) == "0"
+    assert there.verdict.critical == (4 if h > 0 else -4)
+
+
 @pytest.mark.long
 def test_the_sleeping_top_is_stable_at_its_critical_spin():
     """Landau and Lifshitz, section 35, problem 2; U_eff is of fourth order at equality."""

@@ -86,7 +86,8 @@ def order_at_critical_values(
         if roots is None or len(roots.values) != 1 or not free_of(roots.values[0], [symbol]):
             continue
         [root] = roots.values
-        if symbol.is_positive and sign_of(root, positive) in (0, -1):
+        known = [root] if symbol.is_positive else []
+        if {sign_of(x, positive) for x in known} & {0, -1}:
             continue
         there, others, inertia = (
             [each.xreplace({symbol: root}) for each in group]
@@ -98,7 +99,9 @@ def order_at_critical_values(
             continue
         if is_free({symbol: root}):
             return 0
-        return order_of_minimum([simplify(each) for each in others], there)
+        order = order_of_minimum([simplify(each) for each in others], [*there, *known])
+        if order is not None:
+            return order
     return None
 
 
