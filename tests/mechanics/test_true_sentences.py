@@ -411,6 +411,25 @@ def test_the_forces_of_the_canonical_equations_are_named(drag, forces):
     assert forces in said(text, "Canonical equations", "canonical_equations")
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_hamiltonian_has_one_form_in_all_steps(seed):
+    """H of the canonical equations, and E = H of the Hamilton-Jacobi equation."""
+    source = random.Random(seed)
+    mass, field = (source.choice(["m", "2*m", "a*m"]) for _ in range(2))
+    radius = source.choice(["x^2 + y^2", "x^2 - y^2", "x*y"])
+    text = (
+        "coordinates: [x, y]\nparameters: {m: {assume: positive}, a: {assume: positive}}\n"
+        f"L: {mass}*(x'^2 + y'^2)/2 + {field}*(x*y' - y*x')/2 - a*({radius})/3\n"
+    )
+    steps = explain(derive(text), ("canonical_equations", "hamilton_jacobi")).steps
+    rows = [
+        row for s in steps for b in s.blocks if isinstance(b, Equations) for row in b.rows
+        if "p_x" in str(row.right) and str(row.left) in {"H", "E"}
+    ]  # fmt: skip
+    assert len(rows) == 2
+    assert len({str(row.right) for row in rows}) == 1
+
+
 def test_integrals_with_time_are_said_to_be_of_second_degree():
     """A drive w(t) of two coordinates: the quadratic ones without time were not sought."""
     text = """

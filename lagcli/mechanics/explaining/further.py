@@ -14,7 +14,7 @@ from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.recurring import recurring
 from lagcli.mechanics.explaining.reduction import averaged_potential
 from lagcli.mechanics.explaining.words import Part, names, no_solution, says, shows
-from lagcli.mechanics.reduction.effective_potential import effective_potential
+from lagcli.mechanics.reduction.effective_potential import without_momenta
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.mechanics.statements import Statements
 from lagcli.statements.answers import EquilibriaSection, Section
@@ -105,8 +105,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
     if named and still != 0 and not states.at_all_times:
         yield says(Label("V", ("eff",)), " stands for the terms of ", explainer.letters.L,
                    " without velocities, with the opposite sign:")  # fmt: skip
-        shown = effective_potential(-still, (), explainer.system.order, explainer.system.V)
-        yield shows(Label("V", ("eff",)), shown)
+        yield shows(Label("V", ("eff",)), without_momenta(explainer.derivation))
     if states.everywhere:
         yield says(f"Here {states.reason}.")
         return

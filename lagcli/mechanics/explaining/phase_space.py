@@ -9,6 +9,7 @@ from lagcli.document import Block, Bracket, Equations, Integral, Label, Row, equ
 from lagcli.expression import ZERO, Call, Diff, Expression, Name, Negative, Product, walk
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
+from lagcli.mechanics.hamiltonian_form import hamiltonian_form
 from lagcli.mechanics.reduction.separation import ON_TIME
 from lagcli.notation.letters import own
 from lagcli.statements.answers import CanonicalSection, Section
@@ -44,7 +45,7 @@ def canonical_equations(explainer: Explainer, section: Section) -> Iterator[Bloc
         explainer.letters.L,
         ", they give",
     )
-    yield shows(H, explainer.readable.as_written(function))
+    yield shows(H, _hamiltonian(explainer) or explainer.readable.as_written(function))
     below = derivation.hamiltonian.folds_below
     if below is not None:
         yield says("Where ", explainer.readable.as_written(below), " < 0, the Legendre "
@@ -54,6 +55,14 @@ def canonical_equations(explainer: Explainer, section: Section) -> Iterator[Bloc
     yield equations_of((Name(q, 1), pair.q) for q, pair in found.equations.items())
     yield says(*_momentum_rates(explainer))
     yield equations_of((Name(f"p_{q}", 1), pair.p) for q, pair in found.equations.items())
+
+
+def _hamiltonian(explainer: Explainer) -> Expression | None:
+    """H as in the answers and in the Hamilton-Jacobi equation; None where that is too long."""
+    try:
+        return hamiltonian_form(explainer.derivation.hamiltonian, explainer.readable)
+    except ArithmeticError:
+        return None
 
 
 def _momentum_rates(explainer: Explainer) -> list[Part]:

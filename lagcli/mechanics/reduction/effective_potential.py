@@ -16,9 +16,18 @@ from lagcli.algebra.leaves import Translator
 from lagcli.algebra.place import NO_VALUE
 from lagcli.algebra.writing import Writer
 from lagcli.expression import Expression, operation_count
+from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.readable import Readable
 
 #: Operations by which a potential as given may exceed another form and is left as it is.
 _LONGER = 1
+
+
+def without_momenta(derivation: Derivation) -> Expression:
+    """V_eff, the terms of h without velocities, as they stand in h."""
+    still = dict.fromkeys(derivation.system.qdot, S.Zero)
+    function = derivation.energy.readable_function.xreplace(still)
+    return Readable(derivation.dynamics).by_terms(function, as_given=True)
 
 
 def effective_potential(

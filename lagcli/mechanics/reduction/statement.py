@@ -39,9 +39,8 @@ from lagcli.expression import (
 )
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
-from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.readable import Readable
-from lagcli.mechanics.reduction.effective_potential import effective_potential
+from lagcli.mechanics.reduction.effective_potential import effective_potential, without_momenta
 from lagcli.mechanics.reduction.one_freedom import ReducedFreedom as Motion
 from lagcli.mechanics.reduction.one_freedom import free_name
 from lagcli.mechanics.reduction.period import AmplitudeSeries as Found
@@ -101,7 +100,7 @@ class _Statement:
         lines = equations.equations or ()
         potential, gyroscopic = None, {}
         if routh.quadratic or self._other_freedom:
-            potential = self._potential(full)
+            potential = self._potential()
         if routh.quadratic:
             gyroscopic = {
                 q.name: self._shape(g)
@@ -188,12 +187,11 @@ class _Statement:
             parts.insert(-1, terms(moving, self.order, self.fast))
         return writer.sum(parts)
 
-    def _potential(self, full: Dynamics) -> Expression:
+    def _potential(self) -> Expression:
         """U_eff; without momenta and constraints as it stands in h."""
         routh, V = self.routh, self.routh.full.system.V
         if not (routh.momenta or self.eliminated):
-            still = dict.fromkeys(routh.full.system.qdot, S.Zero)
-            return Readable(full).by_terms(-routh.full.system.L.xreplace(still), as_given=True)
+            return without_momenta(routh.full)
         return effective_potential(routh.effective_potential, routh.momenta, self.order, V)
 
     # -- one degree of freedom --------------------------------------------------------------------
