@@ -8,7 +8,10 @@ import pytest
 
 from lagcli.evaluation import evaluated
 from lagcli.mechanics.statements import Statements
+from lagcli.reader import read_problem
+from lagcli.statements.motions import Above
 from tests.mechanics.derived import derive
+from tests.solved import solve
 
 
 def sign(x: float) -> int:
@@ -35,3 +38,24 @@ def test_rest_is_where_the_slopes_cancel(seed: int) -> None:
             for each in families
         )
         assert listed == (sign(x - a) + sign(x + b) == 0), (text, known)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(3))
+def test_plateaus_apart_are_confirmed_wherever_they_are(seed: int) -> None:
+    """V = |x - a| - |x - b| is constant for x < a and for x > b, far from all that is drawn."""
+    source = random.Random(f"apart {seed}")
+    a = source.randint(20, 60) * source.choice((-1, 1))
+    b = a + source.randint(1, 9)
+    text = f"coordinates: [x]\nT: x'^2/2\nV: abs(x - ({a})) - abs(x - ({b}))\n"
+    problem = read_problem("test.yaml", text.encode()).checked()
+    section = solve(problem, ["equilibria"]).sections["equilibria"]
+    families = section.equilibria  # type: ignore[attr-defined]
+    assert len(families) == 2
+    for x in (a - 1.0, b + 1.0):
+        [each] = (e for e in families if all(_holds(c, x) for c in e.where))
+        assert not any(_holds(c, (a + b) / 2) for c in each.where)
+
+
+def _holds(condition: Above, x: float) -> bool:
+    return evaluated(condition.left, {"x": x}, {}) > evaluated(condition.right, {"x": x}, {})

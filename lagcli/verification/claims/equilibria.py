@@ -74,7 +74,8 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
             place = RestPlace(y, what, each.at, {}, each.on, each.where)
             judged = Verdict(stable=None) if section.at_all_times else each.verdict
             zeros = 2 * _cyclic(x) if judged.potential == "U_eff" else 0
-            verdict = _stays(x, what, place, judged, zeros=zeros)
+            others = [RestPlace(y, what, o.at, {}, o.on, o.where) for o in listed if o is not each]
+            verdict = _stays(x, what, place, judged, zeros=zeros, others=others)
             if verdict is None:
                 return replace(section, equilibria=None, reason=not_confirmed("an equilibrium"))
             if verdict is _NOWHERE:
@@ -238,11 +239,18 @@ def _another_motion(x: Examination, section: SteadySection, found: list[SteadyMo
 
 
 def _stays(
-    x: Examination, what: str, place: RestPlace, verdict: Verdict, *, zeros: int
+    x: Examination,
+    what: str,
+    place: RestPlace,
+    verdict: Verdict,
+    *,
+    zeros: int,
+    others: Sequence[RestPlace] = (),
 ) -> Verdict | None:
     """The verdict, an undecided one where it is refuted; None where the state does not stay.
 
-    The linear motion near it has at least as many roots 0 as `zeros`.
+    At a state of one of the `others` its conditions need not hold.  The linear motion near it has
+    at least as many roots 0 as `zeros`.
     """
     tried = 0
     for near in place.states() if place.readable else ():
@@ -276,7 +284,7 @@ def _stays(
         return None
     if not tried:
         x.unchecked.append(what)
-    if not (unknown or x.reference.large) and _exists_beyond(place, zeros):
+    if not (unknown or x.reference.large) and _exists_beyond(place, zeros, others):
         x.refute(what, "it exists for parameters with which its conditions do not hold, too")
         return None
     why = "" if place.eliminated else _refuted_beside_bounds(x, what, place, verdict, zeros)
@@ -290,11 +298,11 @@ def _is_at_rest(near: LinearMotion, place: RestPlace, zeros: int) -> bool:
     return near.residual < NOTHING if not zeros else _constant(near, place.eliminated)
 
 
-def _exists_beyond(place: RestPlace, zeros: int) -> bool:
+def _exists_beyond(place: RestPlace, zeros: int, others: Sequence[RestPlace]) -> bool:
     """Whether it stays there with parameters for which a printed condition fails."""
     return any(
         near.defined and near.regular and not near.without_lagrangian
-        and _is_at_rest(near, place, zeros)
+        and _is_at_rest(near, place, zeros) and not any(o.contains(near) for o in others)
         for near in place.beyond()
     )  # fmt: skip
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import islice
+from itertools import chain, islice
 from random import Random
 
 from flint import arb
@@ -79,7 +79,16 @@ class RestPlace:
             if count == WANTED:
                 return
         if not count and self.where:
-            yield from islice(self.spread(_ROUNDS), WANTED)
+            yield from islice(chain(self._just_inside(), self.spread(_ROUNDS)), WANTED)
+
+    def _just_inside(self) -> Iterator[LinearMotion]:
+        """States where one of the conditions just holds: x > 30 is met by none that is drawn."""
+        for state in self.x.states(WANTED, BITS):
+            for bound in self.where:
+                known = self._moved(state.environment, bound, 1)
+                near = None if known is None else self.near(known)
+                if near is not None:
+                    yield near
 
     def spread(self, rounds: int = 1) -> Iterator[LinearMotion]:
         """States here with parameters of other sizes and signs: what always holds holds there."""
@@ -131,9 +140,10 @@ class RestPlace:
                 yield near
 
     def _moved(self, known: Environment, bound: int, side: int) -> Environment | None:
-        """One parameter moved until left - right of a condition is near 0, on this side."""
-        reference = self.x.reference
-        signs = {p.name: p.assume for p in self.x.problem.parameters if not p.integer}
+        """One parameter, or free coordinate, moved until left - right is near 0, on this side."""
+        reference, problem = self.x.reference, self.x.problem
+        signs = {p.name: p.assume for p in problem.parameters if not p.integer}
+        signs |= {q.name: q.assume for q in problem.coordinates if (q.name, 0) not in self.values}
         by = reference.values(known).gradient(bound)
         slopes = {n: by.get(reference.program.symbol(n), arb(0)) for n in signs}
         weights = {n: size(slope * known[n, 0]) for n, slope in slopes.items()}
@@ -175,6 +185,13 @@ class RestPlace:
         sure = not allowed or all(at(place) > 0 for place in self.where)
         signs = all(has_sign(c.assume, environment[c.name, 0]) for c in self.x.problem.coordinates)
         return LinearMotion(self.x, environment) if sure and signs else None
+
+    def contains(self, near: LinearMotion) -> bool:
+        """Whether a state of rest is one of these."""
+        listed, names = self.near(near.environment), self.x.reference.names
+        return listed is not None and all(
+            size(listed.environment[n, 0] - near.environment[n, 0]) < NOTHING for n in names
+        )
 
     def dimension(self, near: LinearMotion) -> int:
         """Of the family of such places at one of them."""
