@@ -90,7 +90,8 @@ def _stability(equilibrium: Equilibrium, states: Sequence[State]) -> tuple[str |
         parts += [*exist, " where ", *conditions(equilibrium.where), ". "]
     parts += [holding(equilibrium)]
     at = states[0][0] if states else {}
-    parts += stability(equilibrium.verdict, equilibrium.free, equilibrium.on, at)
+    touching = equilibrium.touching
+    parts += stability(equilibrium.verdict, equilibrium.free, equilibrium.on, at, touching)
     parts += [at_the_limit(equilibrium.where, sticking=equilibrium.sticking)]
     for lead, names in ((" Free: ", equilibrium.free), (_NO_VALUE, equilibrium.indeterminate)):
         for position, name in enumerate(names):

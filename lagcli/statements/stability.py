@@ -16,10 +16,7 @@ _LINEAR = ", since the equations of motion are linear and "
 _BOUNDED = "all their solutions are then bounded"
 _DRIFT = "beside a slow drift along the family "
 _THEOREM = "(Kelvin, Tait and Chetaev)"
-_NEUTRAL = (
-    "Neutral: every possible position near it is an equilibrium. What is set in motion gains no "
-    "kinetic energy, but need not stay near."
-)
+_MOVING = "What is set in motion gains no kinetic energy, but need not stay near."
 
 
 def stability(
@@ -27,16 +24,18 @@ def stability(
     free: Sequence[str] = (),
     on: tuple[Expression, Expression] | None = None,
     at: Mapping[str, Expression] | None = None,
+    touching: Sequence[str] = (),
 ) -> list[Part]:
     """Whether an equilibrium or a steady motion is stable, and by which conditions, in sentences.
 
     It is one of a family where coordinates are `free` or tied by the equation `on`; those `at`
-    formulas of free ones are displaced along with them.
+    formulas of free ones are displaced along with them.  The contacts `touching` may open.
     """
     if verdict.rapid is not None:
         return _on_average(verdict, verdict.rapid)
     if verdict.neutral:
-        return [_NEUTRAL]
+        same = " with the same contacts" * bool(touching)
+        return [f"Neutral: every possible position near it{same} is an equilibrium. {_MOVING}"]
     stable = "Asymptotically stable" if verdict.asymptotic else "Stable"
     names = {part for value in (at or {}).values() for part in walk(value)}
     tied = on is not None or any(Name(name) in names for name in free)

@@ -17,10 +17,12 @@ from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.mechanics.discovery.surface import independent_on_surface
+from lagcli.pipeline import explain
 from lagcli.reader import parse_text, read_problem
 from tests.solved import solve
 
 from .derived import derive
+from .test_explanation import words
 
 LIBRARY = Path(__file__).parents[2] / "problems"
 
@@ -348,3 +350,24 @@ def test_of_a_rolling_ball_all_five_constants_are_found(seed):
         point = {system.t: t, **dict(zip((*system.q, *system.qdot), state, strict=True))}
         values.append([c.charge.subs(point).evalf(30) for c in derivation.discovery.charges])
     assert all(abs(u - v) < 1e-20 for u, v in zip(*values, strict=True))
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("turning", [True, False])
+def test_a_boundary_term_has_the_work_of_constraints_that_move(turning, seed):
+    """dG/dt = dL + the work: a turntable works on its ball, a plane at rest does not."""
+    W, k = f"{random.Random(seed).randint(2, 5)}*W" if turning else "0", seed + 1
+    told = words(
+        explain(
+            derive(
+                "{coordinates: [x, y, u, v], parameters: [W], "
+                f"T: (x'^2 + y'^2)/2 + {k}*(u'^2 + v'^2)/5, constraints: {{"
+                f"roll_x: {{equation: x' = u' - {W}*y}}, roll_y: {{equation: y' = v' + {W}*x}}}}}}"
+            ),
+            ["discovered"],
+        ),
+        "Discovered symmetries",
+    )
+    assert "minus G" in told
+    assert ("is the change of L plus the work of the constraints." in told) is turning

@@ -1191,3 +1191,13 @@ def test_on_the_edge_of_bounded_motion_it_is_unstable_where_roots_coincide(seed,
     assert 1.9 < ratio < 2.1
     inside = (edge[0], edge[1] * 1.2, edge[2] if trap == "top" else (-0.44 * b, -2.44 * b))
     assert _norm_of_motion(*inside, 800) < 100
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_body_on_a_floor_rests_where_it_touches_and_not_above(seed):
+    """Positions above the floor are possible, and no equilibria."""
+    k = random.Random(seed).randint(1, 4)
+    floor = "contacts: {floor: {gap: y >= 0, restitution: 1/2}}"
+    text = f"{{coordinates: [x, y], T: {k}*x'^2/2 + y'^2/2, V: {k}*y, {floor}}}"
+    told = said(text, "Equilibria", "equilibria")
+    assert "In contact: floor. Neutral: every possible position near it with the same" in told

@@ -130,7 +130,8 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
             yield says("It exists for ", *inequalities(each.where), ".")
         firm = holding(each)
         limit = at_the_limit(each.where, sticking=each.sticking)
-        yield says(firm, *stability(each.verdict, each.free, each.on, each.at), limit)
+        kept = stability(each.verdict, each.free, each.on, each.at, each.touching)
+        yield says(firm, *kept, limit)
     if _one_sided(explainer):
         yield from _where_a_contact_pulls(explainer)
     if states.periods:

@@ -19,7 +19,7 @@ from lagcli.mechanics.discovery.lie_algebra import MODULO_CONSTANTS
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.explainer import Explainer
-from lagcli.mechanics.explaining.words import Part, says
+from lagcli.mechanics.explaining.words import Part, listed, says
 from lagcli.statements.answers import (
     AlgebraSection,
     Charge,
@@ -27,7 +27,12 @@ from lagcli.statements.answers import (
     Section,
     SpecialValue,
 )
-from lagcli.statements.wording import PRESCRIBED, conditions, values_of, where_real
+from lagcli.statements.wording import (
+    PRESCRIBED,
+    conditions,
+    values_of,
+    where_real,
+)
 
 #: A table of brackets of more charges than these is not read.
 _MOST = 7
@@ -82,7 +87,7 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
         law = noether_words(explainer, with_gauge=gauge, with_time=timed)[:-1]
         G, L = letters.G, letters.L
         rate: list[Part] = [", where the total time derivative of ", G, " is the change of ", L]
-        boundary = [*rate, *beside] if gauge else []
+        boundary = [*rate, *_with_work(explainer)] if gauge else []
         yield says(*law, *boundary, ".")
         levels = {each.verified for each in charges if each.verified}
         how = f"; this was checked {_CHECKED[levels.pop()]}" if len(levels) == 1 else ""
@@ -94,6 +99,17 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
         )  # fmt: skip
     for charge in found:
         yield from _charge(explainer, charge)
+
+
+def _with_work(explainer: Explainer) -> list[Part]:
+    """What the rate of G contains beside dL: forces that are not in L, constraints that move."""
+    equations = explainer.dynamics.constraints.equations
+    working: list[Part | list[Part]] = []
+    if not explainer.derivation.discovery.canonical:
+        working.append(["the forces that are not in ", explainer.letters.L])
+    if any(is_zero(e.drift) is not True for e in equations):
+        working.append(f"the constraint{'s' * (len(equations) > 1)}")
+    return [" plus the work of ", *listed(working)] if working else []
 
 
 def _charge(explainer: Explainer, charge: Charge) -> Iterator[Block]:
