@@ -376,6 +376,7 @@ def _in_the_manner(derivation: Derivation, account: Explanation) -> Explanation:
     from lagcli.notation.given_formulas import names_of
     from lagcli.notation.letters import sentence, settled
     from lagcli.notation.manner import Manner
+    from lagcli.notation.relations import without_minuses
     from lagcli.rewriting import rewritten
 
     taken = names_of(derivation.given)
@@ -384,7 +385,7 @@ def _in_the_manner(derivation: Derivation, account: Explanation) -> Explanation:
     if one_way := manner.both_ways(steps):
         manner.anew(one_way)
         steps = rewritten(account.steps, manner)
-    account = replace(account, steps=steps)
+    account = replace(account, steps=tuple(map(without_minuses, steps)))
     if derivation.large_form is None:
         account = in_steps(account, taken)
     said = tuple(sentence(warning, taken) for warning in account.warnings)

@@ -1,0 +1,45 @@
+"""Relations to 0 without a minus before the side that is not 0.
+
+    0 = −a is 0 = a,  −a > 0 is a < 0
+
+A page is written in the manner of its file when it is complete, which may turn b − a into −(a − b).
+"""
+
+from __future__ import annotations
+
+from lagcli.document import Block, Equations, Formula, Paragraph, Row
+from lagcli.expression import ZERO, Negative
+from lagcli.record import replace
+from lagcli.statements.explanation import ExplanationStep
+
+_TURNED = {" > ": " < ", " < ": " > "}
+
+
+def without_minuses(step: ExplanationStep) -> ExplanationStep:
+    """The step, each of its relations to 0 turned where all of the other side has a minus."""
+    return replace(step, blocks=tuple(map(_block, step.blocks)))
+
+
+def _block(block: Block) -> Block:
+    match block:
+        case Equations(rows=rows):
+            return Equations(tuple(map(_row, rows)))
+        case Paragraph(parts=parts):
+            return Paragraph(_sentence(parts))
+    return block
+
+
+def _row(row: Row) -> Row:
+    match row:
+        case Row(left=left, right=Negative(operand=right)) if left == ZERO:
+            return replace(row, right=right)
+    return row
+
+
+def _sentence(parts: tuple[str | Formula, ...]) -> tuple[str | Formula, ...]:
+    found = list(parts)
+    for k in range(len(found) - 2):
+        match found[k : k + 3]:
+            case [Negative(operand=left), str(sign), right] if right == ZERO and sign in _TURNED:
+                found[k : k + 2] = [left, _TURNED[sign]]
+    return tuple(found)
