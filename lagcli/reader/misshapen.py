@@ -94,10 +94,10 @@ def as_rayleigh(forces: str) -> str:
 
 
 def pieces(text: str, signs: str) -> list[str]:
-    """What stands between signs that stand outside of parentheses."""
+    """What stands between signs that stand outside of brackets."""
     parts, depth = [""], 0
     for each in text:
-        depth += {"(": 1, ")": -1}.get(each, 0)
+        depth += ("([{".find(each) >= 0) - (")]}".find(each) >= 0)
         if depth == 0 and each in signs and parts[-1].strip():
             parts.append("")
         else:

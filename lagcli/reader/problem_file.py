@@ -122,11 +122,16 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
     With `alone` the one cause of several terms that do not fit is reported, where there is one.
     """
     root, problem, mistakes = _composed(source, alone=alone)
-    if alone and any(each.is_error for each in mistakes):
-        from lagcli.reader.followed import followed, with_hidden
+    if alone and problem is None:
+        from lagcli.reader.mended import mended
 
-        mistakes = followed(source, mistakes, _document)
-        mistakes = with_hidden(source, mistakes, _declaring(root), _document)
+        lines = _declaring(root)
+        mistakes = mended(
+            source,
+            lambda text: _composed(text, alone=False),
+            lambda text: _composed(text, alone=True),
+            lambda each: any(first <= each.span.line <= last for first, last in lines),
+        )
     by_place = one_for_alike(sorted(mistakes, key=lambda each: each.span))
     declared = one_for_undeclared(by_place, _parameters(root))
     entries = root.entries if isinstance(root, Mapping) else []
@@ -157,12 +162,6 @@ def _reading(source: Source) -> tuple[Problem | None, list[Diagnostic]]:
     """The problem that a text writes, and its mistakes."""
     _, problem, mistakes = _composed(source, alone=False)
     return problem, mistakes
-
-
-def _document(source: Source) -> tuple[DocumentNode, list[Diagnostic]]:
-    """The document of a text, and its mistakes by their place."""
-    root, _, mistakes = _composed(source, alone=False)
-    return root, sorted(mistakes, key=lambda each: each.span)
 
 
 def _declaring(root: DocumentNode) -> list[tuple[int, int]]:

@@ -140,8 +140,9 @@ def test_a_comment_of_another_language_is_named(mark, above):
     ],
 )
 def test_other_programs_and_other_marks(written, hint):
-    [only] = messages(written)
-    assert hint in only
+    found = messages(written)  # the second is what the first hides
+    assert len(found) <= 2
+    assert any(hint in each for each in found)
 
 
 @pytest.mark.parametrize("seed", range(10))

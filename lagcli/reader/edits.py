@@ -1,0 +1,256 @@
+"""A hint as an edit of the file: what its reader would type, tried by the program itself."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from difflib import SequenceMatcher
+from typing import NamedTuple
+
+from lagcli.diagnostics import Diagnostic
+from lagcli.reader.habits import KEYS
+from lagcli.reader.misshapen import pieces
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.regex import regex
+from lagcli.reader.text import SourceText
+
+#: The text that a hint proposes; what follows a colon may be the reason.
+PROPOSED = regex(
+    r"(?:.*: )?(?:write|did you mean) (\S.*?)\??"
+    r"|(?:a vector is written by its components|each equation has its own name): (.*)",
+    re.DOTALL,
+)
+_RENAMED = regex(
+    r"(?:(?:the key is|the velocity of \w+ is) (\w+'*)|did you mean (?:'(\S+)'|(\w+'*))\?)"
+)
+#: An example, or a change of more places.
+_NOT_TO_TYPE = regex(r" under '|without '-'|, as in |^it is one sum")
+_NO_NAME = regex(r"'(.*)' is not a name")
+_SECTION = regex(r"(\w+): (.*)", re.DOTALL)
+_BLANKS = "  "
+#: What a comma has cut off a value in braces.
+_CUT = regex(r"(?:\s*,\s*[^,{}\[\]:\n]+)+(?=\s*[,}])")
+#: A line with those that are indented as it is, or more, up to the next key of the problem.
+_ALIKE = regex(rf"(\s*)\S.*\n?(?:\1(?!(?:{'|'.join(KEYS)}):)\s*\S.*\n?)*")
+
+
+class Edit(NamedTuple):
+    """What stands in the place of `text[start:end]`; an edit with a hole proposes nothing."""
+
+    start: int
+    end: int
+    written: str
+
+
+def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[list[Edit]]:
+    """What a hint may mean, each as one or two edits, first what changes the file least."""
+    hint = mistake.hint
+    if mistake.span.line < 1 or "…" in hint or _NOT_TO_TYPE.search(hint):
+        return []
+    start, end = text.offsets(mistake.span)
+    if named := _RENAMED.fullmatch(hint):
+        written = text.source.text[start:end]
+        better = named[1] or named[2] or named[3]
+        primes = written[len(written.rstrip("'")) :] if "'" not in better else ""
+        return [[Edit(start, end, better + primes)]]
+    if moved := _moved(hint, start, end, text):
+        return [moved]
+    if hint.partition(":")[0] == "leave it out":
+        return [[_without(start, end, text, root)]]
+    proposed = PROPOSED.fullmatch(hint)
+    if proposed is None or ", or " in hint:
+        return []
+    whole = re.sub(
+        r"^'(.*)'$",
+        r"\1",
+        re.sub(r", without \w+, also .*|; and so on", "", proposed[1] or proposed[2]),
+    )
+    parts = dict.fromkeys((whole, *_without_reason(whole)))
+    found = [edits for part in parts for edits in _placed(part, start, end, text, root)]
+    written = text.source.text
+    if name := _NO_NAME.match(mistake.message):
+        found = [edits + _elsewhere(name[1], edits[0], written) for edits in found]
+    is_own = is_node(start, end, root, written) and not _SECTION.fullmatch(whole)
+    return sorted(found, key=lambda edits: (
+        not is_own or edits[0].start != start or edits[0].end < end, -_likeness(edits, written)
+    ))  # fmt: skip
+
+
+def is_node(start: int, end: int, root: DocumentNode, text: str) -> bool:
+    """Whether a stretch is all of a text, a list or a map."""
+    return any((each.start, _end(each, text)) == (start, end) for each in nodes_in(root))
+
+
+def _elsewhere(name: str, edit: Edit, text: str) -> list[Edit]:
+    """The other places of a text that was to be a name, such as `x-cart`."""
+    if re.fullmatch(r"\w+", name) or not edit.written.isidentifier():
+        return []
+    others = re.finditer(rf"(?<!\w){re.escape(name)}(?!\w)", text)
+    return [Edit(m.start(), m.end(), edit.written) for m in others if m.start() != edit.start]
+
+
+def _without_reason(whole: str) -> Iterator[str]:
+    """The text before `: numbers are in the units of the file`, and before `; the product is`."""
+    if named := re.fullmatch(r"(\w+'*), \w+ .*", whole):
+        yield named[1]
+    for sign in ("; ", ": "):
+        head, found, tail = whole.partition(sign)
+        is_entry = re.fullmatch(r"\w+'*|\{[^}]*", head) and not re.match(r"(?:[^\W\d]+ ){2}", tail)
+        if found and not is_entry:
+            yield head
+
+
+def _placed(
+    part: str, start: int, end: int, text: SourceText, root: DocumentNode
+) -> Iterator[list[Edit]]:
+    """The places of a proposed text: of the mistake, and of the nodes and the entry around it."""
+    written = text.source.text
+    section = _SECTION.fullmatch(part)
+    entry = entry_at(root, start, end)
+    if section and section[1] in KEYS:
+        if start < end and entry is not None and entry[0].label == section[1]:
+            yield [Edit(entry[0].start, _end(entry[1], written), part)]
+            return
+        if start < end and entry is not None and entry[0].label in KEYS:
+            return  # a part of it goes there
+        gone = [_without(start, end, text, root)] if start < end else []
+        yield [*_into_section(section[1], section[2], text, root), *gone]
+        return
+    end = start + len(written[start:end].rstrip())
+    before = part[: start - end - 1]  # g: 9 of g: 9,81
+    if written[:start].endswith(f"{before},") and part.endswith(f".{written[start:end]}"):
+        yield [Edit(start - len(before) - 1, end, part)]
+        return
+    cut = _CUT.match(written, end)
+    if cut and all(each.strip() in part for each in cut[0].split(",")):
+        yield [Edit(start, cut.end(), part)]
+    yield [Edit(start, end, part)]
+    if section and written[start:end].partition(":")[0] != section[1] and part[:1] not in "[{":
+        yield [Edit(start, end, f"{{{part}}}")]
+    for one in nodes_in(root):
+        stop = _end(one, written)
+        is_around = one.start <= start <= end <= stop and (one.start, stop) != (start, end)
+        if is_around and (isinstance(one, Scalar) or _keeps(written[one.start : stop], part)):
+            is_bare = section and part[:1] != "{" and written[one.start] == "{"
+            yield [Edit(one.start, stop, f"{{{part}}}" if is_bare else part)]
+    if section and entry is not None:
+        inner = part if entry[0].in_flow else _in_lines(part, text.position(entry[0].start)[1] - 1)
+        stop = _end(entry[1], written)
+        if _keeps(written[entry[0].start : stop], part):
+            yield [Edit(entry[0].start, stop, inner)]
+
+
+def _keeps(before: str, after: str) -> bool:
+    """Whether a list, a map or an entry is there with another shape, not only a part of it."""
+    if before[:1] == after[:1] == "[":
+        return True
+    keys, words = ({*re.findall(form, before)} for form in (r"\w+'*(?=:\s)", r"\w+"))
+    kept = {*re.findall(r"\w+'*", after)}
+    return (bool(keys) and keys <= kept) or 2 * len(words & kept) >= len(words)
+
+
+def _in_lines(part: str, indent: int) -> str:
+    """The entries of a map on a line each."""
+    entries = [each.strip() for each in pieces(part, ",")]
+    return f"\n{' ' * indent}".join(entries) if all(map(_SECTION.fullmatch, entries)) else part
+
+
+def _likeness(edits: list[Edit], text: str) -> float:
+    """How much the lines of an edit are like the lines before it."""
+    start, end, written = edits[0]
+    begin = text.rfind("\n", 0, start) + 1
+    stop = len(text) if (at := text.find("\n", end)) < 0 else at
+    changed = f"{text[begin:start]}{written}{text[end:stop]}"
+    return SequenceMatcher(None, text[begin:stop], changed, autojunk=False).ratio()
+
+
+def _moved(hint: str, start: int, end: int, text: SourceText) -> list[Edit]:
+    """The edits of hints on blanks and hyphens at the beginnings of lines."""
+    written = text.source.text
+    begin = text.line_starts[text.position(start)[0] - 1]
+    if hint in {"begin the line with blanks", "begin the line with more blanks"}:
+        lines = _ALIKE.match(written[begin:])
+        inner = lines[0].rstrip("\n") if lines else ""
+        whole = re.sub(r"^(?=.)", _BLANKS, inner, flags=re.MULTILINE)
+        return [Edit(begin, begin + len(inner), whole)]
+    if hint == "leave out the '-' before each key":
+        inner = written[begin:end]
+        whole = re.sub(r"^(\s*)-( +)(?=[^\W\d][\w']*:)", r"\1 \2", inner, flags=re.MULTILINE)
+        return [Edit(begin, end, whole)] if whole != inner else []
+    return []
+
+
+def _without(start: int, end: int, text: SourceText, root: DocumentNode) -> Edit:
+    """Without the entry, or the item of a list, that stands there."""
+    written = text.source.text
+    entry = entry_at(root, start, end)
+    if entry is not None:
+        start, end = entry[0].start, _end(entry[1], written)
+        around = [key for key, value in entries_in(root)
+                  if getattr(value, "entries", ()) == [entry] and key.label in KEYS]  # fmt: skip
+        start = around[0].start if around else start  # the only one of its section
+        end += written[start:end].count("{") - written[start:end].count("}")
+    elif item := next((x for x in nodes_in(root) if x.start == start and x.end >= end), None):
+        start, end = item.start, _end(item, written)
+    if comma := re.match(r"\s*,\s*", written[end:]):
+        return Edit(start, end + comma.end(), "")
+    if comma := re.search(r",\s*$", written[:start]):
+        return Edit(comma.start(), end, "")
+    begin = written.rfind("\n", 0, start) + 1
+    is_line = re.fullmatch(r"\s*(?:- )?", written[begin:start]) is not None
+    return Edit(begin, end, "") if is_line else Edit(start, end, "")
+
+
+def _into_section(key: str, value: str, text: SourceText, root: DocumentNode) -> list[Edit]:
+    """An entry of a section put where it belongs."""
+    written = text.source.text
+    entries = root.entries if isinstance(root, Mapping) else []
+    node = next((value for name, value in entries if name.label == key), None)
+    if node is None:
+        return [Edit(len(written), len(written), f"\n{key}: {value}")]
+    inner = value.strip()[1:-1]
+    if not isinstance(node, Mapping) or value[:1] != "{" or not node.entries:
+        return []
+    end = _end(node, written)
+    if written[node.start] == "{":
+        return [Edit(end - 1, end - 1, f", {inner}")]
+    indent = " " * (text.position(node.start)[1] - 1)
+    lines = (f"\n{indent}{each.strip()}" for each in pieces(inner, ","))
+    return [Edit(end, end, "".join(lines))]
+
+
+def _end(node: DocumentNode, text: str) -> int:
+    """Where a node ends, without the lines of a block below it."""
+    return node.start + len(text[node.start : node.end].rstrip())
+
+
+def entry_at(root: DocumentNode, start: int, end: int) -> tuple[Scalar, DocumentNode] | None:
+    """The innermost entry of a map that begins there, or around a stretch of the text."""
+    found = None
+    for key, value in entries_in(root):
+        if key.start <= start <= end <= max(key.end, value.end):
+            found = (key, value)
+    return found
+
+
+def entries_in(node: DocumentNode) -> Iterator[tuple[Scalar, DocumentNode]]:
+    """Every entry of every map, the outer ones first."""
+    if isinstance(node, Mapping):
+        for key, value in node.entries:
+            yield key, value
+            yield from entries_in(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from entries_in(item)
+
+
+def nodes_in(node: DocumentNode) -> Iterator[DocumentNode]:
+    """Every node of a document, the outer ones first."""
+    yield node
+    if isinstance(node, Sequence):
+        for item in node.items:
+            yield from nodes_in(item)
+    elif isinstance(node, Mapping):
+        for key, value in node.entries:
+            yield key
+            yield from nodes_in(value)
