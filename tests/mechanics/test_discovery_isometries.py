@@ -219,3 +219,20 @@ def test_coordinates_are_called_cartesian_where_their_masses_are_equal(mass):
     found = words(explain(derive(text), ("discovered",)), "Discovered symmetries")
     assert ("The Cartesian coordinates are" in found) == (mass == "m")
     assert ("constant multiples of" in found) == (mass == "M")
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("names", "n"), [("m M", 1), ("b a", 2), ("p q", 3)])
+def test_a_swinging_atwood_machine_is_special_at_three_to_one(names, n):
+    """Tufillaro, Am. J. Phys. 54 (1986) 142: integrable at M = 3 m, here with theta = n psi."""
+    m, M = names.split()
+    text = (
+        f"{{coordinates: {{r: {{assume: positive}}, psi: {{}}}}, parameters: "
+        f"{{{m}: {{assume: positive}}, {M}: {{assume: positive}}}}, "
+        f"T: ({M} + {m})*r'^2/2 + {n**2}*{m}*r^2*psi'^2/2, V: r*({M} - {m}*cos({n}*psi))}}"
+    )
+    [case] = derive(text).special_cases
+    relation = case.parameter - case.value
+    named = {s.name: s for s in relation.free_symbols}
+    assert case.number == 2
+    assert relation.subs(named[M], 3 * named[m]).expand() == 0

@@ -186,6 +186,25 @@ def damped_powers(
             yield sympy.expand(8 * (n + 1) * each.growth**2 - (n + 3) ** 2 * square)
 
 
+def resonant_waves(functions: Sequence[Expr], rest: Expr, q: Sequence[Symbol]) -> Iterator[Expr]:
+    """What vanishes where cos(c q) of flat coordinates, or a product of two, is a wave of L.
+
+    The ansatz takes both for independent: r cos(c theta) beside cos(theta) in a swinging Atwood
+    machine, where 4 c^2 = 1 at M = 3 m.
+    """
+    own, given = (_wave_numbers(each, q) for each in (functions, (rest,)))
+    for x, c in own:
+        for d in (d for y, d in given if y == x and not (c / d).is_number):
+            yield from (sympy.numer(sympy.together(k**2 * c**2 - d**2)) for k in (1, 2))
+
+
+def _wave_numbers(formulas: Sequence[Expr], q: Sequence[Symbol]) -> list[tuple[Symbol, Expr]]:
+    """The c of sin(c x + ...) and cos(c x + ...), by x."""
+    arguments = {f.args[0] for each in formulas for f in each.atoms(sympy.sin, sympy.cos)}
+    found = [(x, argument.diff(x)) for argument in sorted(arguments, key=str) for x in q]
+    return list(dict.fromkeys((x, c) for x, c in found if c != 0 and free_of(c, q)))
+
+
 # -- candidates ---------------------------------------------------------------------------
 
 

@@ -31,6 +31,7 @@ from lagcli.mechanics.discovery.special import (
     exchanged,
     new_charges,
     problem_at,
+    resonant_waves,
     special_powers,
 )
 from lagcli.mechanics.discovery.spectrum import Exponent
@@ -73,6 +74,9 @@ def special_cases(
             factors = lower + special_powers(searched.equations)
             linear = searched.accelerations or (), searched.time_functions.exponents, system.q
             factors += damped_powers(*linear)
+            if searched.isometries is not None:
+                at_rest = system.L.xreplace(dict.fromkeys(system.qdot, sympy.S.Zero))
+                factors += resonant_waves(searched.isometries.functions, at_rest, system.q)
             if len(system.q) == 1 or searched.time_functions.exponents:
                 factors += system.parameters  # a term less: linear, with functions of time
             values = candidates(system, factors, _exponents(searched))
