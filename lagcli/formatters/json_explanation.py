@@ -37,7 +37,9 @@ def _object(explanation: Explanation) -> Object:
 def _block(block: Block) -> Object:
     match block:
         case Heading(text=text, formula=formula):
-            return {"heading": text if formula is None else _sentence([text, " ", formula])}
+            if formula is None:
+                return {"heading": text}
+            return {"heading": _sentence([text, " ", formula]) if text else _formula(formula)}
         case Paragraph(parts=parts):
             return {"text": _sentence(parts)}
         case Items(items=items):

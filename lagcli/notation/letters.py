@@ -35,6 +35,7 @@ _WORDS = (
 )
 #: Names there are those of the file.
 _OF_THE_FILE = re.compile(r"(\bthe functions? .*? (?:is|are) not specified)")
+_OF_FUNCTIONS = re.compile(r"(the functions? )(.*)( (?:is|are) not specified)")
 _LETTERS = re.compile(
     r"(?<![\w'])(T \+ V|[LH]|T(?= is | plus )|V(?= depends | without )|t(?= explicitly))(?![\w'])"
 )
@@ -119,7 +120,21 @@ def _said(parts: tuple[Any, ...], taken: Collection[str]) -> tuple[Any, ...]:
 
 
 def _typeset(text: str) -> list[Any]:
-    """The sentence with its letters as formulas: L, H, T, V, and t where L depends on it."""
+    """The sentence with its letters as formulas: L, H, T, V, t, and functions of the file."""
+    found: list[Any] = []
+    for k, piece in enumerate(_OF_THE_FILE.split(text)):
+        found += _functions(piece) if k % 2 else _letters(piece)
+    return found
+
+
+def _functions(text: str) -> list[Any]:
+    """The functions in "the functions U and Phi are not specified" as formulas."""
+    lead, names, end = _OF_FUNCTIONS.split(text)[1:4]
+    parts = re.split(r"(, | and )", names)
+    return [lead, *(part if k % 2 else Name(part) for k, part in enumerate(parts)), end]
+
+
+def _letters(text: str) -> list[Any]:
     found: list[Any] = []
     for position, piece in enumerate(_LETTERS.split(text)):
         if position % 2 == 0:

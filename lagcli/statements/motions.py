@@ -65,7 +65,8 @@ class PeriodSeries:
     `amplitude` is the name in `period` of half the distance of the turning points, empty
     where the period is that of small oscillations alone; `order` is its highest power.
     Where the motion is `isochronous`, it is the same at every amplitude: the arc, or its square
-    where that is `squared`, is that of a harmonic oscillator.
+    where that is `squared`, is that of a harmonic oscillator; it is `straight` where the arc is
+    a multiple of the coordinate.
     A minimum that is not solved for is where `root_of` vanishes, `at` is empty then.
     `by_energy` is T as a function of the constant energy, where each of `energies` holds.
     """
@@ -76,6 +77,7 @@ class PeriodSeries:
     order: int = 0
     isochronous: bool = False
     squared: bool = False
+    straight: bool = False
     root_of: Expression | None = None
     where: tuple[Above, ...] = ()
     by_energy: Expression | None = None

@@ -14,7 +14,7 @@ from lagcli.statements.wording import Part, conditions, joined, with_capital
 _LONG = 24
 _LINEAR = ", since the equations of motion are linear and "
 _BOUNDED = "all their solutions are then bounded"
-_DRIFT = "beside a slow drift along the family "
+_DRIFT = "apart from a slow drift along the family "
 _THEOREM = "(Kelvin, Tait and Chetaev)"
 _MOVING = "What is set in motion gains no kinetic energy, but need not stay near."
 

@@ -443,7 +443,9 @@ def in_moving_frames(section: SteadySection) -> Iterator[Paragraph]:
             parts += [", " if parts else lead]
             parts += [part for name, _ in pairs for part in (Name(name, 1), " = ")]
             parts += [rate]
-        yield Paragraph((*parts, ": the equations of motion hold in a frame that moves along."))
+        yield Paragraph(
+            (*parts, ": the equations of motion hold in a frame with this velocity, too.")
+        )
 
 
 def in_polar_coordinates(section: SteadySection) -> Iterator[Paragraph]:

@@ -101,7 +101,8 @@ def _block(block: Block, printer: MathmlPrinter) -> Iterator[str]:
     match block:
         case Heading(text=text, level=level, formula=formula):
             about = "" if formula is None else _part(formula, printer)
-            yield f"<h{level + 1}>{escaped(text)} {about}".rstrip() + f"</h{level + 1}>"
+            named = f"{escaped(text)} {about}".strip()
+            yield f"<h{level + 1}>{named}</h{level + 1}>"
         case Paragraph(parts=parts):
             yield f"<p>{_sentence(parts, printer)}</p>"
         case Items(items=items):

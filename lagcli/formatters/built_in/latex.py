@@ -60,7 +60,7 @@ def _block(block: Block, display: LatexDisplay, displays: Environments) -> Itera
     match block:
         case Heading(text=text, level=level, formula=formula):
             displays.enter(text, level)
-            parts = (text,) if formula is None else (f"{text} ", formula)
+            parts = (text,) if formula is None else (f"{text} " * bool(text), formula)
             yield f"{_HEADINGS[level]}{{{display.sentence(parts, _words)}}}"
         case Paragraph(parts=parts):
             yield r"\noindent " + display.sentence(parts, _words)

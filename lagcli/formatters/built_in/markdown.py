@@ -54,7 +54,7 @@ def _blocks(document: Document) -> Iterator[str]:
 def _block(block: Block, display: LatexDisplay) -> Iterator[str]:
     match block:
         case Heading(text=text, level=level, formula=formula):
-            parts = (text,) if formula is None else (f"{text} ", formula)
+            parts = (text,) if formula is None else (f"{text} " * bool(text), formula)
             yield f"{'#' * (level + 1)} {display.sentence(parts, _words, _inline)}"
         case Paragraph(parts=parts):
             yield _LINE_START.sub(r"\\\1", display.sentence(parts, _words, _inline))

@@ -234,7 +234,7 @@ def _stays(charge: NoetherCharge) -> str:
 def _candidate(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
     letters, write = explainer.letters, explainer.readable.as_written
     change = charge.transformation
-    yield Heading(charge.name, 2)
+    yield Heading("", 2, Name(charge.name))
     yield says("The transformation of the file is")
     named = [*zip(explainer.system.names, change.changes, strict=True), ("t", change.time)]
     rows = [Row(Label(name, change=True), write(by)) for name, by in named if by != 0]

@@ -13,7 +13,14 @@ from lagcli.expression import Expression
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.recurring import recurring
 from lagcli.mechanics.explaining.reduction import averaged_potential
-from lagcli.mechanics.explaining.words import Part, names, no_solution, says, shows
+from lagcli.mechanics.explaining.words import (
+    Part,
+    constraints_allow,
+    names,
+    no_solution,
+    says,
+    shows,
+)
 from lagcli.mechanics.reduction.effective_potential import without_momenta
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.mechanics.statements import Statements
@@ -58,7 +65,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
     states = cast(EquilibriaSection, section)
     found = states.equilibria
     rest = RestPoints(explainer.dynamics)
-    constrained = bool(explainer.dynamics.constraints.equations)
+    constraints = len(explainer.dynamics.constraints.equations)
     timed = rest.growth != 1
     sticking = any(each.sticking for each in found or ())
     solved = () if rest.has_no_value else rest.equations
@@ -80,7 +87,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         f"{lead}Lagrange's equations then require that the generalized forces",
         *((", divided by ", explainer.readable.as_written(rest.growth), ",") if timed else ()),
         " vanish"
-        + (" along every displacement that the constraints allow" if constrained else "")
+        + f" along every displacement that {constraints_allow(constraints)}" * bool(constraints)
         + end,
     )
     if sticking:

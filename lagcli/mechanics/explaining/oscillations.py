@@ -124,12 +124,13 @@ def _linear(explainer: Explainer, place: Place) -> Iterator[Block]:
     yield from linear_equations("the equations of motion are ", *matrices)
     near, entries = place.near, (e for m in place.matrices for row in m for e in row)
     where = above_zero(squares_divided_by(entries), near.system.order, place.point.positive)
-    constrained = bool(explainer.dynamics.constraints.equations)
-    pole = isinstance(near, AtPole)
+    constraints = len(explainer.dynamics.constraints.equations)
+    names = near.system.names
+    pole = (names[near.radius], names[near.around]) if isinstance(near, AtPole) else None
     contacts = {contact.name for contact in explainer.problem.contacts}
     closed = [name for name in place.held.touching if name in contacts]
     free = [q.name for q in near.independent]
-    yield from displacements(constrained, free, where, closed=closed, at_pole=pole)
+    yield from displacements(constraints, free, where, closed=closed, pole=pole)
 
 
 # -- without damping -----------------------------------------------------------------------------

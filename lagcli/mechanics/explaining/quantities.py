@@ -15,7 +15,7 @@ from lagcli.statements.wording import unit_rows, with_names
 _CHANGED = "that of the momentum times the change of the coordinate:"
 
 
-def model(_: Explainer, section: Section) -> Iterator[Block]:
+def model(explainer: Explainer, section: Section) -> Iterator[Block]:
     """The coordinates that a numerical run integrates, and why not the others."""
     found = cast(ModelSection, section)
     if found.kept is None:
@@ -40,7 +40,11 @@ def model(_: Explainer, section: Section) -> Iterator[Block]:
         yield says("The motion does not depend on ", names(found.dropped), ".")
     if found.reason:
         yield says("The reasons:")
-        reasons = ((Name(name), ": ", *with_names(w), ".") for name, w in found.reason.items())
+        given = {each.name for each in explainer.problem.constraints}
+        reasons = (
+            (f"'{name}'" if name in given else Name(name), ": ", *with_names(w), ".")
+            for name, w in found.reason.items()
+        )
         yield Items(tuple(reasons))
 
 

@@ -185,9 +185,10 @@ def _period(each: PeriodSeries, potential: Part) -> Iterator[Block]:
         yield says(f"{_TWICE} In terms of ", a, ", half their distance, it is to the order ",
                    Power(a, order), ",")  # fmt: skip
     elif each.isochronous:
-        why = "The motion is that of a harmonic oscillator in the arc"
+        why = "The motion is that of a harmonic oscillator" + " in the arc" * (not each.straight)
         if each.squared:
-            why = "The square of the arc from a fixed point oscillates harmonically"
+            length = "distance" if each.straight else "arc"
+            why = f"The square of the {length} from a fixed point oscillates harmonically"
         yield says(f"{_TWICE} {why}, so the period is the same at every amplitude:")
     elif each.order:
         yield says(f"{_TWICE} To the order {each.order} in half their distance it is constant:")

@@ -13,7 +13,15 @@ from lagcli.expression import ZERO, Expression, Name, Number, Power
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.given_momenta import two_rates
 from lagcli.mechanics.explaining.recurring import recurring
-from lagcli.mechanics.explaining.words import Part, displacements, listed, names, no_solution, says
+from lagcli.mechanics.explaining.words import (
+    Part,
+    constraints_allow,
+    displacements,
+    listed,
+    names,
+    no_solution,
+    says,
+)
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.statements.answers import Section
 from lagcli.statements.motions import SteadyMotion, SteadySection
@@ -36,9 +44,8 @@ from lagcli.statements.wording import (
 _BALANCED = {
     (): "vanish",
     ("forces",): "balance the other forces",
-    ("constraints",): "vanish along every displacement that the constraints allow",
-    ("forces", "constraints"): "balance the other forces along every displacement that the "
-    "constraints allow",
+    ("constraints",): "vanish along every displacement that {allowed}",
+    ("forces", "constraints"): "balance the other forces along every displacement that {allowed}",
 }
 
 
@@ -76,13 +83,15 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says(_NO_MOMENTUM, lead if _wanted(found) else f"{lead[:-1]}.")
         yield from _steady_states(explainer, found)
         return
+    allowed = constraints_allow(len(explainer.dynamics.constraints.equations))
     yield says(
         "In a steady motion the coordinates that are not cyclic are constant, and the cyclic ones "
         "have constant velocities. All velocities and accelerations in the Routhian's "
         "equations are "
         "then 0, so the derivatives of ",
         POTENTIALS["U_eff"],
-        f" {_BALANCED[found.acting]}, with the momenta of the cyclic coordinates as constants"
+        f" {_BALANCED[found.acting].format(allowed=allowed)}, with the momenta of the cyclic "
+        "coordinates as constants"
         f"{':' if _wanted(found) else ', which they do everywhere.'}",
     )
     yield from _steady_states(explainer, found)
@@ -120,7 +129,7 @@ def _steady_without_momenta(explainer: Explainer, found: SteadySection) -> str:
     if all(e.holonomic for e in equations):
         if any(is_zero(e.drift) is not True for e in equations):
             return ", so in a steady motion the coordinates that are left rest:"
-        frames = ", at rest or in a frame that moves along" * bool(found.frames)
+        frames = ", at rest or in a frame of constant velocity" * bool(found.frames)
         return f", so in these coordinates the steady motions are the equilibria{frames}:"
     if found.motions:
         return ". The equilibria are steady motions:"
@@ -232,8 +241,8 @@ def _displaced(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
     unchanged = " at unchanged momenta" if motion.momenta else ""
     lead = f"Small displacements{unchanged} obey to first order "
     yield from linear_equations(lead, motion.mass, motion.velocity, motion.stiffness)
-    constrained = bool(explainer.dynamics.constraints.equations and motion.displaced)
-    yield from displacements(constrained, motion.displaced, motion.linear_where)
+    constraints = len(explainer.dynamics.constraints.equations) if motion.displaced else 0
+    yield from displacements(constraints, motion.displaced, motion.linear_where)
     squares = dict.fromkeys(motion.frequencies_squared)
     if squares:
         yield says("The squares of the frequencies are the roots of the determinant:")

@@ -19,7 +19,7 @@ from lagcli.mechanics.discovery.lie_algebra import MODULO_CONSTANTS
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.explainer import Explainer
-from lagcli.mechanics.explaining.words import Part, listed, says
+from lagcli.mechanics.explaining.words import Part, constraints_allow, listed, says
 from lagcli.statements.answers import (
     AlgebraSection,
     Charge,
@@ -114,7 +114,7 @@ def _with_work(explainer: Explainer) -> list[Part]:
 
 def _charge(explainer: Explainer, charge: Charge) -> Iterator[Block]:
     letters = explainer.letters
-    yield Heading(charge.name, 2)
+    yield Heading("", 2, letters.free(charge.name))
     moves = charge.source == "momentum equation"
     rows = [Row(Label(name, change=True), by) for name, by in charge.transformation.items()]
     of_constraint = not charge.transformation and not moves
@@ -127,13 +127,15 @@ def _charge(explainer: Explainer, charge: Charge) -> Iterator[Block]:
         rows.append(Row(Name(letters.Q.name, 1), charge.rate))
     yield Equations(tuple(rows))
     if of_constraint:
-        yield says("It is the integral of velocity constraints, not of a symmetry.")
+        several = sum(not e.holonomic for e in explainer.dynamics.constraints.equations) > 1
+        of = "velocity constraints" if several else "a velocity constraint"
+        yield says(f"It is the integral of {of}, not of a symmetry.")
     if energy:
         yield says("It is listed with the sign of the energy, opposite to that of the theorem.")
     if moves:
-        several = len(explainer.dynamics.constraints.equations) > 1
+        allowed = constraints_allow(len(explainer.dynamics.constraints.equations))
         yield says(
-            f"The {'constraints allow' if several else 'constraint allows'} this displacement, a "
+            f"{allowed.capitalize()} this displacement, a "
             "combination of symmetries whose factors "
             "depend on the configuration. The momentum is not constant: it has this rate."
         )
@@ -162,7 +164,7 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
         return
     if found.in_involution is None:
         yield says(*_no_brackets(explainer))
-    yield from _brackets(explainer, closed=found.closed)
+    yield from _brackets(explainer, found)
     yield from _dimension(found)
     number, n = found.independent, explainer.dynamics.degrees_of_freedom
     if found.number > 1 and number is not None:
@@ -192,7 +194,8 @@ def _at_special_values(explainer: Explainer, found: AlgebraSection) -> Iterator[
         beside = f", of which {new} of those above" if found.number else ""
         at = [*values_of(case), *(part for each in others for part in (" or ", *values_of(each)))]
         yield says("For ", *at, f" the same search finds {many}{beside}:")
-        yield equations_of((Name(name), value) for name, value in case.charges.items())
+        free = explainer.letters.free
+        yield equations_of((free(name), value) for name, value in case.charges.items())
         yield from where_real(case.where, several=not one)
 
 
@@ -256,10 +259,12 @@ def _integrability(found: AlgebraSection, n: int) -> list[Part]:
     return [law, here + verdict]
 
 
-def _brackets(explainer: Explainer, *, closed: bool) -> Iterator[Block]:
+def _brackets(explainer: Explainer, found: AlgebraSection) -> Iterator[Block]:
     """{A, B} by multiples of the charges, where the Legendre transform is to be had."""
     discovery, hamiltonian = explainer.derivation.discovery, explainer.derivation.hamiltonian
-    charges = discovery.charges
+    charges, closed = discovery.charges, found.closed
+    no_constants = found.name and not found.name.endswith(MODULO_CONSTANTS)
+    of_them = "of them" if no_constants else "of them and of constants"
     free = not explainer.dynamics.constraints.equations and discovery.canonical
     if not free or len(charges) < 2 or hamiltonian.velocities is None:
         return
@@ -267,8 +272,7 @@ def _brackets(explainer: Explainer, *, closed: bool) -> Iterator[Block]:
         if closed:
             yield says(
                 f"The Poisson brackets of the {len(charges)} conserved quantities with each "
-                f"other are "
-                "linear combinations of them and of constants."
+                f"other are linear combinations {of_them}."
             )
         return
     known = {
@@ -310,8 +314,7 @@ def _brackets(explainer: Explainer, *, closed: bool) -> Iterator[Block]:
         several = other > 1
         verb = "are" if several else "is"
         if closed:
-            what = f"{verb} {'' if several else 'a '}linear combination{'s' * several} of them and "
-            what += "of constants"
+            what = f"{verb} {'' if several else 'a '}linear combination{'s' * several} {of_them}"
         elif apart:
             what = f"{verb} neither 0 nor a multiple of one of them"
         else:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from lagcli.document import Equations, Formula, Label, Paragraph, Row
-from lagcli.expression import Expression, Name, Negative, Sum
+from lagcli.expression import Call, Expression, Name, Negative, Sum
 from lagcli.notation.given_formulas import names_of, symbols_of
 from lagcli.notation.letters import names_in
 from lagcli.notation.naming import free
@@ -66,24 +66,35 @@ def shows(left: Formula, right: Expression, note: str = "") -> Equations:
     return Equations((Row(left, right, note),))
 
 
+def constraints_allow(number: int) -> str:
+    """That of one constraint, or of more."""
+    return "the constraint allows" if number == 1 else "the constraints allow"
+
+
 def displacements(
-    constrained: bool,
+    constraints: int,
     free: Sequence[str],
     where: Sequence[Above],
     *,
     closed: Sequence[str] = (),
-    at_pole: bool = False,
+    pole: tuple[str, str] | None = None,
 ) -> Iterator[Paragraph]:
-    """Which displacements linear equations are about, and where these are finite."""
+    """Which displacements linear equations are about, and where these are finite.
+
+    At a `pole` of a distance r and an angle φ they are those of r cos φ and r sin φ.
+    """
     parts: list[Part] = []
-    allowed = ["the constraints allow"] if constrained else []
+    allowed = [constraints_allow(constraints)] if constraints else []
     allowed += [f"keep {constraints_named('the contact', closed)} closed"] if closed else []
     if allowed:
-        parts += [f"restricted to the displacements that {' and '.join(allowed)}"]
+        parts += [f"restricted to the displacements that {' and that '.join(allowed)}"]
         parts += [", in terms of those of ", *names(free)] if free else []
-    if at_pole:
+    if pole is not None:
+        r, phi = map(Name, pole)
+        first, second = Call("cos", (phi,)), Call("sin", (phi,))
         parts += [", "] if parts else []
-        parts += ["in Cartesian displacements at the pole, the second of them in the last row"]
+        parts += ["in the displacement of ", r, " times ", first, " and, in the last row, times "]
+        parts += [second]
     if where:
         parts += [", for " if parts else "for ", *conditions(where)]
     if parts:

@@ -81,8 +81,8 @@ class AmplitudeSeries:
 
     `point` None: about every place at which the derivative of U_eff vanishes.  Where the motion is
     `isochronous` the period is 2 pi root at every amplitude: the arc, or its square where that is
-    `squared`, is that of a harmonic oscillator.  The period `by_energy` holds for positive
-    `energies`.
+    `squared`, is that of a harmonic oscillator.  It is `straight` where the arc is a
+    multiple of the coordinate.  The period `by_energy` holds for positive `energies`.
     """
 
     point: RestPoint | None
@@ -91,6 +91,7 @@ class AmplitudeSeries:
     where: tuple[Expr, ...]
     isochronous: bool = False
     squared: bool = False
+    straight: bool = False
     by_energy: Expr | None = None
     energies: tuple[Expr, ...] = ()
 
@@ -267,7 +268,8 @@ class Periods:
         harmonic = constant and self._is_harmonic(place, w2)
         squared = constant and not harmonic and self._is_harmonic_squared(w2)
         alike = harmonic or squared
-        series = AmplitudeSeries(point, root, tuple(coefficients), where, alike, squared)
+        straight = free_of(self._mass, [q])
+        series = AmplitudeSeries(point, root, tuple(coefficients), where, alike, squared, straight)
         agrees = self._agrees(series)
         if agrees:
             return series if alike else self._with_energy(series)

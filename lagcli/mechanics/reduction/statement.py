@@ -315,6 +315,7 @@ class _Statement:
             order=len(found.coefficients),
             isochronous=found.isochronous,
             squared=found.squared,
+            straight=found.straight,
             period=period,
             where=conditions(found.where, self.order),
             by_energy=None if found.by_energy is None else self._shape(found.by_energy),

@@ -87,6 +87,11 @@ class AtPole(Linearization):
         self._row = next(k for k, column in enumerate(whole.basis) if column[radius] == 1)
         self.basis = [*whole.basis, whole.basis[self._row]]
 
+    @property
+    def around(self) -> int:
+        """The place of phi, or of the first coordinate that turns with it."""
+        return next(j for j, rate in enumerate(self.turning) if rate != 0)
+
     @cached_property
     def C(self) -> Matrix:
         """Damping and gyroscopic terms."""

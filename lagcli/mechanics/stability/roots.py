@@ -73,7 +73,7 @@ def _imaginary(near: Near, open_: tuple[Expr, ...]) -> Stability:
     if (near.zeros and not exact) or (across and not near.drifts_along_family):
         return undecided(NEUTRAL)
     if exact and not open_:
-        beside = "beside a slow drift along the family " if across else ""
+        beside = "apart from a slow drift along the family " if across else ""
         reason = f"the equations of motion are linear, and {beside}all their solutions are bounded"
         return Stability(stable=True, reason=reason, spectrum=(), exact=True, across=across)
     limit = exact and bool(open_) and grows_at_equality(near.linear, open_)

@@ -1,4 +1,4 @@
-"""Velocities that all may have in common: the equations of motion hold in a frame that moves along.
+"""Velocities that all may have in common: the equations hold in a frame that moves with them.
 
 Of M(q) q'' = F(q, q') these are the constant c with
 
