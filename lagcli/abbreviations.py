@@ -9,8 +9,9 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
+from fractions import Fraction
 
-from lagcli.document import Equations, Paragraph, Row
+from lagcli.document import Block, Equations, Paragraph, Row
 from lagcli.expression import (
     Call,
     Expression,
@@ -30,7 +31,14 @@ from lagcli.expression import (
     without_minus,
 )
 from lagcli.notation.letters import names_in
-from lagcli.notation.likeness import EVEN, ODD, SignedNumbers, parity
+from lagcli.notation.likeness import (
+    EVEN,
+    ODD,
+    Monomial,
+    SignedNumbers,
+    multiplied_out,
+    parity,
+)
 from lagcli.notation.naming import PART_STEMS, Names, free_stem
 from lagcli.notation.ordering import positive_first
 from lagcli.record import replace
@@ -91,7 +99,8 @@ def in_steps(explanation: Explanation, taken: Collection[str]) -> Explanation:
     if names is None:
         return explanation
     steps, left = [*explanation.steps[:_DERIVATION]], dict(names.where)
-    for step in rewritten(derived, names):
+    for step in derived:
+        step = replace(step, blocks=tuple(names.in_block(block) for block in step.blocks))
         used = names_in(step.blocks)
         for name, node in reversed(names.where.items()):  # each after those that it uses
             used |= names_in(node) if name in used else set()
@@ -130,6 +139,7 @@ class _Abbreviations:
         self._chosen: dict[str, Expression] = {}
         self._trees = list(trees)
         self._long = [operation_count(tree) > _TWO_LINES for tree in trees]
+        self._beside: set[str] = set()  # what other rows of a block have
         self._stem = free_stem(PART_STEMS, taken)
         self._numbered: dict[str, list[str]] = {self._stem: [], "Delta": []}  # k1, k2, …, Δ, Δ2, …
         while len(self._chosen) < _MOST_NAMES and (best := self._best()) is not None:
@@ -149,11 +159,30 @@ class _Abbreviations:
             node = self._with_name(node, label) if self._is_for(label, node, long) else node
         return self._renamed(substituted(node, self._short))
 
+    def in_block(self, block: Block) -> Block:
+        """The block with the names; one that a row of it has is known again in the others."""
+        trees = [*expressions_in(block)]
+        self._beside = {label for tree in trees for label in self._labels_of(tree)}
+        named = rewritten(block, self)
+        self._beside = set()
+        return named
+
+    def _labels_of(self, tree: Expression) -> Iterator[str]:
+        long = operation_count(tree) > _TWO_LINES
+        for label in self._labels:
+            if self._is_for(label, tree, long):
+                named = self._with_name(tree, label)
+                yield from [label] if named is not tree else []
+                tree = named
+
     def _is_for(self, label: str, tree: Expression, long: bool) -> bool:
         """Whether a formula has this name: V = 2 k a² (1 − cos θ)² − m a k1 is not known again."""
         if long or label not in self._numbered[self._stem]:
             return True
-        return sum(self._alike(part)[1] == self._labels[label][1] for part in walk(tree)) > 1
+        which = self._labels[label][1]
+        if label in self._beside:
+            return self._alike(tree)[1] != which
+        return sum(self._alike(part)[1] == which for part in walk(tree)) > 1
 
     def _with_name(self, node: Expression, label: str) -> Expression:
         """The formula with a name for what is the same up to its sign and the order of terms."""
@@ -246,16 +275,30 @@ class _Abbreviations:
         return wanted
 
     def _left_out(self) -> dict[str, Expression]:
-        """What is hardly longer than a name with the names in it, as a + √Δ: written out again."""
+        """What is hardly longer than a name with the names in it, as a + √Δ: written out again.
+
+        And the other name where two are the same multiplied out.
+        """
         short: dict[str, Expression] = {}
+        same: dict[frozenset[tuple[Monomial, Fraction]], str] = {}
         for name in [*self._chosen]:
-            node = substituted(self._chosen[name], short)
-            if operation_count(node) <= _HARDLY and not isinstance(node, Call):
-                short = {n: substituted(x, {name: node}) for n, x in short.items()} | {name: node}
-                del self._chosen[name]
+            node: Expression = substituted(self._chosen[name], short)
+            if operation_count(node) > _HARDLY or isinstance(node, Call):
+                terms = multiplied_out(self._whole(node))
+                known = name if terms is None else same.setdefault(frozenset(terms.items()), name)
+                if known == name:
+                    continue
+                node = Name(known)
+            short = {n: substituted(x, {name: node}) for n, x in short.items()} | {name: node}
+            del self._chosen[name]
         self._chosen = {name: substituted(node, short) for name, node in self._chosen.items()}
         self._trees = [substituted(tree, short) for tree in self._trees]
         return short
+
+    def _whole(self, node: Expression) -> Expression:
+        """What is named, without names."""
+        inner = {part.name for part in walk(node) if isinstance(part, Name)} & {*self._wholes}
+        return substituted(node, {n: self._whole(self._wholes[n]) for n in inner})
 
     def _ordered(self) -> Iterator[tuple[str, Expression]]:
         """The names as they occur in the formulas, each after those that it uses."""

@@ -28,6 +28,7 @@ from lagcli.expression import (
 from lagcli.formatters import Options
 from lagcli.formatters.page import to_document
 from lagcli.notation.letters import names_in
+from lagcli.notation.likeness import signed_key
 from lagcli.pipeline import Request, derive, explain, read, render, state
 from lagcli.reader import read_problem
 from lagcli.record import replace
@@ -236,6 +237,48 @@ def test_an_explanation_lists_each_name_where_it_first_occurs(file, also):
     for stem in {name.rstrip("0123456789") for name in names}:
         numbers = [int(n[len(stem) :] or 1) for n in names if n.rstrip("0123456789") == stem]
         assert numbers == sorted(numbers)
+
+
+def blocks_of(file, also):
+    steps = explain(derive(load(f"problems/{file}.yaml")), also).steps
+    blocks = [block for step in steps for block in step.blocks if isinstance(block, Equations)]
+    heads = [step.blocks[:2] for step in steps if step.blocks]
+    listed = [
+        rows.rows
+        for lead, rows in (head for head in heads if len(head) == 2)
+        if isinstance(lead, Paragraph) and str(lead.parts[0]).startswith("With the abbrev")
+    ]
+    return blocks, {row.left.name: row.right for rows in listed for row in rows}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("file", "also"),
+    [
+        ("oscillations/masses-joined-by-damper", ["discovered"]),
+        ("nonholonomic/two-wheeled-cart", ["discovered"]),
+        ("steady/rolling-hoop", ["canonical_equations"]),
+        ("driven/driven-damped-oscillator", ["discovered"]),
+    ],
+)
+def test_what_has_a_name_in_one_row_has_it_in_those_beside_it(file, also):
+    """And no two names are one quantity: chi_4 and chi_8 were, of a driven oscillator."""
+    blocks, named = blocks_of(file, also)
+    assert named
+    keys = {name: signed_key(node)[1] for name, node in named.items()}
+    for block in blocks:
+        trees = [tree for tree in expressions_in(block) if tree not in named.values()]
+        used = set().union(*(names_in(tree) for tree in trees)) & {*named}
+        parts = [signed_key(p)[1] for tree in trees for p in walk(tree) if p is not tree]
+        assert not [name for name in used if keys[name] in parts]
+    draw = Random(file)
+    letters = {str(p) for node in named.values() for p in walk(node) if isinstance(p, Name)}
+    values = {name: draw.uniform(0.5, 1.5) for name in sorted(letters - {*named})}
+    sizes = []
+    for name, node in named.items():
+        values[name] = evaluated(node, values, FUNCTIONS)
+        sizes.append(round(abs(values[name]), 9))
+    assert len({*sizes}) == len(sizes)
 
 
 @pytest.mark.parametrize("sign", ["", "-"])

@@ -29,7 +29,7 @@ def canonical_equations(explainer: Explainer, section: Section) -> Iterator[Bloc
     )
     momenta = explainer.dynamics.lagrange.momenta
     yield equations_of(
-        (Name(f"p_{name}"), explainer.readable.as_written(p))
+        (Name(f"p_{name}"), explainer.readable.linear(p))
         for name, p in zip(explainer.system.names, momenta, strict=True)
     )
     H = explainer.letters.free("H")
