@@ -25,6 +25,19 @@ def vanishing_factors(form: Expr, moving: Collection[Symbol]) -> tuple[Expr, ...
     return tuple(f for f in found if f.is_nonzero is not True and sign(f) not in {1, -1})
 
 
+def without_time_alone(form: Expr, t: Symbol, moving: Collection[Symbol]) -> Expr:
+    """The form without the factors of t alone: t (x' - 2 y') = 0 is x' - 2 y' = 0."""
+    if free_of(form, [t]) or form.has(sympy.Abs, sympy.sign) or sympy.count_ops(form) > _LONGEST:
+        return form
+    try:
+        found = factors_of(form)
+    except ZeroDivisionError:
+        return form
+    timed = [f**power for f, power in found if free_of(f, moving) and not free_of(f, [t])]
+    kept = [f**power for f, power in found if f**power not in timed]
+    return sympy.Mul(*kept) if timed else form
+
+
 def restricting(factors: Sequence[Expr], velocities: Collection[Symbol]) -> Expr:
     """The factor of a velocity constraint that has the velocities in it."""
     return next((f for f in factors if not free_of(f, velocities)), factors[-1])

@@ -25,7 +25,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra import Relations, dot, is_zero, nullspace, rank, simplify
 from lagcli.algebra.build import free_of, without_jumps
 from lagcli.diagnostics import Diagnostic, ProblemError
-from lagcli.mechanics.branches import restricting, vanishing_factors
+from lagcli.mechanics.branches import restricting, vanishing_factors, without_time_alone
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Constraint
 from lagcli.record import record
@@ -120,6 +120,16 @@ class Constraints:
         found = {name: vanishing_factors(form, moving) for name, form in forms.items()}
         return {name: factors for name, factors in found.items() if len(factors) > 1}
 
+    def follows(self, factor: Expr, equation: ConstraintEquation) -> bool:
+        """Whether the other constraints, those of one factor, make this factor of one vanish.
+
+        z = x^2 leaves (z - x^2) (y - 2) = 0 no other surface.
+        """
+        whole = [e for e in self.equations if e is not equation and e.name not in self.branches]
+        forms = [e.f for e in whole if e.holonomic] + list(map(self._velocity_form, whole))
+        moving = (*self.system.q, *self.system.qdot, self.system.t)
+        return bool(forms) and is_zero(factor, Relations(forms, moving=moving)) is True
+
     def _velocity_form(self, equation: ConstraintEquation) -> Expr:
         return dot(equation.row, self.system.qdot) + equation.drift
 
@@ -140,15 +150,18 @@ class Constraints:
         """What holds on the motion: f = 0 for the holonomic ones, A q' + b = 0 for all."""
         if not self.equations:
             return None
-        positions = [e.f for e in self.equations if e.holonomic]
-        velocities = [
-            form
-            if e.holonomic
-            else restricting(self.branches.get(e.name, (form,)), self.system.qdot)
-            for e, form in zip(self.equations, self.velocity_forms, strict=True)
-        ]
-        moving = (*self.system.q, *self.system.qdot, self.system.t)
-        return Relations([*positions, *velocities], moving=moving)
+        system = self.system
+        still = (*system.q, *system.qdot)
+        positions, velocities = [], []
+        for e, form in zip(self.equations, self.velocity_forms, strict=True):
+            if e.holonomic:
+                positions.append(without_time_alone(e.f, system.t, still))
+                changed = positions[-1] is not e.f
+                velocities.append(system.total_derivative(positions[-1]) if changed else form)
+            else:
+                rest = restricting(self.branches.get(e.name, (form,)), system.qdot)
+                velocities.append(without_time_alone(rest, system.t, still))
+        return Relations([*positions, *velocities], moving=(*still, system.t))
 
     # -- integrability ----------------------------------------------------------------
 

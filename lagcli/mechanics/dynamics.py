@@ -90,6 +90,11 @@ class Dynamics:
         assert self.states.elimination is not None
         return self.states.elimination.independent
 
+    @property
+    def independent_rows(self) -> list[tuple[Expr, ...]]:
+        """Their rows of A: of (z - x^2) (y - 2) = 0 beside z = x^2 the row is 0 on the surface."""
+        return [self.constraints.jacobian[k] for k in self.independent_constraints]
+
     def _contradiction(self, index: int) -> ProblemError:
         constraint = self.system.problem.constraints[max(index, 0)]
         others = [c.name for c in self.system.problem.constraints if c is not constraint]

@@ -344,7 +344,7 @@ class Noether:
         work = [
             self.dynamics.lagrange.lagrangian_forces,
             tuple(Q - system.D.diff(v) for Q, v in zip(system.forces, system.qdot, strict=True)),
-            *(equation.row for equation in self.dynamics.constraints.equations),
+            *self.dynamics.independent_rows,
         ]
         rows = [[row[j] for j in moved] for row in work]
         found = []
@@ -368,7 +368,9 @@ class Noether:
         if self.energy.conserved is not False or acted_on:
             return None
         rows = [[without_jumps(system.L.diff(system.t)), *self.dynamics.lagrange.lagrangian_forces]]
-        rows += [[e.drift, *e.row] for e in self.dynamics.constraints.equations]
+        equations = self.dynamics.constraints.equations
+        kept = (equations[k] for k in self.dynamics.independent_constraints)
+        rows += [[e.drift, *e.row] for e in kept]
         variables = (*system.q, *system.qdot, system.t)
         steady = (v for v in constant_nullspace(rows, variables) if is_zero(v[0]) is False)
         for vector in steady:

@@ -153,8 +153,8 @@ class Statements(Stating):
     def _on_branches(self) -> Iterator[str]:
         constraints = self.dynamics.constraints
         for equation in constraints.equations:
-            factors = constraints.branches.get(equation.name)
-            if factors is not None:
+            factors = constraints.branches.get(equation.name, ())
+            if factors and not any(constraints.follows(f, equation) for f in factors):
                 position = equation.f if equation.holonomic else None
                 yield sentence(equation.name, factors, self.system.qdot, position)
         states = self.dynamics.states

@@ -69,6 +69,8 @@ def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
         states = [(each.at, each.on) for each in alike]
         yield from alike_blocks(states)
         yield Paragraph(_stability(equilibrium, states))
+    if section.equilibria and section.where:
+        yield Paragraph((f"They were sought only{section.where}.",))
     if section.periods:
         yield Paragraph(tuple(repeating(section.periods)))
     if section.equilibria and not section.complete:

@@ -8,6 +8,7 @@ import pytest
 
 from lagcli.algebra import is_zero
 from lagcli.diagnostics import ProblemError
+from lagcli.formatters.json_values import plain
 from lagcli.mechanics.statements import Statements
 
 from .derived import derive, printed
@@ -160,3 +161,55 @@ def test_points_that_few_draws_reach_are_met(a):
     assert d.dynamics.redundant == ()
     [told] = [w for w in Statements(d).answers(["charges"]).warnings if "rank" in w]
     assert "the constraints have rank 1, not 2: the answers do not hold there" in told
+
+
+CROSSINGS = {  # f, V, coordinates; a family of rest on one surface, and what is 0 where others cross
+    "z*(z - a*x) = 0": ("z^2/2", "z", "x^2 > 0"),
+    "x*y = 0": ("x", "x", "y^2 > 0"),
+    "z*(z - x*y) = 0": ("a*z", "z", "x^2 > 0 and y^2 > 0"),
+    "(z + a)*(z - x) = 0": ("z", "z", "(x + a)^2 > 0"),
+    "sin(x) = sin(y)": ("-cos(x) - cos(y)", "x", "cos(y)^2 > 0"),
+}
+
+
+@pytest.mark.parametrize("constraint", CROSSINGS)
+def test_a_family_of_rest_ends_where_another_surface_crosses_its_own(constraint):
+    """On z (z - x y) = 0 with V = z a body at x = z = 0 falls along z = x y, with the slope y."""
+    potential, at, condition = CROSSINGS[constraint]
+    names = [n for n in "xyz" if n in constraint + potential + "x"]
+    T = " + ".join(f"{n}'^2" for n in names)
+    d = derive(
+        f"{{coordinates: [{', '.join(names)}], parameters: {{a: {{assume: positive}}}}, "
+        f'T: "({T})/2", V: "{potential}", constraints: {{c: "{constraint}"}}}}'
+    )
+    section = Statements(d).answers(["equilibria"]).sections["equilibria"]
+    [family] = [each for each in section.equilibria if each.free and at in each.at]
+    assert " and ".join(plain(family.where)) == condition
+    assert "gradient of the constraint is not 0" in section.where
+
+
+@pytest.mark.parametrize("factor", ["t", "(1 + t^2)", "exp(-t)", "t^2*(3 + t)", "1/t"])
+@pytest.mark.parametrize("form", ["(x' - 2*y')", "(x - 2*y)", "x*(x' - 2*y')"])
+def test_a_factor_of_the_time_alone_is_in_no_acceleration(factor, form):
+    """t (x' - 2 y') = 0 is x' = 2 y': m (x'' , y'') = -(4, 2) k/5."""
+    d = derive(FREE + f"T: m*(x'^2 + y'^2)/2\nV: k*x\nconstraints: {{c: \"{factor}*{form} = 0\"}}")
+    found = [printed(d, a) for a in d.dynamics.motion.accelerations]
+    assert found == ["-4*k/(5*m)", "-2*k/(5*m)"]
+
+
+@pytest.mark.parametrize("first", [True, False])
+@pytest.mark.parametrize("rest", ["(y - 2)", "(z - 5*a)", "(2 + x*y)"])
+def test_a_redundant_constraint_forbids_no_displacement(first, rest):
+    """z = a x^2 with (z - a x^2)(y - 2) = 0 leaves x and y free: V = m g z + k (y - 1)^2/2."""
+    given = ["c: z = a*x^2", f"more: (z - a*x^2)*{rest} = 0"]
+    d = derive(
+        "coordinates: [x, y, z]\nparameters: {m: {assume: positive}, k: {assume: positive}, "
+        "g: {assume: positive}, a: {assume: positive}}\nT: m*(x'^2 + y'^2 + z'^2)/2\n"
+        f"V: m*g*z + k*(y - 1)^2/2\nconstraints:\n  {given[not first]}\n  {given[first]}\n"
+    )
+    answers = Statements(d).answers(["equilibria", "multipliers"])
+    [point] = answers.sections["equilibria"].equilibria
+    assert plain(point.at) == {"x": "0", "y": "1", "z": "0"}
+    assert point.verdict.stable
+    assert not [w for w in answers.warnings if "holds where" in w]
+    assert [w for w in answers.warnings if w.startswith("redundant: ")]

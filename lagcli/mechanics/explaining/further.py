@@ -143,6 +143,8 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield from _where_a_contact_pulls(explainer)
     if states.periods:
         yield says(*repeating(states.periods))
+    if found and states.where:
+        yield says(f"They were sought only{states.where}.")
     if found and not states.complete:
         yield says("There may be others.")
     if found:

@@ -61,7 +61,7 @@ def _lost(dynamics: Dynamics) -> tuple[Expr, Sequence[Symbol]] | None:
     forces = [_near_rest(force, system.qdot) for force in system.applied_forces]
     if all(is_zero(force) is True for force in forces):
         return S.Zero, ()
-    rows = constraints.jacobian
+    rows = dynamics.independent_rows
     along = nullspace(rows) if rows else _axes(len(forces))
     still = dict.fromkeys(system.qdot, S.Zero)
     at_rest = [force.xreplace(still) for force in forces]

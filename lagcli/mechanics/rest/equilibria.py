@@ -307,7 +307,9 @@ class RestPoints(RestConditions):
             branch = {known.unknown: known.root}
             values = {**{s: v.xreplace(branch) for s, v in values.items()}, **branch}
         free = tuple(s for s in q if s not in values)
-        positive = (*positive, *self.real_where(values))
+        apart = tuple(self.independent_where(values, free))
+        self.at_singular_constraints |= bool(apart)
+        positive = (*positive, *self.real_where(values), *apart)
         return RestPoint(values, free, (*positive, *_signs_of_letters(positive)), known)
 
     def _may_be_real(self, solution: SystemSolution) -> bool:

@@ -23,10 +23,12 @@ from sympy import Expr, S, Symbol
 from lagcli.algebra import Field, dot, is_zero, nullspace, simplify, solve_linear
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.decimals import is_decimal
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.numeric import vanishes_at_random
 from lagcli.algebra.place import NO_VALUE, at, nearly_vanishes, vanishes, where_positive
+from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.algebra.translates import common_period, recur
@@ -39,6 +41,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.rest.family import Family
 
 _LONGEST = 60  # operations of conditions that are quoted
+_LONGEST_GRAM = 200  # operations of det(A A^T) that is factored
 _MOST_MINORS = 40  # three of six coordinates have 20, of seven 35
 
 
@@ -192,7 +195,7 @@ class RestConditions:
     @property
     def _displacements(self) -> list[list[Expr]]:
         """A basis of the v with A v = 0, solved for coordinates whose minor vanishes nowhere."""
-        rows, size = self.dynamics.constraints.jacobian, len(self.system.q)
+        rows, size = self.dynamics.independent_rows, len(self.system.q)
 
         def may_vanish(j: int) -> bool:
             return not any(free_of(r[j], self.system.q) and is_zero(r[j]) is False for r in rows)
@@ -213,16 +216,15 @@ class RestConditions:
     @property
     def _one_gradient(self) -> bool:
         """Whether no basis of the displacements is one everywhere, of a single constraint."""
-        constraints = self.dynamics.constraints.equations
-        return len(constraints) == 1 and not any(
-            free_of(a, self.system.q) and is_zero(a) is False for a in constraints[0].row
+        rows = self.dynamics.independent_rows
+        return len(rows) == 1 and not any(
+            free_of(a, self.system.q) and is_zero(a) is False for a in rows[0]
         )
 
     @property
     def _along_one(self) -> list[Expr]:
         """a_i F_j = a_j F_i: the force along the gradient of one constraint; F_j where a_j = 0."""
-        [constraint] = self.dynamics.constraints.equations
-        a, F = constraint.row, self.forces_at_rest
+        [a], F = self.dynamics.independent_rows, self.forces_at_rest
         alone = [j for j, part in enumerate(a) if is_zero(part) is True]
         pairs = combinations([j for j in range(len(F)) if j not in alone], 2)
         return [simplify(a[i] * F[j] - a[j] * F[i]) for i, j in pairs] + [F[j] for j in alone]
@@ -397,9 +399,27 @@ class RestConditions:
 
     def loses_rank(self, values: Mapping[Symbol, Expr]) -> bool:
         """Whether the gradients of the constraints are independent, but not there."""
-        rows = self.dynamics.constraints.jacobian
+        rows = self.dynamics.independent_rows
         there = [[at(a, values) for a in row] for row in rows]
         return bool(rows) and len(nullspace(there)) > len(nullspace(rows))
+
+    def independent_where(
+        self, values: Mapping[Symbol, Expr], free: Sequence[Symbol]
+    ) -> Iterator[Expr]:
+        """What is positive at the members of a family that lie on one surface of the constraints.
+
+        On z (z - x) = 0 the family z = 0 meets the other surface where x = 0: there det(A A^T) is
+        0, and what holds beside it need not hold.
+        """
+        given = self.dynamics.independent_rows if free else ()
+        rows = [[at(a, values) for a in row] for row in given]
+        found = determinant([[dot(a, b) for b in rows] for a in rows]) if rows else None
+        gram = S.One if found is None else simplify(found)
+        for factor, power in factors_of(gram) if sympy.count_ops(gram) < _LONGEST_GRAM else ():
+            if power > 0 and not free_of(factor, free) and sign(factor) not in (1, -1):
+                vanishing = solve_system([factor], free)
+                if vanishing.solutions or not vanishing.complete:
+                    yield factor if weak_sign(factor) == 1 else factor**2
 
     def balanced(self, values: Mapping[Symbol, Expr], positive: Sequence[Expr] = ()) -> bool:
         """Whether a state of rest is an equilibrium, by substitution where these are positive.
@@ -423,7 +443,7 @@ class RestConditions:
         conditions = [at(e.f if e.holonomic else e.drift, values) for e in constraints.equations]
         if not constraints.equations:
             return forces
-        rows = [[at(a, values) for a in row] for row in constraints.jacobian]
+        rows = [[at(a, values) for a in row] for row in self.dynamics.independent_rows]
         return [*conditions, *(dot(vector, forces) for vector in nullspace(rows))]
 
 
