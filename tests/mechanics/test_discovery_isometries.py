@@ -236,3 +236,15 @@ def test_a_swinging_atwood_machine_is_special_at_three_to_one(names, n):
     named = {s.name: s for s in relation.free_symbols}
     assert case.number == 2
     assert relation.subs(named[M], 3 * named[m]).expand() == 0
+
+
+@pytest.mark.parametrize("n", [2, 3])
+def test_a_saddle_on_a_cone_is_special_where_the_cone_is_a_plane(n):
+    """V = k (x² - y²) of a plane with phi = n psi: energies of x and y, and four waves, 6."""
+    text = problem(
+        f"(r'^2 + (a*{n})^2*r^2*psi'^2)/2 - k*r^2*cos({2 * n}*psi)",
+        f"{{r: {POS}, psi: {{}}}}",
+        "a k",
+    )
+    found = {str(c.value): c.number for c in derive(text).special_cases}
+    assert found["1"] == 6

@@ -192,10 +192,8 @@ def _cyclic(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
 
 def _acting(explainer: Explainer) -> str:
     """Applied forces and constraints, as the subject of a sentence."""
-    constraints = len(explainer.dynamics.constraints.equations)
     forces = ["the applied forces"] * explainer.forced + ["the dissipation"] * explainer.damped
-    forces += [f"the force{'s' * (constraints > 1)} of the constraint{'s' * (constraints > 1)}"
-               ] * bool(constraints)  # fmt: skip
+    forces += [explainer.constraint_forces] * bool(explainer.constraints)
     if not forces:
         return ""
     several = len(forces) > 1 or forces[0].startswith(("the applied", "the forces"))

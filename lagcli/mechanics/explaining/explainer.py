@@ -35,6 +35,18 @@ class Explainer:
         return tuple(Name(name, 2) for name in self.system.names)
 
     @property
+    def constraints(self) -> str:
+        """Constraint, or constraints; empty without any."""
+        number = len(self.dynamics.constraints.equations)
+        return f"constraint{'s' * (number > 1)}" if number else ""
+
+    @property
+    def constraint_forces(self) -> str:
+        """The force of the constraint, or the forces of the constraints; empty without any."""
+        several = "s" * self.constraints.endswith("s")
+        return self.constraints and f"the force{several} of the {self.constraints}"
+
+    @property
     def forced(self) -> bool:
         """Whether generalized forces act, by the file's forces or by those on points."""
         return any(is_zero(force) is not True for force in self.system.forces)

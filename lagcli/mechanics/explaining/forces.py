@@ -23,19 +23,17 @@ _KINDS = {"m": "force", "cm": "force", "mm": "force", "km": "force", "rad": "tor
 
 def check(explainer: Explainer, motion: SolvedMotion) -> Iterator[Block]:
     """How the solution was checked."""
-    constrained = bool(explainer.dynamics.constraints.equations)
+    several = len(explainer.dynamics.constraints.equations) > 1
     equations = "Lagrange's equations" if explainer.letters.several else "Lagrange's equation"
     one = "accelerations" if explainer.letters.several else "acceleration"
-    what = f"{one} and multipliers" if constrained else one
-    where = (
-        f"into {equations} and into the differentiated constraints"
-        if constrained
-        else f"into {equations}"
-    )
-    verb = "were" if constrained or explainer.letters.several else "was"
+    constraints = explainer.constraints
+    multipliers = "multipliers" if several else "the multiplier"
+    what = f"{one} and {multipliers}" if constraints else one
+    where = f"into {equations}" + f" and into the differentiated {constraints}" * bool(constraints)
+    verb = "were" if constraints or explainer.letters.several else "was"
     yield says(
         f"The {what} {verb} substituted {where}. The left side minus the right side is 0"
-        + (" on the constraints" if constrained else "")
+        + f" on the {constraints}" * bool(constraints)
         + (
             ": it simplifies to 0 exactly."
             if motion.verified == "exact"

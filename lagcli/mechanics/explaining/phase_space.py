@@ -69,7 +69,7 @@ def _momentum_rates(explainer: Explainer) -> list[Part]:
     """-dH/dq + Q - dD/dq' + lambda a."""
     more = ["the applied forces"] * explainer.forced
     more += ["the dissipative forces"] * explainer.damped
-    more += ["the forces of the constraints"] * bool(explainer.dynamics.constraints.equations)
+    more += [explainer.constraint_forces] * bool(explainer.constraints)
     added = f", plus {enumerated(more)}" if more else ""
     lead = "and the rates of the momenta are minus those with respect to the coordinates"
     return [f"{lead}{added}:"]

@@ -48,7 +48,7 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
     if discovery.is_prescribed:
         yield says(f"None is sought: {PRESCRIBED}.")
         return
-    constrained = bool(explainer.dynamics.constraints.equations)
+    constraints = explainer.constraints
     beside: list[Part] = (
         [] if discovery.canonical else [" plus the work of the forces that are not in ", letters.L]
     )
@@ -67,7 +67,7 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
         "For a point transformation the Euler-Lagrange expression of the change of ",
         letters.L,
         *beside,
-        " must vanish identically" + (" on the constraints" if constrained else "") + ", "
+        " must vanish identically" + f" on the {constraints}" * bool(constraints) + ", "
         "which holds "
         "for total time derivatives and only for them. For a constant of the motion the time "
         "derivative "
@@ -108,7 +108,7 @@ def _with_work(explainer: Explainer) -> list[Part]:
     if not explainer.derivation.discovery.canonical:
         working.append(["the forces that are not in ", explainer.letters.L])
     if any(is_zero(e.drift) is not True for e in equations):
-        working.append(f"the constraint{'s' * (len(equations) > 1)}")
+        working.append(f"the {explainer.constraints}")
     return [" plus the work of ", *listed(working)] if working else []
 
 
