@@ -95,8 +95,8 @@ def _units_that_fit(
         return None
     units = [inference.unit(inference.demands.names[each.name]) for each in chosen]
     pairs = [(one, str(unit)) for one, unit in zip(chosen, units, strict=True) if unit is not None]
-    if any("^(" in unit for _, unit in pairs):
-        return None  # nobody measures in m^(1/2): a term is wrong
+    if any("^(" in unit or unit.startswith("10^") for _, unit in pairs):
+        return None  # nobody measures in m^(1/2), or in 10^-3 kg m: a term is wrong
     return pairs if len(pairs) == len(chosen) else None
 
 

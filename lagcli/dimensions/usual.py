@@ -6,7 +6,7 @@ import re
 
 from lagcli.dimensions.forms import Form
 from lagcli.dimensions.system import dimension_of
-from lagcli.units import read_unit
+from lagcli.units import UnitMistake, read_unit
 
 _UNITS = {
     "kg": "m M",
@@ -24,7 +24,10 @@ _INDEXED = re.compile(r"([^\W\d_]+?)(?:_?\d+|_\w+)?")
 
 def is_usual(name: str, unit: str) -> bool:
     """Whether a unit has the dimension that its name has in most books."""
-    return dimension_of(read_unit(unit)) == usual_dimension(name)
+    try:
+        return dimension_of(read_unit(unit)) == usual_dimension(name)
+    except UnitMistake:  # 10^-3 kg m
+        return False
 
 
 def usual_dimension(name: str) -> Form | None:

@@ -49,9 +49,10 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
     if listed:
         return _pairs(listed)
     known = scope.kinds.keys()
-    products = vector_product(node.value, (*names,), known) if isinstance(node, Scalar) else []
+    law = re.sub(r"^\s*[FQ]\w*\s*=\s*", "", node.value) if isinstance(node, Scalar) else ""
+    products = vector_product(law, (*names,), known) if law else []
     if isinstance(node, Scalar) and products and len(products) == len(names):
-        alone = along_z(node.value, known)
+        alone = along_z(law, known)
         condition = f": {alone} is taken along z" if alone and names[2:] else ""
         return _pairs([*zip(names, products, strict=True)]) + condition
     if isinstance(node, Scalar) and (along := _along_velocity(node.value, names, known)):
@@ -74,7 +75,7 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
     if len(values) == len(moving) == 1:  # -c*x' is the force along x
         names = moving
     fits = len(values) == len(names)
-    return _pairs([*zip(names, values if fits else ["…"], strict=False)], braces=False)
+    return _pairs([*zip(names, values if fits else ["…"] * len(names), strict=False)], braces=False)
 
 
 def _along_velocity(text: str, names: list[str], known: Container[str]) -> list[tuple[str, str]]:

@@ -184,6 +184,12 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
     listed = [each.value for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
     name = listed[0] if listed and listed[0].isidentifier() else "name"
     hint = f"write {name}: {{position: [x, y], mass: m}}"
+    places = [each for each in getattr(node, "items", ()) if isinstance(each, Sequence)]
+    if places and len(places) == len(getattr(node, "items", ())):
+        named_ = (
+            f"P{k}: {{position: {source_of(each)}, mass: m}}" for k, each in enumerate(places, 1)
+        )
+        hint = f"write {{{', '.join(named_)}}}"
     file.scope.refused += [] if isinstance(node, Mapping) else ["points"]
     named = file.named(node, "points", _POINT_ATTRIBUTES, hint)
     entries = file.of_section(named, "points", _POINT_ATTRIBUTES)

@@ -93,11 +93,12 @@ def _without_reason(whole: str) -> Iterator[str]:
     """The text before `: numbers are in the units of the file`, and before `; the product is`."""
     if named := re.fullmatch(r"(\w+'*), \w+ .*", whole):
         yield named[1]
-    for sign in ("; ", ": "):
-        head, found, tail = whole.partition(sign)
-        is_entry = re.fullmatch(r"\w+'*|\{[^}]*", head) and not re.match(r"(?:[^\W\d]+ ){2}", tail)
-        if found and not is_entry:
-            yield head
+    head, found, _ = whole.partition("; ")
+    if found:
+        yield head
+    head, found, tail = whole.rpartition(": ")
+    if found and re.match(r"(?:[^\W\d]+ ){2}", tail):
+        yield head
 
 
 def _placed(

@@ -47,7 +47,8 @@ _NUMBER = regex(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
 #: A number with a unit behind it, as in `10 kg` and `9.81 m/s^2`.
 _WITH_UNIT = regex(
     r"[-+]?[\d.]+(?:[eE][-+]?\d+|/\d+)?\s*(?:[,;]\s+)?"
-    r"(?P<unit>(?:[kmcµu]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa)|rad|deg|rpm|min|h|mol)(?:[ \^*/].*)?)"
+    r"(?P<unit>(?:[kmcµunp]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa|F|H|Wb|Ω|ohm)"
+    r"|rad|deg|rpm|min|h|mol)(?:[ \^*/].*)?)"
 )
 _ANGLES = frozenset("theta th phi ph psi alpha beta gamma varphi angle θ φ ϕ ψ α β γ".split())
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
@@ -191,7 +192,7 @@ def unit_behind(text: str) -> str:
     """The unit in `10 kg` or `9.81 m/s^2`; nothing where a number stands alone."""
     if named := _named_unit(text):
         return named[1]
-    text = text.replace("°/", " deg/")
+    text = _with_powers(text).replace("°/", " deg/")
     found = _WITH_UNIT.fullmatch(
         re.sub(r"\s*(?:\[([^][]*)\]|\(([^()]*)\))$", r" \1\2", text.strip())
     )
@@ -225,8 +226,13 @@ def number_and_unit(text: str) -> tuple[str, str]:
     """`10` and `kg` of `10 kg`, `9.81 [m/s^2]`; the text and nothing where no unit is behind it."""
     if named := _named_unit(text):
         return named
-    unit = unit_behind(text)
+    unit, text = unit_behind(text), _with_powers(text)
     return (text.partition(unit)[0].strip(" [(,;") if unit else text.strip()), unit
+
+
+def _with_powers(text: str) -> str:
+    """`9.81 m/s^2` for `9.81 m/s2`."""
+    return re.sub(r"(?<=[A-Za-z])(?<!\d[eE])-?[1-9](?![\w.])", r"^\g<0>", text)
 
 
 def _is_unit(text: str) -> bool:
@@ -262,7 +268,8 @@ def fraction(character: str) -> str:
 
 def names_among(text: str) -> list[str]:
     """`x_1`, `x_2`, `x_3` for `x_1..x_3`; nothing for other texts."""
-    among = re.fullmatch(r"(\D+)(\d)\s*(?:\.{2,}|…|-|to)\s*\1(\d)", text.strip())
+    text = re.sub(r"^(\w+)\[(\d)\s*(\.\.|:)\s*(\d)\]$", r"\1_\2..\1_\4", text.strip())
+    among = re.fullmatch(r"(\D+)(\d)\s*(?:\.{2,}|…|-|to)\s*\1(\d)", text)
     places = range(int(among[2]), int(among[3]) + 1) if among else ()
     return [f"{among[1]}{k}" for k in places] if among else []
 

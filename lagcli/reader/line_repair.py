@@ -8,7 +8,7 @@ of the file are those of the file with the line as proposed.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from html import unescape
 from typing import NamedTuple
 
@@ -31,6 +31,12 @@ _GROUP = regex(r"(?:\[([^\]]*)\]|\{([^}:]*)\}|\"([^\"]*)\"|'([^']*)')(?P<rest>\s
 _PROPOSED = regex(r"(?:write|did you mean) (.*?)\??")
 #: Keys with a text that is no formula.
 _TEXTS = frozenset({"title", "source", "description"})
+_ASSIGNED = regex(r"[^\W\d][\w()=' ]*?\s*:?=\s*[^=]")
+#: What is said of a line that is none of the file.
+_NO_LINE = regex(
+    r"this line is none of the file; (?!.*(?:write |```)).*"
+    r"|a ':' is missing behind .*; leave it out: a problem has keys with .*"
+)
 _PAIRS = {"[": "]", "{": "}", '"': '"', "'": "'"}
 #: Advice that fits many lines; a repair is better.
 _GENERAL = frozenset({"", "put the whole value in quotes", "group with parentheses ( )"})
@@ -142,8 +148,11 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"^(\s*[\w ]+:\s+)(\|[^|]+\|.*)$", r'\1"\2"', line),
     lambda line: re.sub(r"^(\s*)[*•·–—+]\s+(?=[^\W\d]\w*\s*$)", r"\1- ", line),
     lambda line: unescape(line) if re.search(r"&\w+;", line) else line,
+    lambda line: re.sub(r"^[A-Za-z][a-z ]*\s([TVLH])\s*=\s*(?=\S)", r"\1: ", line),
     lambda line: re.sub(rf"^({'|'.join(KEYS)})\s+(?=[^\s:=])", r"\1: ", line),
-    lambda line: re.sub(r"^(\s*\"?[^\W\d]\w*\"?)\s*(?:<-|←|:=|->|→|=>|=)\s*", r"\1: ", line),
+    lambda line: re.sub(
+        r"^(\s*\"?[^\W\d]\w*'?\"?(?:\((?:t=)?0\))?)\s*(?:<-|←|:=|->|→|=>|=)\s*", r"\1: ", line
+    ),
     _with_blanks,
     _formula,
     lambda line: re.sub(r"^(\s*[\w ]+:\s+)-\s+(?=\S)", r"\1-", line),
@@ -184,7 +193,7 @@ class _Repair(NamedTuple):
 
 
 def all_mistakes(
-    text: str, mistakes: tuple[Diagnostic, ...], read: Reading
+    text: str, mistakes: tuple[Diagnostic, ...], fully: Reading, read: Reading
 ) -> tuple[Diagnostic, ...]:
     """The mistakes of a file that is not YAML: of its lines, and of the rest.
 
@@ -194,14 +203,14 @@ def all_mistakes(
         The file.
     mistakes
         What YAML complains about.
-    read
-        Whether YAML reads a text, and the mistakes in it.
+    fully, read
+        Whether YAML reads a text, and the mistakes in it, with those that others hide or without.
     """
     found: list[Diagnostic] = []
     moved = 0  # lines that the proposals have more than the file
     is_read = False
     while not is_read and len(found) < _MOST:
-        repair = _repaired(text, mistakes[0], read)
+        repair = _repaired(text, mistakes[0], read) or _left_out(text, mistakes[0])
         if repair is None:
             break
         repair = _everywhere(text, repair, read)
@@ -209,9 +218,20 @@ def all_mistakes(
         moved += repair.text.count("\n") - text.count("\n")
         text = repair.text
         is_read, mistakes = read(Source("", text))
-    rest = mistakes if is_read or not found else mistakes[:1]
+    rest = fully(Source("", text))[1] if is_read else mistakes[:1] if found else mistakes
     whole = (*found, *(_at(each, moved) for each in rest if each.is_error))
     return tuple(sorted(whole, key=lambda each: each.span))
+
+
+def _left_out(text: str, mistake: Diagnostic) -> _Repair | None:
+    """The file without a line that is none of it; None for other mistakes."""
+    lines, place = text.split("\n"), mistake.span.line - 1
+    if not _NO_LINE.fullmatch(f"{mistake.message}; {mistake.hint}"):
+        return None
+    if lines[place].lstrip().startswith("/*") or not any(map(str.strip, lines[place + 1 :])):
+        return None
+    lines[place] = ""
+    return _Repair(mistake, "\n".join(lines), str)
 
 
 def _at(mistake: Diagnostic, moved: int) -> Diagnostic:
@@ -239,7 +259,7 @@ def _repaired(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
         near = {number + 1, number + 1 - is_moved}
         here = [each for each in found if each.span.line in near and each.is_error]
         further = found and found[0].span.line > max(first, number) + 1 and line == tried
-        if not here and (is_read or further):
+        if not _beside_keys(here) and (is_read or further):
             span = mistake.span
             if number != first:
                 begin = len(line) - len(line.lstrip()) + 1
@@ -255,6 +275,11 @@ def _repaired(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
             )
             return _Repair(replace(mistake, span=span, hint=hint), changed, change)
     return None
+
+
+def _beside_keys(found: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """The errors, but for keys that are known to be lines of their own and in the wrong place."""
+    return [x for x in found if x.is_error and not x.message.startswith("unknown key")]
 
 
 def _with_line(
@@ -294,7 +319,7 @@ def _everywhere(text: str, repair: _Repair, read: Reading) -> _Repair:
     for number in (first, *others):
         is_read, found, whole, lines[number] = _with_line(lines, number, lines[number], read)
     places = {first + 1, *(number + 1 for number in others)}
-    if not is_read or any(each.is_error and each.span.line in places for each in found):
+    if not is_read or any(each.span.line in places for each in _beside_keys(found)):
         return repair
     parts = [f"in line {number + 1} write {lines[number].strip()}" for number in others]
     hint = "; ".join([f"write {lines[first].strip()}", *parts[: _SHOWN - 1]])
@@ -314,7 +339,7 @@ def _indented(above: list[str], line: str) -> str:
 def _tried(lines: list[str], first: int) -> Iterator[tuple[int, str, _Change]]:
     """The places of the lines near the mistake, each with what may have been meant."""
     above = [k for k in range(min(first, len(lines) - 1), -1, -1) if lines[k].strip()][:4]
-    for number in above[1:]:
+    for number in above[1:] if not _ASSIGNED.match(lines[above[0]]) else ():
         indent = re.match(r"\s*", lines[number])
         yield above[0], f"{indent[0] if indent else ''}{lines[above[0]].lstrip()}", str
     if above[1:] and re.fullmatch(r"(title|source|description):\s*", lines[above[1]]):

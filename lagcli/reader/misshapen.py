@@ -243,6 +243,11 @@ def key_by_shape(value: DocumentNode, problem: Mapping) -> str | None:
             stated = all(key.label.rstrip("'") in known for key, _ in value.entries)
             key = "initial" if stated else "parameters"
             return None if key in given else key
+        text = value.text.source.text
+        rest = text[: value.start] + text[value.end :]
+        used = (re.search(rf"(?<!\w){re.escape(k.label)}(?!\w)", rest) for k, _ in value.entries)
+        are_formulas = all(isinstance(v, Scalar) and "=" not in v.value for _, v in value.entries)
+        return "definitions" if are_formulas and all(used) and "definitions" not in given else None
     return None
 
 

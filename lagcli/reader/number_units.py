@@ -67,8 +67,8 @@ def unit_in_formula(
     def is_unit(text: str) -> bool:
         """Whether a text is a unit, and none of its names is one of the file."""
         words = re.findall(r"[^\W\d]\w*", text)
-        known = words and all(word in names for word in words)
-        return not known and unit_behind(f"1 {text}") == text != ""
+        known = [word in names for word in (re.sub("[²³]$", "", each) for each in words)]
+        return not (words and all(known)) and unit_behind(f"1 {text}") == text != ""
 
     text = re.sub(r"^[\[(]\s*([^\W\d][^\])]*?)\s*[\])]\s*([-\d.]+)$", r"\2 \1", text)  # [kg] 1
     unit, declared = unit_behind(text), what.startswith("the value of")

@@ -104,16 +104,21 @@ def read_problem(source_name: str, data: bytes) -> ProblemReading:
     except Mistake as error:
         from lagcli.reader.line_repair import all_mistakes
 
-        found = all_mistakes(source.text, error.diagnostics, _mistakes)
+        found = all_mistakes(source.text, error.diagnostics, _mistakes, _mistakes_in_lines)
         return ProblemReading(source, None, found)
 
 
-def _mistakes(source: Source) -> tuple[bool, tuple[Diagnostic, ...]]:
+def _mistakes(source: Source, *, alone: bool = True) -> tuple[bool, tuple[Diagnostic, ...]]:
     """Whether YAML reads a text, and the mistakes in it."""
     try:
-        return True, _read_source(source).diagnostics
+        return True, _read_source(source, alone=alone).diagnostics
     except Mistake as error:
         return False, error.diagnostics
+
+
+def _mistakes_in_lines(source: Source) -> tuple[bool, tuple[Diagnostic, ...]]:
+    """The same without those that others hide."""
+    return _mistakes(source, alone=False)
 
 
 def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:

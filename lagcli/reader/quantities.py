@@ -60,6 +60,8 @@ _DECLARATION = regex(
     r"(?:\b(?:parameter|constant|const|final|var|let)\s+)*\b(?:Real|real|float|double|int|Integer)\s+"
     r"(\w+)(?:\([^()]*\))?\s*(?:=\s*([^;\"]+))?"
 )
+_WITH_ITS_UNIT = regex(r"\s*([^\W\d]\w*)(?:\s*[(\[](rad|deg|k?m|cm|mm|s|kg|g|N|J)[)\]])?\s*")
+_OF_TIME = regex(r"(\w+)\(t\)")
 _ONE_NAME = regex(r"write (\w+)(?:, without .*)?")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 
@@ -285,6 +287,11 @@ def _declared(
             whole = f"{broken[1]}: {broken[2]}: {'' if value is None else source_of(value)}"
             file.error(f"a ':' is missing behind '{broken[1]}'", key.span, f"write {whole}")
             file.scope.refused.append(broken[1])
+        elif (of_time := _OF_TIME.fullmatch(key.label)) and isinstance(value, Scalar):
+            whole = f"write definitions: {{{of_time[1]}: {value.value}}}"
+            hint = f"a function of time is a formula: {whole}, and {of_time[1]} where it is used"
+            file.error(f"'{key.label}' is not a constant", key.span, hint)
+            file.scope.refused.append(of_time[1])
         elif with_unit := _with_unit(key, value):
             file.error(f"the unit in '{key.label}' is not a part of its name", key.span, with_unit)
             file.scope.refused.append(key.label)
@@ -340,6 +347,12 @@ def _list_advice(text: str) -> str:
     if re.fullmatch(r"(?:\s*\d+[.)]\s*[^\W\d]\w*)+\s*", text):  # 1. x 2. y
         listed = ", ".join(re.findall(r"[^\W\d]\w*", text))
         return f"write [{listed}]"
+    units = [_WITH_ITS_UNIT.fullmatch(each) for each in text.split(",")]
+    if any(each and each[2] for each in units) and all(units):
+        named = ", ".join(
+            f"{x[1]}: {{unit: {x[2]}}}" if x[2] else f"{x[1]}: {{}}" for x in units if x
+        )
+        return f"write {{{named}}}"
     if declared := _DECLARATION.findall(text):
         pairs = [f"{name}: {value.strip()}" for name, value in declared if value.strip()]
         listed = ", ".join(pairs or [name for name, _ in declared])

@@ -16,6 +16,7 @@ from lagcli.problem_data import (
     Where,
 )
 from lagcli.reader.by_coordinate import by_name, state_meant
+from lagcli.reader.foreign.words import momentum_meant
 from lagcli.reader.habits import advised, is_angle, key_meant, name_meant
 from lagcli.reader.headings import PLACE, RATE, state_without_headings
 from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end, source_of
@@ -94,8 +95,8 @@ def _state_name(
             hint = f"write {along[0]}{chr(39) * bool(rate)}: {number or '…'}"
         if re.search(r"[=→>]", key.label):
             hint = f"write {name_meant(key.label)}"
-        if letters.startswith("p_") and letters[2:] in coordinates:
-            hint = f"a state has velocities, not momenta: give {letters[2:]}'"
+        if momentum := momentum_meant(letters, coordinates):
+            hint = f"a state has velocities, not momenta: give {momentum}'"
         if part := key_meant(key.label, _SIMULATION_ATTRIBUTES):
             inner = f"{part}: {source_of(value)}"
             hint = f"an end of the run stands under simulation: write simulation: {{{inner}}}"

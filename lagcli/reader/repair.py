@@ -54,6 +54,8 @@ _TOTAL_RATE = regex(
 _RATE_OF_BODY = regex(r"(?:omega|Omega|ω|Ω|w|v|u)_?(?:[1-9]|[xyz])")
 #: A product of two vectors within a formula.
 _CROSS = regex(r"(?<!\w)([^\W\d]\w*)\s*(?:[×⨯]|\\times)\s*([^\W\d]\w*)")
+_SUM_IN_WORDS = regex(r"\b[sS]um(?:me)?\s+(?:over|of|from|all|over all|über|sur)\b")
+_CROSS_IN_WORDS = regex(r"(?<!\w)([^\W\d]\w*)\s+x\s+([rvBEpL])(?!\w)")
 #: A force in the place of an energy.
 _FORCE = regex(r"\s*[FQ](?:_?\w+)?\s*:?=([^=]+)")
 #: `y = ±sqrt(A)`: both branches are `y^2 = A`.
@@ -99,6 +101,8 @@ def with_whole(
         return [replace(found[0], hint=hint)]
     if what == "T" and (unmoved := _rates_meant(found, node, scope)):
         return unmoved
+    if _SUM_IN_WORDS.search(node.value):
+        return [Diagnostic("a formula has no sums", node.span, "write each term")]
     if matrices := _of_matrices(node, what, scope):
         return [matrices]
     stated = what == "dissipation" and "=" in node.value  # as a force: -c*x'
@@ -165,7 +169,7 @@ def with_whole(
         rest = [replace(each, span=spans.get(each.message, node.span)) for each in wrong]
         message = "words are no part of a formula" if has_words else first.message
         return [replace(first, message=message, hint=hint), *rest]
-    cross = _CROSS.search(node.value)
+    cross = _CROSS.search(node.value) or _CROSS_IN_WORDS.search(node.value)
     if cross and not {cross[1], cross[2]} <= scope.kinds.keys():
         hint = "a product of vectors is written by its components, as in x*p_y - y*p_x"
         return [Diagnostic("a formula has no vectors", node.span, hint)]
@@ -308,9 +312,9 @@ def _exchanged(
     for place in range(len(text) - 1 if len(text) <= _LONGEST_EXCHANGED else 0):
         before, one, other, after = text[:place], text[place], text[place + 1], text[place + 2 :]
         is_number = re.match(r"\d[^^')]|[^(^']\d", one + other)
-        if one == other or " " in {one, other} or is_number:
-            continue
         changed = f"{before}{other}{one}{after}"
+        if one == other or " " in {one, other} or is_number or "**" in changed:
+            continue
         try:
             sides = sides_of(read(Excerpt.whole(Source("", changed))))
         except Mistake:

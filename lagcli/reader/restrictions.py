@@ -10,6 +10,7 @@ from lagcli.expression import ZERO, Name
 from lagcli.problem_data import Constraint, Symmetry, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
 from lagcli.reader.habits import is_angle, name_meant
+from lagcli.reader.misshapen import pieces
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
@@ -53,7 +54,8 @@ _FORCES: dict[str, ForceKind] = {
 def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     """Enter the multipliers into the scope."""
     lines = node.items if isinstance(node, Sequence) else [node]
-    given = [re.sub("={2,}", "=", each.value) for each in lines if isinstance(each, Scalar)]
+    texts = [re.sub("={2,}", "=", each.value) for each in lines if isinstance(each, Scalar)]
+    given = [part.strip() for each in texts for part in equations_in(each)]
     given = [each for each in given if _FORMULA.search(each)] or [_ROLLING]
     names = [f"c{place}" for place in range(1, len(given) + 1)] if given[1:] else ["name"]
     written = ", ".join(map("{}: {}".format, names, given))
@@ -68,6 +70,14 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
             entries = [entry for entry in entries if entry[0] is not key]
     found = (declared(file, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
     return [one for one in found if one is not None]
+
+
+def equations_in(text: str) -> list[str]:
+    """The equations that a comma, a semicolon, `and` or a line separates; else the whole text."""
+    lines = re.sub(r"\s+(?:and|und|et)\s+|\n", ", ", text.strip())
+    parts = pieces(lines, ",;")
+    whole = [each.strip(" ,;") for each in parts]
+    return whole if all(re.search("[=<>≤≥]", each) for each in whole) else [text]
 
 
 def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constraint, ...]:

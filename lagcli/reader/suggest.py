@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import unicodedata
 from typing import TYPE_CHECKING
 
@@ -42,7 +43,8 @@ def closest(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
     names = list(known)
     if (usual := meanings("functions").get(name)) in names:
         return usual
-    if same := alike(name, names):
+    same = alike(name, names)
+    if same and (len(name) > 1 or same.swapcase() != name):  # M is another mass than m
         return same
     from difflib import get_close_matches
 
@@ -66,4 +68,5 @@ def _folded(name: str) -> str:
     """Look-alikes in one form: µ and μ, X and x, ϕ and φ and phi, w and ω, a Cyrillic х and x."""
     latin = str.maketrans(_CYRILLIC)
     folded = spelled_out(unicodedata.normalize("NFKC", name).casefold().translate(latin))
+    folded = re.sub("^epsilon", "eps", folded)
     return "omega" if folded == "w" else folded

@@ -40,6 +40,10 @@ _TOGETHER = (
         "the state at t = 0 stands under initial: write initial: {{{}}}",
     ),
     (
+        re.compile(r"unknown key ('.*') in the problem: a formula .* definitions: \{(.*)\}"),
+        "a formula with a name stands under definitions: write definitions: {{{}}}",
+    ),
+    (
         re.compile(r"unknown key ('.*') in the problem: forces stand .* forces: \{(.*)\}"),
         "forces stand by coordinate: write forces: {{{}}}",
     ),
@@ -52,7 +56,8 @@ def _once_by_name(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
     """Without what a state or a symmetry has to say of a name that is unknown elsewhere."""
     if any(_MISSING_LINE.match(each.hint) for each in diagnostics):  # what it would declare
         diagnostics = [each for each in diagnostics if not _OF_NAMES.match(each.message)]
-    names = (_NAME.fullmatch(each.message) for each in diagnostics)
+    undeclared = (x for x in diagnostics if UNDECLARED in x.hint or COORDINATE in x.hint)
+    names = (_NAME.fullmatch(each.message) for each in undeclared)
     unknown = {part for found in names if found for part in (found[1], found[1].removeprefix("p_"))}
     kept = []
     for each in diagnostics:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, NamedTuple, get_args
 
 from lagcli.problem_data import Assumption
 from lagcli.reader.by_coordinate import state_meant
-from lagcli.reader.expressions import read_expression
 from lagcli.reader.habits import (
     KEYS,
     MAPS,
@@ -22,11 +21,18 @@ from lagcli.reader.habits import (
     number_and_unit,
 )
 from lagcli.reader.misplaced import names_in
-from lagcli.reader.misshapen import as_rayleigh, entries_of, key_by_shape, range_end, source_of
+from lagcli.reader.misshapen import (
+    ALREADY_FOUND,
+    FOUND,
+    as_rayleigh,
+    entries_of,
+    key_by_shape,
+    range_end,
+    source_of,
+)
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
 from lagcli.reader.suggest import closest, did_you_mean
-from lagcli.reader.text import Mistake
 
 if TYPE_CHECKING:
     from lagcli.reader.scope import Scope
@@ -41,6 +47,7 @@ _FRICTION = "friction"
 _FRICTIONS = frozenset({_FRICTION, "coulomb_friction", "dry_friction", "reibung", "frottement"})
 #: The number of a state.
 _STATE = regex(r"(?:[-+*/\d.() ]|pi|e(?=[-+\d]))+")
+_DEFINED = "a formula with a name stands under definitions"
 _MANUAL = "leave it out, or see lagcli help problem-format"
 
 
@@ -86,7 +93,8 @@ def unknown_key(
     if broken := re.fullmatch(r"(\w+)\s*([\[{].*)", word):
         hint = f"write {broken[1]}: {broken[2]}: {source_of(value)}"
         return UnknownKey(f"a ':' is missing behind '{broken[1]}'", hint)
-    meant, hint = _meant(word, written, what, names)
+    along = _coordinates(around) if what == _PROBLEM else []
+    meant, hint = _meant(word, written, what, names, along)
     if what == _PROBLEM:
         meant, hint = _meant_of_problem(key, value, around, meant, hint, scope)
     elif not hint or hint.startswith("did you mean"):
@@ -118,7 +126,9 @@ def unknown_key(
     return UnknownKey(f"unknown key '{word}' in {what}", hint, meant)
 
 
-def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[str | None, str]:
+def _meant(
+    word: str, written: str, what: str, names: tuple[str, ...], along: list[str]
+) -> tuple[str | None, str]:
     """The key that a word stands for, and the hint; the advice for the word where it has none."""
     is_time = word == "t" and "'" not in written
     other = "" if is_time else word.casefold()  # the time is not T
@@ -130,6 +140,11 @@ def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[
         return None, f"write forces: {{{square[2][:-1]}: {law}}}"
     if meant == "dissipation" and (whole := as_rayleigh(written)):
         return None, f"write dissipation: {whole}"
+    if meant == "dissipation" and re.fullmatch(r"[\d.]+|[^\W\d]\w*", written) and len(along) == 1:
+        return (
+            None,
+            f"write dissipation: {written}*{along[0]}'^2/2: its force is -{written}*{along[0]}'",
+        )
     if meant == "dissipation" and "'" not in written:  # a coefficient
         return meant, _advice(_FRICTION, written, what, names)
     if meant:
@@ -137,6 +152,8 @@ def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[
     if advice := _advice(word, written, what, names):
         return None, advice
     stem = key_of_stem(word, names)
+    if stem == "dissipation" and not re.search(r"['’′\u0307]|dot|d\w+/dt|[ẋẏż]", written):
+        stem = None
     if stem and stem != closest(word, names, _NEAR):
         return stem, f"the key is {stem}"
     return None, did_you_mean(word, names, _NEAR) or did_you_mean(
@@ -172,6 +189,8 @@ def _meant_of_problem(
     near = meant or closest(word, KEYS)
     is_list = isinstance(value, Sequence) or shape == "parameters"
     is_slip = bool(closest(word, KEYS, _SLIP))
+    if isinstance(value, Sequence) and shape and hint.startswith("write expect"):  # dof: [x, y]
+        meant, hint = shape, f"the key is {shape}"
     if (
         shape
         and not is_slip
@@ -194,9 +213,10 @@ def _meant_of_problem(
     if energy and energy != word and meant is None:  # V1 and V2
         terms = [parts[each] for each in parts if re.match(rf"{energy}(?=\d|_)", each)]
         return None, f"it is one sum: write {energy}: {' + '.join(terms).replace('+ -', '- ')}"
-    if not hint and _is_used(key, value, around):
+    is_other = not hint or (meant != word and word.casefold() == (meant or "").casefold())
+    if is_other and _is_used(key, value, around):
         scope.refused.append(word)
-        return meant, f"a formula with a name stands under definitions: {word}: {written}"
+        return None, f"{_DEFINED}: write definitions: {{{word}: {written}}}"
     return meant, hint
 
 
@@ -280,12 +300,10 @@ def _is_used(key: Scalar, value: DocumentNode, around: Mapping) -> bool:
         return False
     text = around.text.source.text
     elsewhere = text[: key.start] + text[value.end :]
-    used = re.search(rf"(?<![\w.]){re.escape(key.label)}(?!\w|\s*:)", elsewhere)
-    try:
-        read_expression(value.excerpt())
-    except Mistake:
-        return False
-    return used is not None
+    name = re.escape(key.label)
+    used = re.search(rf"(?<![\w.])d?{name}(?:[²³]|dot|_dot|(?!\w|\s*[:,\]])|(?=/dt))", elsewhere)
+    is_formula = re.search(r"[-+*/^(√]|[^\W\d]\s[^\W\d]", value.value) and "=" not in value.value
+    return used is not None and is_formula is not None
 
 
 def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
@@ -293,7 +311,7 @@ def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
     section = what.removeprefix("the ").partition(" ")[0]
     if word in get_args(Assumption) and word != "real" and "assume" in known:
         return f"write assume: {word}"
-    if advice := advice_in(section).get(word):
+    if advice := advice_in(section).get(word) or advice_in(section).get(word.replace(" ", "_")):
         whole = as_rayleigh(value) if word == _FRICTION else ""
         return f"write dissipation: {whole}" if whole else advice.replace("{word}", word)
     if section == "expect" and word.endswith("''"):
@@ -307,6 +325,10 @@ def _advice_in_problem(word: str, value: str) -> str:
     spelled = re.sub("[- ]", "_", word.casefold())
     key = meanings("keys").get(spelled, spelled if spelled in meanings("parts") else word)
     part = meanings("parts").get(key)
+    if key == "until" and re.search("[=<>≤≥]", value):
+        return f'an event is an option: lagcli simulate FILE --stop-when "{value}"'
+    if part == "expect" and key in FOUND and re.search(r"=", value):
+        return ALREADY_FOUND
     if key == "until":
         value = range_end(value) or value
     if len(word) > 1 and (advice := advice_in("simulation").get(word)):

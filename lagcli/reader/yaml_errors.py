@@ -21,6 +21,7 @@ from lagcli.reader.habits import (
     meanings,
 )
 from lagcli.reader.headings import SECTIONS
+from lagcli.reader.misshapen import pieces
 from lagcli.reader.regex import regex
 
 if TYPE_CHECKING:
@@ -124,7 +125,7 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return Diagnostic(f"this line begins further left than '{key}'", span, "begin them alike")
     for piece, sentence, hint in habits()["yaml"]:
         if piece in said:
-            if not hint and _MIDDLE.match(line) and line is not first:
+            if not hint and _MIDDLE.match(line) and "=" not in line and line is not first:
                 return Diagnostic(sentence, span, _CONTINUED)
             return Diagnostic(sentence, span, hint or colon_advice(line))
     return Diagnostic(f"this is not YAML: {problem}", span)
@@ -209,8 +210,15 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
             "a formula has no cases", span, CASE if whole == value else f"write {whole}"
         )
     word = re.search(r":\s.*\S\s+(\w+)\s*$", lines[line - 1][: column - 1])
-    inner = re.match(r"\s*(\w+):\s+([^\W\d]\w*'*:.*\S)", lines[line - 1])
+    inner = re.match(r"\s*(\w+):\s+([^\W\d][\w ]*'*:.*\S)", lines[line - 1])
     if inner and inner[1] in MAPS:
+        name, _, value = inner[2].partition(":")
+        parts = pieces(value, ",")
+        if parts[1:] and all(re.search("[^<>]=", each) for each in parts):
+            stem = "_".join(name.split())
+            named = (f"{stem}_{k}: {each.strip()}" for k, each in enumerate(parts, start=1))
+            inner_ = ", ".join(named)
+            return Diagnostic("each equation has a name", span, f"write {inner[1]}: {{{inner_}}}")
         hint = f"write {inner[1]}: {{{inner[2]}}}"
         return Diagnostic("a map on the line of its key stands in braces", span, hint)
     if word and word[1] in meanings("keys").values():

@@ -543,7 +543,7 @@ HABITS = [
     (text(parameters="{m: 1 to 3, k: 2}"), "lagcli sweep --vary m=1,2,3"),
     (text(parameters=None, masses="{m: 1}", V=None), "the key is parameters"),
     (text(gravity="-x"), "write V: m*g*y"),
-    (text(damping="0.1"), "dissipation: c*x'^2/2"),
+    (text(damping="0.1"), "write dissipation: 0.1*x'^2/2: its force is -0.1*x'"),
     (text(time="t"), "t is the time"),
     (text(forces="{x: k*cos(g*time)}"), "the time is t"),
     (text(symmetries="{rotation: true}", coordinates="[x, y]", T="x'^2 + y'^2"), "{x: -y, y: x}"),

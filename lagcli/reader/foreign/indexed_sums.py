@@ -39,6 +39,7 @@ def written_out(text: str, names: Vocabulary) -> str:
     UnclearText
         Where the range of an index is neither given nor that of names with it.
     """
+    text = re.sub(r"(?<=_[i-n])_dot\b", "'", text)
     while called := _CALL.search(text):
         end = _closing(text, called.end())
         within = text[called.end() : end]

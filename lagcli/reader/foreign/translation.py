@@ -149,7 +149,7 @@ class _Translation(Functions):
         self.refuse_unknown_call(word)
         name, more = meant(word, self.names)
         primes += more
-        if word in VELOCITIES and more:
+        if word in VELOCITIES and more and not (word == "v" and self.sign() == "^"):
             self.by_letter.add(name)
         if self.called_by_time():
             if name not in self.names.dependent or (more and "dot" not in word):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from lagcli.expression import FUNCTIONS
@@ -81,7 +81,7 @@ def parts_of(word: str, names: Vocabulary) -> list[str]:
     """The letters of `mgl` and of `mlẋθ̇cosθ`; the word itself where it is no product of them."""
     if word in {*names.known, *names.functions} or function_named(word, names):
         return [word]
-    apart = unicodedata.normalize("NFD", word)
+    apart = re.sub("([\u0307\u0308]+)([₀-₉]+)", r"\2\1", unicodedata.normalize("NFD", word))
     letters = {BY_NAME[each] for each in names.known if each in BY_NAME}
     lowered = {each.replace("_", "").translate(_LOWERED) for each in names.known}
     spelled = {*names.known, *letters, *lowered, *FUNCTIONS} - {""}  # of the name _
@@ -147,6 +147,13 @@ def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
     return found.pop() if len(found) == 1 else None
 
 
+def momentum_meant(word: str, coordinates: Sequence[str]) -> str:
+    """The coordinate whose momentum is called px, p_1 or, of the only one, p; else nothing."""
+    found = [x for x in coordinates if spelled_out(word) in {f"p_{x}", *_momenta(spelled_out(x))}]
+    found += [*coordinates] if word in {"p", "P"} and len(coordinates) == 1 else []
+    return found[0] if len(found) == 1 else ""
+
+
 def _momenta(x: str) -> set[str]:
     """How others write p_x: px, and p1 for p_q1."""
     index = re.sub(r"^\D*", "", x)
@@ -166,7 +173,13 @@ def _rates(x: str) -> tuple[set[str], set[str]]:
     second |= {f"{dot}{x}" for dot in ("dd", "a", "a_", "ddot_", "ddot")}
     if numbered:
         first |= {f"{numbered[1]}{dot}{numbered[2]}" for dot in ("d", "_d", "dot", "_dot")}
-        letters = ("omega", "w") if is_angle(x) else ("v",)
+        letters = (
+            ("omega", "w")
+            if is_angle(x)
+            else ("i",)
+            if stem.rstrip("0123456789") == "q"
+            else ("v",)
+        )
         first |= {f"{letter}{gap}{numbered[2]}" for letter in letters for gap in ("", "_")}
     if index:
         first |= {f"{stem}dot_{index}", f"{stem}dot{index}", f"{stem}_dot_{index}"}
