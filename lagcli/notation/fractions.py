@@ -85,6 +85,19 @@ class _Monomial:
         return {base: -e for base, e in self.powers.items() if e < 0}
 
 
+def products(term: Expression, ordering: Ordering) -> list[Expression]:
+    """The terms of a x (b + c/d)/e without its bracket and those within; itself without one."""
+    minus, above, below = parts_of(term)
+    sums = [factor for factor in above if isinstance(factor, Sum)]
+    if len(sums) != 1 or len(above) + len(below) == 1:
+        return [term]
+    if not any(isinstance(part, Name) for part in walk(sums[0])):  # (2 + sqrt(2)) k
+        return [term]
+    outside = _Monomial.product(minus, [f for f in above if f is not sums[0]], below)
+    parts = [part for each in sums[0].terms for part in products(each, ordering)]
+    return [_Monomial.of(part).times(outside).written(ordering) for part in parts]
+
+
 class Brackets:
     """The inner brackets of products and sums, where a book has one fraction or none.
 

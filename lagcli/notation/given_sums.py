@@ -7,10 +7,10 @@ that are no single terms as letters.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from fractions import Fraction
 from itertools import combinations
-from math import gcd, inf, lcm, prod
+from math import gcd, lcm, prod
 from typing import TypeAlias, cast
 
 from lagcli.expression import (
@@ -27,17 +27,15 @@ from lagcli.expression import (
     Sum,
     children,
     operation_count,
-    opposite,
     power_of,
     quotient_of,
-    sum_of,
     terms_of,
     walk,
 )
 from lagcli.notation.factors import (
     base_and_exponent,
-    distributed,
     odd_base,
+    over_root,
     parts_of,
     power_product,
     product_of_powers,
@@ -45,7 +43,9 @@ from lagcli.notation.factors import (
     with_base,
     with_content,
 )
+from lagcli.notation.fractions import products
 from lagcli.notation.likeness import (
+    Key,
     Monomial,
     Polynomial,
     inverse,
@@ -55,14 +55,14 @@ from lagcli.notation.likeness import (
     signed_key,
 )
 from lagcli.notation.ordering import Ordering, is_letter, is_rate, positive_first
-from lagcli.rewriting import put_in, rebuilt
+from lagcli.rewriting import rebuilt
 
 #: How many times as long as the answer's the file's own sum may be.
 _LONGER = 1.4
-#: How many times as long the potential of the file may be.
-_LIMIT = 2
 #: Terms of a sum, or a part of one, that is looked for within longer sums.
 _SHORT = 4
+#: Terms of a sum without its brackets, in which those of the file are looked for.
+_SEVERAL = 8
 #: The letters of a sum or its square, what it is multiplied out, and it.
 _Short: TypeAlias = tuple[frozenset[Expression], Polynomial, Expression]
 
@@ -87,16 +87,27 @@ class GivenSums:
         formulas = [*formulas]
         divided = (p for node in formulas for p in walk(node) if isinstance(p, Quotient))
         below = (f for part in divided for f in parts_of(part.denominator)[1])
-        self._below = {_arranged(base, ordering) for base, _ in map(whole_power, below)}
+        self._below = {arranged_within(base, ordering) for base, _ in map(whole_power, below)}
+        self._fits: dict[Key, set[bool]] = {}  # whether denominators can be these sums
+        self._unfit: Container[Key] = ()
         for whole in energies:
             self._keep(whole, multiplied_out(whole))
         for part in (part for node in formulas for part in walk(node)):
             value = multiplied_out(part) if isinstance(part, Sum) else None
             if value and not set.intersection(*({x for x, _ in term} for term in value)):
                 self._keep(cast(Sum, part), value)
-        for leaves, found in self._found.items():
+        for names, found in self._found.items():
             for value, shown in found:
-                self._keep_short(leaves, value, shown)
+                self._keep_short(names, value, shown)
+
+    def anew(self, unfit: Container[Key]) -> None:
+        """Begin another section, in which not all rows can have these denominators."""
+        self._fits.clear()
+        self._unfit = unfit
+
+    def unfit(self) -> Iterator[Key]:
+        """The sums that are denominators of some rows of the section, and cannot be of others."""
+        return (key for key, found in self._fits.items() if len(found) > 1)
 
     def _keep_short(self, leaves: frozenset[Expression], value: Polynomial, node: Sum) -> None:
         """Keep a sum and its square, to be found within longer sums; none of squared rates."""
@@ -115,59 +126,63 @@ class GivenSums:
 
         k (z − y) − c (y − x) for k z − (k + c) y + c x, where it has z − y and y − x.
         """
-        leaves = _leaves(node)
-        near = [each for each in self._short if each[0] <= leaves]
+        names = leaves(node)
+        near = [each for each in self._short if each[0] <= names]
         if not near or len(node.terms) < 2:
             return node
         found = self._with_short(node, near)
-        apart = [each for term in node.terms for each in self._of_each_parameter(term)]
-        if len(apart) == len(node.terms):
+        apart = [each for term in node.terms for each in products(term, self._ordering)]
+        if not len(node.terms) < len(apart) <= _SEVERAL:
             return found
         other = self._with_short(Sum((*apart,)), near)
-        shorter = len(other.terms) < len(found.terms) and _cost(other) <= _cost(found)
-        return Sum((*positive_first(other.terms),)) if shorter else found
+        if len(other.terms) >= len(found.terms) or _cost(other) > _cost(found):
+            letters = [each for each in near if all(map(is_letter, terms_of(each[2])))]
+            other = self._with_short(Sum((*apart,)), letters)  # a x + b (x − y), (m + M) x'
+            if len(other.terms) == len(apart) or self._effort(other) >= self._effort(found):
+                return found
+        return Sum((*positive_first(self._ordering.sorted(other.terms)),))
 
-    def _of_each_parameter(self, term: Expression) -> list[Expression]:
-        """a x and b x of (a + b) x with parameters a and b."""
-        _, above, _ = parts_of(term)
-        sums = [f for f in above if isinstance(f, Sum)]
-        if len(above) == len(sums) or not all(map(self._ordering.is_parameter, sums)):
-            return [term]
-        return distributed(term, self._ordering)
+    def _effort(self, node: Sum) -> int:
+        """The operations, and brackets that the file has not."""
+        node = Sum((*map(over_root, node.terms),))
+        inner = (p for p in walk(node) if isinstance(p, Sum) and p is not node)
+        return _cost(node) + sum(self.like(each) is None for each in inner)
 
     def _with_short(self, node: Sum, near: Sequence[_Short]) -> Sum:
-        parts = [multiplied_out(term) for term in node.terms]
+        letters: dict[str, Expression] | None = None
+        marked, brackets = _marked(node.terms)
+        parts = [multiplied_out(term) for term in marked]
         if any(part is None or len(part) > _SHORT for part in parts):
             return node
-        letters: dict[str, Expression] | None = None
         terms, polys = list(node.terms), cast(list[Polynomial], parts)
         for _, value, given in near:
             for used, ratio, scale in _multiples(polys, value):
-                letters = letters or _letters(node)
+                letters = letters or _letters(node) | brackets
                 if not all(letter in letters for letter, _ in scale):
                     continue
                 powers = {letters[x]: e for x, e in scale}
                 letters_only = all(map(is_letter, terms_of(given)))
-                if letters_only and any(is_rate(x) and x in _leaves(given) for x in powers):
+                if letters_only and any(is_rate(x) and x in leaves(given) for x in powers):
                     continue  # x' y' − y'², not (x' − y') y'
                 powers[_base(given)] = 2 if isinstance(given, Power) else 1
                 whole = product_of_powers(ratio, powers, self._ordering)
                 before = sum(_cost(terms[k]) for k in used) + len(used) - 1
-                if _cost(whole) < before + _worth(given):
+                again = any(given in parts_of(term)[1] for term in node.terms)
+                if _cost(whole) < before + _worth(given) + again:
                     rest = [k for k in range(len(terms)) if k not in used[1:]]
                     terms[used[0]] = whole
                     polys[used[0]] = {}
                     terms, polys = [terms[k] for k in rest], [polys[k] for k in rest]
                     break
-        return node if len(terms) == len(node.terms) else Sum(tuple(terms))
+        return node if len(terms) == len(node.terms) else self._with_short(Sum((*terms,)), near)
 
     def _keep(self, node: Sum, value: Polynomial | None) -> None:
         if value and 1 < len(value) < len(node.terms):  # R² − l²/4 + l²/12 is R² − l²/6
             node = self._collected(node, value)
             value = multiplied_out(node)
         if value and len(value) >= len(node.terms) and is_tidy(node):  # M + M is 2 M
-            shown = cast(Sum, _arranged(node, self._ordering))
-            self._found.setdefault(_leaves(node), []).append((value, shown))
+            shown = cast(Sum, arranged_within(node, self._ordering))
+            self._found.setdefault(leaves(node), []).append((value, shown))
 
     def _collected(self, node: Sum, value: Polynomial) -> Sum:
         """The sum with like terms as one; itself where a letter of them is none of its parts."""
@@ -184,7 +199,7 @@ class GivenSums:
 
     def like(self, node: Expression) -> tuple[Fraction, Sum] | None:
         """(c, S): the node is c S with a sum S of the file that is not much longer."""
-        found = self._found.get(_leaves(node))
+        found = self._found.get(leaves(node))
         value = multiplied_out(node) if found else None
         for other, given in found or () if value else ():
             assert value is not None
@@ -197,7 +212,7 @@ class GivenSums:
 
     def multiple(self, node: Sum) -> tuple[Fraction, Monomial, Sum] | None:
         """(c, m, S): the node is c m S with a sum S of the file and a product m of powers."""
-        found = self._found.get(_leaves(node))
+        found = self._found.get(leaves(node))
         value = multiplied_out(node) if found else None
         for other, given in found or () if value else ():
             assert value is not None
@@ -249,18 +264,26 @@ class GivenSums:
     def _over_given(
         self, above: list[Expression], below: list[Expression]
     ) -> tuple[Fraction, list[Expression], list[Expression]]:
-        """A number, and r'²/(1 − rs/r) for r r'²/(r − rs) where the file has such a denominator."""
+        """A number, and r'²/(1 − rs/r) for r r'²/(r − rs) where the file has such a denominator.
+
+        So F/(m + I/R²) for F R²/(m R² + I), if every row of the section can be written so.
+        """
         number = Fraction(1)
         for place, factor in enumerate(below):
             base, exponent = whole_power(factor)
             like = self.multiple(base) if isinstance(base, Sum) else None
-            if like is None or not like[1] or like[2] not in self._below:
+            if like is None or not like[1]:
                 continue
             letters = {repr(n): n for n in walk(base) if isinstance(n, Name)}
             left = Counter[Expression](dict(map(whole_power, above)))
             for letter, power in like[1]:
                 left[letters.get(letter, ONE)] -= power * exponent
-            if ONE in left or min(left.values()) < 0 or len(left) < len(above):
+            fits = ONE not in left and min(left.values()) >= 0 and len(left) >= len(above)
+            if like[2] not in self._below:
+                key = signed_key(like[2])[1]
+                self._fits.setdefault(key, set()).add(fits)
+                fits = fits and key not in self._unfit and all(e > 0 for _, e in like[1])
+            if not fits:
                 continue
             number /= like[0] ** exponent
             below[place] = power_of(like[2], exponent)
@@ -327,97 +350,6 @@ class GivenSums:
         return number, above, below
 
 
-class GivenPotential:
-    """V as the file writes it, within L, H and U_eff.
-
-    Parameters
-    ----------
-    potential
-        Of the file; its terms stay apart where the algebra has brought some together.
-    ordering
-        Of the factors of a product.
-    """
-
-    def __init__(self, potential: Expression | None, ordering: Ordering) -> None:
-        like = isinstance(potential, Sum) and (
-            has_like_terms(potential) or differ_in_parameters(potential, ordering)
-        )
-        own = None if like else potential
-        value = own and multiplied_out(own)
-        self._value = value if own and value and _is_tidy_inside(own) else None
-        self._limit = inf if own is not None and _keeps_squares(own) else _LIMIT
-        self._node = None if potential is None else _arranged(potential, ordering)
-
-    def __call__(self, node: Expression) -> Expression:
-        """The formula with V or −V for all that has neither velocities nor momenta; E − V."""
-        inside: dict[Expression, Expression] = {
-            part: shown
-            for root in walk(node)
-            if isinstance(root, Call) and root.function == "sqrt"
-            for part in walk(root)
-            if isinstance(part, Sum) and (shown := self._with_potential(part)) is not part
-        }
-        return self._with_potential(put_in(node, inside) if inside else node)
-
-    def _with_potential(self, node: Expression) -> Expression:
-        if self._value is None or self._node is None or not _leaves(self._node) <= _leaves(node):
-            return node
-        given, terms, own = self._node, terms_of(node), _leaves(self._node)
-        still = [t for t in terms if t in own or not isinstance(t, Name)]
-        still = [t for t in still if not any(map(_is_fast, walk(t)))]
-        parts = [(t, multiplied_out(t)) for t in still]
-        ours = [t for t, out in parts if out and out.keys() <= self._value.keys()]
-        others = [t for t, out in parts if out is None or not out.keys() & self._value.keys()]
-        shown = Sum((*ours,)) if len(ours) > 1 else ours[0] if ours else None
-        value = None if shown is None else multiplied_out(shown)
-        if shown is None or value is None or len(value) != len(self._value):
-            return node
-        first = terms.index(still[0])
-        apart = others and [*terms[first : first + len(still)]] != still
-        if apart or len(ours) + len(others) < len(still):  # (k − m w²) x²
-            return node
-        ratios = {
-            c / self._value[term] if term in self._value else None for term, c in value.items()
-        }
-        if ratios not in ({Fraction(1)}, {Fraction(-1)}):
-            return node
-        if self._limit * operation_count(shown) < operation_count(given):
-            return node
-        signed = terms_of(given) if ratios == {Fraction(1)} else map(opposite, terms_of(given))
-        together = [*signed]
-        behind = ratios == {Fraction(-1)} or isinstance(together[0], Negative)  # T0 − V, V − T0
-        late = behind and others and not isinstance(others[0], Negative)
-        together = [*others, *together] if late else [*together, *others]
-        before, after = terms[:first], [t for t in terms[first:] if t not in still]
-        found = (*before, *together, *after)
-        worse = isinstance(found[0], Negative) and not isinstance(terms[0], Negative)
-        return node if worse else sum_of(found)
-
-
-def _keeps_squares(node: Expression) -> bool:
-    """Whether there are squared brackets of which every product stays when multiplied out.
-
-    Of q1² + q2² + (q1 − q2)² nothing is gained by it, and the symmetry is lost;
-    (x + y)² + (x − y)² is 2 x² + 2 y².
-    """
-    if not any(isinstance(p, Power) and isinstance(p.base, Sum) for p in walk(node)):
-        return False
-    whole = multiplied_out(node) or {}
-    return all(m in whole for term in terms_of(node) for m in _products(term))
-
-
-def _products(node: Expression) -> Iterator[Monomial]:
-    """The products in each squared bracket of a term, before they are added to others."""
-    _, above, below = parts_of(node)
-    for place, factor in enumerate(above):
-        if isinstance(factor, Sum):
-            for term in factor.terms:
-                rest = [term if k == place else f for k, f in enumerate(above)]
-                yield from _products(quotient_of(rest, below))
-            return
-    yield from multiplied_out(quotient_of(above, below)) or {}
-
-
 def has_like_terms(node: Sum) -> bool:
     """Whether two terms without a squared bracket have a part in common: m g y + m g (y + l)."""
     plain = (
@@ -440,19 +372,9 @@ def differ_in_parameters(node: Sum, ordering: Ordering) -> bool:
     return len(set(found)) < len(found)
 
 
-def _is_tidy_inside(node: Expression) -> bool:
-    """Whether it is tidy behind other terms, where it may begin with a minus."""
-    first, *rest = terms_of(node)
-    return is_tidy(Sum((opposite(first), *rest)) if rest and isinstance(first, Negative) else node)
-
-
 def _cost(term: Expression) -> int:
     """The operations of a term, without signs: these belong to the sums."""
     return operation_count(term) - sum(isinstance(part, Negative) for part in walk(term))
-
-
-def _is_fast(node: Expression) -> bool:
-    return isinstance(node, Name) and (node.primes > 0 or node.name.startswith("p_"))
 
 
 def _worth(given: Expression) -> int:
@@ -477,6 +399,27 @@ def _multiples(
             yield used, ratio, scale
 
 
+def _marked(
+    terms: Sequence[Expression],
+) -> tuple[list[Expression], dict[str, Expression]]:
+    """The terms with a letter for each bracket that several have as a factor; the brackets."""
+    keys = Counter(signed_key(f)[1] for t in terms for f in parts_of(t)[1] if isinstance(f, Sum))
+    found: dict[str, Expression] = {}
+    signs: dict[Key, int] = {}
+    marked = []
+    for term in terms:
+        minus, above, below = parts_of(term)
+        for place, factor in enumerate(above):
+            sign, key = signed_key(factor)
+            if keys[key] > 1:  # of sums alone
+                minus ^= signs.setdefault(key, sign) != sign
+                above[place] = Name(f"#{[*signs].index(key)}")
+                found.setdefault(repr(above[place]), factor)
+        whole = quotient_of(above, below)
+        marked.append(Negative(whole) if minus else whole)
+    return (marked, found) if found else ([*terms], found)
+
+
 def _letters(node: Expression) -> dict[str, Expression]:
     """What stands for the letters of a polynomial."""
     found: dict[str, Expression] = {}
@@ -490,13 +433,14 @@ def _letters(node: Expression) -> dict[str, Expression]:
     return found
 
 
-def _leaves(node: Expression) -> frozenset[Expression]:
+def leaves(node: Expression) -> frozenset[Expression]:
+    """The names in it."""
     return frozenset(part for part in walk(node) if isinstance(part, Name))
 
 
-def _arranged(node: Expression, ordering: Ordering) -> Expression:
+def arranged_within(node: Expression, ordering: Ordering) -> Expression:
     """The formula with the factors of each product in their order."""
-    node = rebuilt(node, lambda part: _arranged(part, ordering))
+    node = rebuilt(node, lambda part: arranged_within(part, ordering))
     return Product(arranged(node.factors, ordering)) if isinstance(node, Product) else node
 
 
@@ -519,14 +463,14 @@ def is_tidy(node: Expression) -> bool:
             bad = bad or len(set(map(_base, node.factors))) < len(node.factors)
         case Sum(terms=terms):
             bad = any(isinstance(term, Sum) for term in terms) or isinstance(terms[0], Negative)
-            bad = bad or sum(not _leaves(term) for term in terms) > 1
+            bad = bad or sum(not leaves(term) for term in terms) > 1
         case Negative(operand=inner):
             bad = isinstance(inner, (Negative, Sum))
         case Quotient(numerator=above, denominator=below):
             bad = isinstance(above, (Negative, Quotient)) or isinstance(below, Quotient)
             bad = bad or gcd(_number(above), _number(below)) > 1
-        case Power(base=base):
-            bad = isinstance(base, (Product, Quotient))  # (2 l θ')²
+        case Power(base=base, exponent=exponent):
+            bad = isinstance(base, (Product, Quotient)) or exponent == ONE  # (2 l θ')², x¹
         case _:
             bad = False
     return not bad and all(map(is_tidy, children(node)))

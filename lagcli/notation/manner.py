@@ -61,8 +61,8 @@ from lagcli.notation.factors import (
 )
 from lagcli.notation.fractions import Brackets
 from lagcli.notation.given_formulas import given, order_of_names
+from lagcli.notation.given_potential import GivenPotential
 from lagcli.notation.given_sums import (
-    GivenPotential,
     GivenSums,
     arranged,
     differ_in_parameters,
@@ -130,15 +130,21 @@ class Manner:
     def anew(self, one_way: Mapping[Key, int] | None = None) -> None:
         """Begin another section, which is written as if it were the only one.
 
-        `one_way` has the sums of constants that it would have both ways, see `both_ways`.
+        `one_way` has the sums that it would have both ways, see `both_ways`.
         """
-        self._signs.anew(one_way or {})
+        one_way = one_way or {}
+        self._signs.anew({key: sign for key, sign in one_way.items() if sign})
+        self._sums.anew({key for key, sign in one_way.items() if not sign})
         for memory in (self._known, self._within, self._above, self._squares, self._beside):
             memory.clear()
 
     def both_ways(self, section: object) -> dict[Key, int]:
-        """The sums of constants that a written section has as a − b and b − a; their one sign."""
-        return self._signs.both_ways(expressions_in(section))
+        """The sums of constants that a written section has as a − b and b − a; their one sign.
+
+        0 for a denominator m + I/R² of the file that other rows have as m R² + I.
+        """
+        signs = self._signs.both_ways(expressions_in(section))
+        return signs | dict.fromkeys(self._sums.unfit(), 0)
 
     def expect(self, left: Expression, right: Expression) -> None:
         """Of a section with the condition a > b: a denominator has a − b."""

@@ -548,3 +548,47 @@ def test_a_number_beside_a_letter_is_first() -> None:
     found = text("x", "m k g", "T: (1 + k)*m*x'^2/2\nV: -m*g*x", "accelerations", "momenta")
     assert "ẍ = g/(1 + k)" in found
     assert "p_x = (1 + k) m ẋ" in found
+
+
+@pytest.mark.parametrize("stiff", ["k", "K", "3*k"])
+@pytest.mark.parametrize("mass", ["", "m*"])
+def test_like_coordinates_have_like_accelerations(stiff: str, mass: str) -> None:
+    """Two oscillators joined by a spring, whose extension the file has in both rows."""
+    physics = f"T: {mass}(x'^2 + y'^2)/2\nV: (k*x^2 + k*y^2 + {stiff}*(x - y)^2)/2"
+    found = text("x, y", "m k K", physics, "accelerations")
+    assert found.count("(x − y)") == (2 if stiff == "K" else 0)  # k (y − 2 x) is shorter
+
+
+@pytest.mark.parametrize("place", ["x - a", "x + a", "x - 2*a"])
+def test_a_spring_has_its_length_in_one_bracket(place: str) -> None:
+    """k (x − a) (1 − s/l) with l² = (x − a)² + b²."""
+    physics = f"T: m*x'^2/2\nV: k*(sqrt(({place})^2 + b^2) - s)^2/2"
+    found = text("x", "m k a b s", physics, "equations", "accelerations", "canonical_equations")
+    assert found.count("(1 − s/√(") == 3
+
+
+@pytest.mark.parametrize("inertia", ["I/R^2", "2*I/R^2", "I/(a*R)"])
+def test_a_sum_of_masses_stays_where_every_row_can_have_it(inertia: str) -> None:
+    physics = f"T: (M + {inertia})*x'^2/2\nV: -M*g*x"
+    found = text("x", "M I R a g", physics, "accelerations", "hamiltonian")
+    assert found.count(f"M + {inertia.replace('*', ' ').replace('^2', '²')}") == 2
+
+
+@pytest.mark.parametrize("power", ["x^1", "x^(1)", "(x)^(2/2)"])
+def test_a_first_power_is_no_power(power: str) -> None:
+    assert "¹" not in text("x", "m g", f"T: m*x'^2/2\nV: m*g*{power}", "lagrangian", "energy")
+
+
+@pytest.mark.parametrize("inertia", ["M + 2*m*sin(x)^2", "M + m*x^2", "m*cosh(x)^2"])
+def test_an_explanation_has_the_hamiltonian_and_the_momenta_of_the_answers(inertia: str) -> None:
+    """V stands apart in both, not over the denominator of T."""
+    file = (
+        "coordinates: [x]\nparameters: {m: {assume: positive}, M: {assume: positive}, "
+        f"a: {{assume: positive}}, g: {{assume: positive}}}}\nT: ({inertia})*x'^2/2\n"
+        "V: -(m + M)*g*a*cos(x) - m*a*x^2/2"
+    )
+    read = read_problem("t.yaml", file.encode()).checked()
+    stated = state(derive(read), Request(sections=("momenta", "hamiltonian"))).sections
+    account = explain(derive(read), ("canonical_equations",))
+    (step,) = (step for step in account.steps if step.title == "Canonical equations")
+    assert {*expressions_in(stated)} <= {*expressions_in(step.blocks)}
