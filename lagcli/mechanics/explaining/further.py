@@ -108,7 +108,8 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says(f"An equilibrium is where {hold} at all times.")
         yield from averaged_potential(explainer)
     still = explainer.system.L.xreplace(dict.fromkeys(explainer.system.qdot, S.Zero))
-    named = any(each.verdict.potential == "V_eff" for each in found or ())
+    verdicts = [each.verdict for each in found or () if not each.verdict.neutral]
+    named = any(each.potential == "V_eff" for each in verdicts)
     if named and still != 0 and not states.at_all_times:
         yield says(Label("V", ("eff",)), " stands for the terms of ", explainer.letters.L,
                    " without velocities, with the opposite sign:")  # fmt: skip
@@ -148,7 +149,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
     if found and not states.complete:
         yield says("There may be others.")
     if found:
-        yield from recurring(explainer)
+        yield from recurring(explainer, states.periods)
 
 
 def _one_sided(explainer: Explainer) -> bool:

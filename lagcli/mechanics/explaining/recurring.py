@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import sympy
 from sympy import Expr, Symbol
@@ -15,9 +15,14 @@ from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import says
 
 
-def recurring(explainer: Explainer) -> Iterator[Block]:
-    """That all states recur after a period of a coordinate that is not a whole turn."""
+def recurring(explainer: Explainer, said: Collection[str] = ()) -> Iterator[Block]:
+    """That all states recur after a period of a coordinate that is not a whole turn.
+
+    Of the coordinates that were `said` to repeat, it is not said again.
+    """
     for q, period in recurrences(explainer.dynamics).items():
+        if q.name in said:
+            continue
         after = explainer.readable.as_written(period)
         yield says("All of them recur where ", Name(q.name), " grows by ", after, ".")
 

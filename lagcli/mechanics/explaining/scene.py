@@ -98,6 +98,7 @@ def _relations_of_several(explainer: Explainer) -> Iterator[Block]:
 
 def _contacts(explainer: Explainer) -> Iterator[Block]:
     contacts = [c for c in explainer.problem.constraints if c.holds_while is not None]
+    hold = "they hold" if len(contacts) > 1 else "it holds"
     for contact in contacts:
         bound = contact.holds_while
         assert bound is not None
@@ -106,7 +107,7 @@ def _contacts(explainer: Explainer) -> Iterator[Block]:
             bound.left,
             _COMPARISONS[bound.comparison],
             bound.right,
-            ". What follows is valid as long as it holds.",
+            "." if contact is not contacts[-1] else f". What follows is valid as long as {hold}.",
         )
 
 
