@@ -2,7 +2,7 @@
 
 Where a formula would fill more than some three lines, a denominator that the rows share is named
 Δ, sines and cosines of differences s12 and c12, other sums k1, k2, …, in a formula of two lines
-only what it has twice.
+only what it has twice.  Beside changes Δx it is χ1, χ2, … for Δ.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from fractions import Fraction
 
-from lagcli.document import Block, Equations, Paragraph, Row
+from lagcli.document import Block, Equations, Label, Paragraph, Row
 from lagcli.expression import (
     Call,
     Expression,
@@ -42,8 +42,8 @@ from lagcli.notation.likeness import (
 from lagcli.notation.naming import PART_STEMS, Names, free_stem
 from lagcli.notation.ordering import positive_first
 from lagcli.record import replace
-from lagcli.rewriting import expressions_in, rebuilt, rewritten, substituted
-from lagcli.statements.answers import Answers
+from lagcli.rewriting import expressions_in, parts_in, rebuilt, rewritten, substituted
+from lagcli.statements.answers import Answers, Charge
 from lagcli.statements.explanation import Explanation
 from lagcli.statements.registry import in_order
 
@@ -116,8 +116,14 @@ def _found(parts: Sequence[object], taken: Collection[str]) -> _Abbreviations | 
     trees = [*dict.fromkeys(tree for part in parts for tree in expressions_in(part))]
     if not any(operation_count(tree) > LONG for tree in trees) and not _long_roots(trees):
         return None
-    names = _Abbreviations(trees, taken)
+    names = _Abbreviations(trees, taken, changes=any(map(_has_changes, parts)))
     return names if names.where else None
+
+
+def _has_changes(part: object) -> bool:
+    """Whether Δx is the change of a coordinate there, so that Δ is no denominator."""
+    labels, charges = parts_in(part, Label), parts_in(part, Charge)
+    return any(each.change for each in labels) or any(each.transformation for each in charges)
 
 
 def _long_roots(trees: Sequence[Expression]) -> set[Call]:
@@ -131,7 +137,9 @@ def _long_roots(trees: Sequence[Expression]) -> set[Call]:
 class _Abbreviations:
     """The names chosen for some formulas, the one that saves most first."""
 
-    def __init__(self, trees: Sequence[Expression], taken: Collection[str]) -> None:
+    def __init__(
+        self, trees: Sequence[Expression], taken: Collection[str], *, changes: bool
+    ) -> None:
         self._taken = Names(taken)
         self._alike = SignedNumbers()
         self._labels: dict[str, tuple[int, int]] = {}  # what is named, as it was when chosen
@@ -141,7 +149,9 @@ class _Abbreviations:
         self._long = [operation_count(tree) > _TWO_LINES for tree in trees]
         self._beside: set[str] = set()  # what other rows of a block have
         self._stem = free_stem(PART_STEMS, taken)
-        self._numbered: dict[str, list[str]] = {self._stem: [], "Delta": []}  # k1, k2, …, Δ, Δ2, …
+        others = [stem for stem in ("chi", "xi") if stem != self._stem]  # of denominators by Δx
+        self._denominators = free_stem(others, taken) if changes else "Delta"
+        self._numbered: dict[str, list[str]] = {self._stem: [], self._denominators: []}
         while len(self._chosen) < _MOST_NAMES and (best := self._best()) is not None:
             self._take(best)
         self._short = self._left_out()
@@ -252,8 +262,8 @@ class _Abbreviations:
     def _take(self, whole: Expression) -> None:
         its = self._alike(whole)
         below = its[1] in self._below()
-        circular, stem = _circular_name(whole), "Delta" if below else self._stem
-        label = self._new(circular or (stem if below else f"{stem}1"))
+        circular, stem = _circular_name(whole), self._denominators if below else self._stem
+        label = self._new(circular or (stem if stem == "Delta" else f"{stem}1"))
         if not circular:
             self._numbered[stem].append(label)
         self._labels[label] = its
