@@ -55,6 +55,19 @@ def test_the_relations_of_a_generating_function_are_goldsteins():
     assert "Q does not occur in it, so p_Q is constant." in words(told, CANONICAL)
 
 
+@pytest.mark.parametrize("frequency", ["1 + g^2", "1 + t^2"])
+def test_a_new_hamiltonian_without_the_time_is_constant(frequency):
+    """x exp(g t/2), p exp(-g t/2) make the damped oscillator of Caldirola and Kanai autonomous."""
+    text = (
+        "{coordinates: [x], parameters: {g: {}}, "
+        f"H: 'p_x^2*exp(-g*t)/2 + ({frequency})*x^2*exp(g*t)/2', canonical_transformations: "
+        "{scaled: {Q: x*exp(g*t/2), p_Q: p_x*exp(-g*t/2)}}}"
+    )
+    told = words(explain(derive(text), ["canonical"]), CANONICAL)
+    constant = "It does not depend on t explicitly, so … is constant." in told
+    assert constant is ("t" not in frequency)
+
+
 def test_a_bracket_that_is_wrong_is_shown_with_what_it_should_be():
     told = also("hamiltonian/exchange-of-coordinates-and-momenta", "canonical")
     notes = {

@@ -716,6 +716,25 @@ V: k*x^2/2 + p^2/2
     assert above.one_freedom.turning_finite == ()
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_the_only_turning_point_of_a_distance_has_its_energies(seed):
+    """Of V = V_0 - k/r the fall from rest begins at k/(V_0 - E): E < V_0; of V_0 + F r, E > V_0."""
+    rng = random.Random(seed)
+    k, at = rng.randint(1, 9), rng.randint(1, 9)
+    for potential, bound in ((f"{at} - {k}/r", True), (f"{at} + {k}*r", False)):
+        section, _ = reduced(f"""
+coordinates: {{r: POSITIVE}}
+parameters: {{m: POSITIVE}}
+T: m*r'^2/2
+V: {potential}
+""")
+        [holds] = section.one_freedom.turning_finite
+        side = Builder({"E": (E := symbol("E"))}, {}, lambda e: e)
+        margin = side(holds.left) - side(holds.right)
+        assert margin.subs(E, at) == 0
+        assert bool(margin.subs(E, at - 1) > 0) is bound
+
+
 BOWL = """
 coordinates: {r: POSITIVE, phi: {}, z: {}}
 parameters: {m: POSITIVE, g: POSITIVE, b: POSITIVE, c: POSITIVE, F: POSITIVE}

@@ -185,13 +185,17 @@ def _new_hamiltonian(test: CanonicalTest, each: ExaminedTransformation) -> Itera
     scale: list[str | Formula] = []
     if each.kind == "extended canonical" and each.valence is not None:
         scale = [" times ", each.valence]
-    timed = [*test.functions, *(() if test.generating is None else (test.generating,))]
+    given = [*test.functions, *(() if test.generating is None else (test.generating,))]
+    timed = any(f.has(test.system.t) for f in given)
     yield says("The transformation, solved for the old variables, is substituted into ", Label("H"),
-               *scale, *(_explicit(each) if any(f.has(test.system.t) for f in timed) else ()),
+               *scale, *(_explicit(each) if timed else ()),
                ". That is the new Hamiltonian,")  # fmt: skip
     yield shows(K, each.hamiltonian)
-    for name, partner in zip((*test.Q, *test.P), (*test.P, *test.Q), strict=True):
-        if name.name not in _names(each.hamiltonian):
+    left, new = _names(each.hamiltonian), (*test.Q, *test.P)
+    if timed and "t" not in left and not left.isdisjoint(name.name for name in new):
+        yield says("It does not depend on t explicitly, so ", K, " is constant.")
+    for name, partner in zip(new, (*test.P, *test.Q), strict=True):
+        if name.name not in left:
             yield says(Name(name.name), " does not occur in it, so ", Name(partner.name),
                        " is constant.")  # fmt: skip
 

@@ -112,9 +112,14 @@ class ReducedFreedom:
 
     @property
     def finite_where(self) -> list[Expr]:
-        """What must be positive, besides for real roots, for no turning point to be at infinity."""
-        found = set[Expr]()
-        for root in self.turning_points or ():
+        """What must be positive, besides for real roots, for no turning point to be at infinity.
+
+        And the only one of a coordinate that is positive, where it is no root: −k/E.
+        """
+        found, points = set[Expr](), self.turning_points or ()
+        if self.q.is_positive and len(points) == 1 and not [*not_negative_where_real(points[0])]:
+            return [] if sign_of(points[0], ()) == 1 else [points[0]]
+        for root in points:
             real = [*not_negative_where_real(root)]
             powers = (p for p in root.atoms(sympy.Pow) if p.exp.is_Integer and p.exp.is_negative)
             found |= {p.base for p in powers if sign_of(p.base**2, real) != 1}
