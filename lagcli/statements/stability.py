@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from lagcli.document import Label
-from lagcli.expression import Expression, Name, operation_count, walk
+from lagcli.expression import ZERO, Expression, Name, Number, Power, operation_count, walk
 from lagcli.statements.answers import Equilibrium
 from lagcli.statements.motions import Above, SteadyMotion, Verdict
 from lagcli.statements.wording import Part, conditions, joined, with_capital
@@ -117,8 +117,7 @@ def _critical(verdict: Verdict) -> list[Part]:
     if verdict.critical is None or verdict.minimum is None or len(verdict.minimum) != 1:
         return []
     [condition], potential = verdict.minimum, _potential(verdict.potential)
-    sides = sorted((condition.left, condition.right), key=_is_number)
-    equality: list[Part] = ["For ", sides[0], " = ", sides[1]]
+    equality = _at_equality(condition)
     if verdict.critical == 0:
         steady = verdict.potential == "U_eff"
         rest = "a steady motion with the same momenta" if steady else "an equilibrium"
@@ -130,6 +129,13 @@ def _critical(verdict: Verdict) -> list[Part]:
         return [*equality, "unstable: ", potential, f" then {there}. "]
     stable = "asymptotically stable: " if verdict.asymptotic else "stable: "
     return [*equality, stable, potential, f" then has a minimum of order {verdict.critical}. "]
+
+
+def _at_equality(condition: Above) -> list[Part]:
+    """For φ' = 0 where φ'² > 0 is the condition, for R ω² = g where it is R ω² > g."""
+    side, other = sorted((condition.left, condition.right), key=_is_number)
+    squared = other == ZERO and isinstance(side, Power) and isinstance(side.exponent, Number)
+    return ["For ", side.base if squared and isinstance(side, Power) else side, " = ", other]
 
 
 def _is_number(side: Expression) -> bool:
@@ -153,8 +159,7 @@ def _by_roots(verdict: Verdict, stable: str, along: Sequence[Part]) -> list[Part
         parts += [", where ", *conditions(spectrum)] if spectrum else []
     parts += _opposite(verdict.unstable if spectrum else ())
     if verdict.grows_at_equality and len(spectrum) == 1 and not spectrum[0].besides:
-        sides = sorted((spectrum[0].left, spectrum[0].right), key=_is_number)
-        parts += ["For ", sides[0], " = ", sides[1], " it is unstable, too: roots coincide, "]
+        parts += [*_at_equality(spectrum[0]), " it is unstable, too: roots coincide, "]
         parts += ["and some displacements grow as a power of the time. "]
     if verdict.gyroscopic:
         potential = _potential(verdict.potential)

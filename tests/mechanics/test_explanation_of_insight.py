@@ -7,7 +7,7 @@ import random
 import pytest
 
 from lagcli.document import Bracket, Label
-from lagcli.expression import Diff, Expression, Name
+from lagcli.expression import Diff, Expression, Name, terms_of, walk
 from lagcli.formatters import explaining
 from lagcli.formatters.display_width import display_width
 from lagcli.formatters.grammar import to_grammar
@@ -195,3 +195,20 @@ def test_the_momenta_of_the_hamilton_jacobi_equation_are_of_what_the_constraint_
     )
     told = words(explain(derive(text), ("hamilton_jacobi",)), "The Hamilton-Jacobi equation")
     assert "The constraint is used to eliminate y, and the momenta are those of the" in told
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "file",
+    ["driven/oscillator-fading-as-inverse-square-of-time", "impact/block-on-shaking-table"],
+)
+def test_a_bracket_has_each_charge_once(file):
+    """(1 - 4 k) Q/2, not (Q - 4 k Q)/2; -4 E - 6 g K, not -2 (2 E + 3 g K)."""
+    charges = [*rows(also(file, "algebra"), ALGEBRA)]
+    assert charges
+    names = {part for row in charges for part in (row.left.left, row.left.right)}
+    for row in charges:
+        found = [part for part in walk(row.right) if part in names]
+        assert len(found) == len({*found})
+        for term in terms_of(row.right):
+            assert sum(part in names for part in walk(term)) <= 1

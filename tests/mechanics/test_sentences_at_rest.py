@@ -10,6 +10,8 @@ import pytest
 import sympy
 
 from lagcli.algebra.signs import sign
+from lagcli.document import Paragraph
+from lagcli.expression import Name
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.explaining.recurring import recurrences
@@ -1201,3 +1203,16 @@ def test_a_body_on_a_floor_rests_where_it_touches_and_not_above(seed):
     text = f"{{coordinates: [x, y], T: {k}*x'^2/2 + y'^2/2, V: {k}*y, {floor}}}"
     told = said(text, "Equilibria", "equilibria")
     assert "In contact: floor. Neutral: every possible position near it with the same" in told
+
+
+def test_rest_everywhere_is_no_line_of_its_own():
+    """And a steady motion whose stability is open for phi' = 0 is not said to be for phi'^2 = 0."""
+    sphere = "{coordinates: [theta, phi], T: (theta'^2 + sin(theta)^2*phi'^2)/2}"
+    assert "from rest the equations of motion are" in said(sphere, "Small oscillations", "modes")
+    told = said(sphere, "Steady motions", "steady_motions")
+    assert "For … = … every position is a steady motion" in told or "For phi' = …" in told
+    steps = explain(derive(sphere), ("steady_motions",)).steps
+    blocks = [block for step in steps if step.title == "Steady motions" for block in step.blocks]
+    parts = [part for block in blocks if isinstance(block, Paragraph) for part in block.parts]
+    at = [parts[k + 1] for k, part in enumerate(parts) if str(part).endswith("For ")]
+    assert Name("phi", 1) in at

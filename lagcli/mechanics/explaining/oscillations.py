@@ -14,7 +14,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign
 from lagcli.algebra.vanishing_factors import squares_divided_by
-from lagcli.document import Block, Equations, Label, Row, equations_of, vanishing
+from lagcli.document import Block, Equations, Label, Paragraph, Row, equations_of, vanishing
 from lagcli.expression import (
     ZERO,
     Call,
@@ -75,10 +75,13 @@ def oscillations(explainer: Explainer, section: Section) -> Iterator[Block]:
         here = [mode for mode in found if (mode.at, mode.on) == (at, on)]
         alike.setdefault(tuple(_near(explainer, place, here)), []).append(place_rows(at, on))
     for blocks, places in alike.items():
-        for k, rows in enumerate(places):
+        for k, rows in enumerate(sorted(places, key=lambda each: not each)):
             lead = "and from" if k else "To first order in the displacements from"
-            yield says(f"{lead} the equilibrium" if rows else f"{lead} rest")
-            yield from [Equations(rows)] if rows else []
+            if rows:
+                yield says(f"{lead} the equilibrium")
+                yield Equations(rows)
+            else:
+                blocks = (says(f"{lead} rest ", cast(Paragraph, blocks[0]).parts), *blocks[1:])
         yield from blocks
 
 

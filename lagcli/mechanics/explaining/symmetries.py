@@ -7,19 +7,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import cast
 
-from sympy import Expr, Matrix, N, Rational, S, Symbol
+from sympy import Expr, Matrix, N, Poly, Rational, S, Symbol
 
 from lagcli.algebra import dot, is_zero, shape, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.place import NO_VALUE
 from lagcli.document import Block, Bracket, Equations, Heading, Label, Row, equations_of
-from lagcli.expression import ZERO, Expression, Name, walk
+from lagcli.expression import ZERO, Expression, Name, sum_of, walk
 from lagcli.mechanics.canonical.poisson import poisson
 from lagcli.mechanics.discovery.lie_algebra import MODULO_CONSTANTS
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, constraints_allow, listed, says
+from lagcli.notation.ordering import positive_first
 from lagcli.statements.answers import (
     AlgebraSection,
     Charge,
@@ -300,8 +301,8 @@ def _brackets(explainer: Explainer, found: AlgebraSection) -> Iterator[Block]:
             other += 1
             apart = apart and not any(_may_be_multiple(value, f, moving) for f in known.values())
             continue
-        order = (*explainer.system.order, *known)
-        rows.append(Row(Bracket(Name(one), Name(two)), shape(multiple, order)))
+        written = _by_charges(multiple, [*known], explainer.system.order)
+        rows.append(Row(Bracket(Name(one), Name(two)), written))
     if not rows and not other:
         two = "The Poisson bracket of the two conserved quantities vanishes."
         all_ = "All Poisson brackets of the conserved quantities with each other vanish."
@@ -322,6 +323,13 @@ def _brackets(explainer: Explainer, found: AlgebraSection) -> Iterator[Block]:
         yield says(f"{other} other bracket{'s' * several} {what}.")
     if commuting:
         yield says("All others are 0.")
+
+
+def _by_charges(value: Expr, names: Sequence[str], order: Sequence[str]) -> Expression:
+    """Charge by charge: (1 − 4 k) Q₁ + Q₂."""
+    polynomial = Poly(value, *(Symbol(name, real=True) for name in names))
+    parts = (simplify(c) * Poly({m: 1}, *polynomial.gens).as_expr() for m, c in polynomial.terms())
+    return sum_of(positive_first([shape(part, (*order, *names)) for part in parts]))
 
 
 def _may_be_multiple(value: Expr, f: Expr, moving: Sequence[Symbol]) -> bool:
