@@ -832,3 +832,16 @@ constraints: {{blade: "y'*cos(phi) = x'*sin(phi)"}}
     told = said(text, "Steady motions", "steady_motions")
     assert told.startswith("The constraint gives y' in terms of the other velocities")
     assert "So is the coordinate that the accelerations depend on, phi." in told
+
+
+@pytest.mark.parametrize(("force", "named"), [("k", False), ("k*sin(y)", True)])
+def test_no_coordinate_is_said_to_rest_where_the_accelerations_depend_on_none(force, named):
+    """x'' = k has no steady motion; x'' = k sin(y), y'' = 1 neither, and y is named."""
+    text = (
+        "{coordinates: [x, y], parameters: {k: {assume: positive}}, "
+        f"T: (x'^2 + y'^2)/2, V: 0, forces: {{x: '{force}', y: 1}}}}"
+    )
+    told = said(text, "Steady motions", "steady_motions")
+    assert told.startswith("In a steady motion the velocities are constant.")
+    assert ("accelerations depend on, y." in told) is named
+    assert ("depend on" in told) is named

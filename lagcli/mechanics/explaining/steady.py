@@ -56,7 +56,7 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
     """The relative equilibria: cyclic velocities constant, the other coordinates at rest."""
     found = cast(SteadySection, section)
     if "inertia" in found.acting:
-        yield says(*_with_constant_velocities(found))
+        yield says(*_with_constant_velocities(explainer, found))
         yield from _steady_states(explainer, found)
         return
     if found.motions is None and found.reason == ALL_CYCLIC:
@@ -97,11 +97,11 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
     yield from _steady_states(explainer, found)
 
 
-def _with_constant_velocities(found: SteadySection) -> list[Part]:
+def _with_constant_velocities(explainer: Explainer, found: SteadySection) -> list[Part]:
     """What vanishes where rates are sought that no constant momentum gives."""
     end = ":" if any(each != ZERO for each in found.conditions.values()) else "."
     rest: list[Part] = [
-        *_that_rest(found),
+        *_that_rest(explainer, found),
         f" What is left of the equations of motion vanishes{end}",
     ]
     if not found.eliminated:
@@ -110,17 +110,19 @@ def _with_constant_velocities(found: SteadySection) -> list[Part]:
     return [constraints_give(found.eliminated), *given, " in a steady motion.", *rest]
 
 
-def _that_rest(found: SteadySection) -> list[Part]:
+def _that_rest(explainer: Explainer, found: SteadySection) -> list[Part]:
     """The coordinates that the accelerations depend on: phi' = 0 of a sled that runs straight."""
-    states = found.motions or ()
+    states, motion = found.motions or (), explainer.dynamics.motion
     resting = dict.fromkeys(
         name for each in states for name in (*each.at, *each.free) if not name.endswith("'")
     )
-    if states and not resting:
+    if not states and motion is not None:
+        moved = {x for f in motion.accelerations for x in f.free_symbols}
+        resting = dict.fromkeys(q.name for q in explainer.system.q if q in moved)
+    if not resting:
         return []
-    one, known = len(resting) == 1, [", ", *names(tuple(resting))] if resting else []
-    kind = " So is the coordinate" if one else " So are the coordinates"
-    return [f"{kind} that the accelerations depend on", *known, "."]
+    kind = " So is the coordinate" if len(resting) == 1 else " So are the coordinates"
+    return [f"{kind} that the accelerations depend on, ", *names(tuple(resting)), "."]
 
 
 def _steady_without_momenta(explainer: Explainer, found: SteadySection) -> str:
