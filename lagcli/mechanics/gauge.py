@@ -20,10 +20,11 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations, combinations_with_replacement
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, nullspace, simplify
-from lagcli.algebra.build import TIME
+from lagcli.algebra.build import TIME, free_of, without_jumps
+from lagcli.algebra.jumps import is_continuous
 from lagcli.mechanics.constraints import ConstraintEquation, exterior_derivative
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.total_derivative import boundary_integral, boundary_term, euler_operator
@@ -58,6 +59,12 @@ class GaugeSearch:
         """
         if is_zero(change) is True:
             return Gauge(True, sympy.S.Zero)
+        found = self._found(change, guess)
+        if found.term is None or is_continuous(found.term) or not self.system.is_continuous:
+            return found
+        return _across_kinks(found.term, (*self.system.q, self.system.t)) or found
+
+    def _found(self, change: Expr, guess: Expr) -> Gauge:
         identically = self._closed(change, guess, rules=False)
         exists = True if identically is not None else self._is_total_derivative(change)
         if identically is None and exists:
@@ -159,6 +166,28 @@ class GaugeSearch:
         rows = [[*e.row, e.drift] for e in self._independent]
         for u, v in combinations([list(x) for x in nullspace(rows)], 2):
             yield exterior_derivative(form, variables, u, v)
+
+
+def _across_kinks(term: Expr, moving: Sequence[Symbol]) -> Gauge | None:
+    """What is left of a term that jumps where u = 0; None: not decided.
+
+    On either side G is fixed up to a constant: of -F t sign(x), which is G for the force of F |x|,
+    the jump 2 F t is none, and no continuous G exists.  That of sign(x) is.
+    """
+    for step in sorted(term.atoms(sympy.sign), key=str):
+        u = step.args[0]
+        linear = [q for q in moving[:-1] if free_of(u.diff(q), moving) and u.diff(q) != 0]
+        if not linear:
+            return None
+        there = {linear[0]: simplify(linear[0] - u / u.diff(linear[0]))}
+        one, other = (term.xreplace({step: side}) for side in (sympy.S.One, sympy.S.NegativeOne))
+        jump = simplify((one - other).xreplace({sympy.Abs(u): sympy.S.Zero}).xreplace(there))
+        if any(is_zero(without_jumps(jump.diff(x))) is False for x in moving):
+            return Gauge(False, None)
+        if not free_of(jump, moving):
+            return None
+        term = simplify(term - jump * step / 2)
+    return Gauge(True, term) if is_continuous(term) else None
 
 
 def _product(left: Sequence[Expr], matrix: Sequence[Sequence[Expr]], right: Sequence[Expr]) -> Expr:

@@ -43,6 +43,7 @@ from lagcli.statements.answers import ChargeSource, Verification
 from lagcli.statements.wording import CHANGE_OF_L, constraints_named, enumerated
 
 _NO_GAUGE_KNOWN = "no gauge was found, and whether there is one was not decided"
+_JUMPS = "it, or L, may jump where the argument of a sign is 0"
 _OTHER_GAUGE = "the gauge that the file gives (without it the right one is found)"
 
 
@@ -203,8 +204,10 @@ class Noether:
         rate, conserved, verified = self._rate(list(contributions.values()))
         if conserved and not (system.is_continuous and is_continuous(charge)):
             # constant only between the places where it jumps
-            rate, conserved, verified = None, None, None
-        broken_by = "" if conserved is not False else enumerated(self._not_vanishing(contributions))
+            rate, conserved, verified, broken_by = None, None, None, _JUMPS
+        else:
+            causes = [] if conserved is not False else self._not_vanishing(contributions)
+            broken_by = enumerated(causes)
         if gauge is None and exists is None and conserved is False:
             rate = conserved = verified = None
             broken_by = _NO_GAUGE_KNOWN
@@ -302,6 +305,7 @@ class Noether:
     def _energy_charge(self) -> NoetherCharge:
         """The energy function h, of the translation Dt = 1 (Q = -h by the formula)."""
         energy = self.energy
+        causes = [p.cause for p in energy.powers] if energy.conserved is False else []
         return NoetherCharge(
             "energy",
             "time",
@@ -311,7 +315,7 @@ class Noether:
             energy.conserved,
             sympy.S.Zero if energy.conserved else energy.rate,
             energy.verified,
-            "" if energy.conserved is not False else enumerated([p.cause for p in energy.powers]),
+            enumerated(causes) if self.system.is_continuous else _JUMPS,
         )
 
     def _same_charge(self, evident: NoetherCharge, candidate: NoetherCharge) -> bool:

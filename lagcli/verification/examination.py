@@ -12,10 +12,11 @@ from typing import cast
 from flint import arb, ctx
 
 from lagcli.diagnostics import ProblemError
-from lagcli.expression import Expression, Name, walk
+from lagcli.expression import Call, Expression, Name, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
+from lagcli.rewriting import expressions_in
 from lagcli.verification.comparison import ComparisonVerdict, compare, is_zero
 from lagcli.verification.linear import Unclear, rank
 from lagcli.verification.reference import Reference
@@ -225,6 +226,12 @@ class Examination:
 
     def _all_zero(self, value: Truth, count: int) -> bool:
         return all(is_zero(value(s)) for s in self.states(count))
+
+    @property
+    def has_kinks(self) -> bool:
+        """Whether a formula of the file may have no derivative, or jump, somewhere."""
+        parts = (part for tree in expressions_in(self.problem) for part in walk(tree))
+        return any(isinstance(part, Call) and part.function in {"abs", "sign"} for part in parts)
 
     @property
     def _on_branches(self) -> int:

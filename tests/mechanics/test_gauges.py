@@ -20,7 +20,7 @@ from lagcli.algebra.numeric import Evaluator
 from lagcli.formatters.grammar import to_grammar
 from lagcli.reader import parse_text
 
-from .derived import charge, derive
+from .derived import charge, derive, same
 
 FREE = "m*(x'^2 + y'^2)/2"
 SHIFTS = ("{x: 1}", "{y: 1}", "{x: 2, y: -1}", "{x: -y, y: x}", "{x: t}", "{x: 1 + t, y: -2*t}")
@@ -156,3 +156,22 @@ def test_a_change_that_is_quadratic_in_the_allowed_velocities_has_no_gauge(chang
         f"symmetries: {{s: {change}}}"
     )
     assert charge(d, "s").conserved is False
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_force_that_jumps_has_no_boundary_term(seed):
+    """L = x'²/2 - F |u|, u = x - a: K = -F sign(u) of dx = 1 is no dG/dt, as G has no x in it."""
+    source = random.Random(f"kink {seed}")
+    a, F = source.randint(-9, 9), source.choice(["2", "F", "F/3"])
+    u, side = (f"x - ({a})", 1) if seed % 2 else (f"3*x + 2*y - ({a})", 3)
+    d = derive(
+        "{coordinates: [x, y], parameters: {F: {assume: positive}}, "
+        f'T: "(x\'^2 + y\'^2)/2", V: "{F}*abs({u})", '
+        "symmetries: {shift: {x: 1}, boost: {x: t}, along: {x: 2, y: -3}}}"
+    )
+    rates = {"shift": f"-{side}*{F}*sign({u})", "boost": f"x' - {side}*{F}*t*sign({u})"}
+    for name, rate in rates.items():
+        found = charge(d, name)
+        assert found.conserved is False
+        assert same(d, found.rate, rate)
+    assert charge(d, "along").conserved is (seed % 2 == 0)

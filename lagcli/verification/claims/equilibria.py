@@ -10,7 +10,6 @@ from flint import arb, arb_mat, ctx
 
 from lagcli.expression import Call, Expression, Name, Negative, walk
 from lagcli.record import replace
-from lagcli.rewriting import expressions_in
 from lagcli.statements.answers import EquilibriaSection, Equilibrium
 from lagcli.statements.motions import Above, SteadyMotion, SteadySection, Verdict
 from lagcli.verification.claims.eliminated import reduced_momenta
@@ -370,17 +369,11 @@ def _with_momenta(x: Examination, what: str, place: RestPlace, motion: SteadyMot
             return False
         swings = len(mass) == 1 and size(velocity[0]) < NOTHING * size(mass[0])
         shape = {*names} - {*(motion.rates or ())}
-        missing = shape and not squares and (swings or not (mass or _has_kinks(x)))
+        missing = shape and not squares and (swings or not (mass or x.has_kinks))
         if known and missing and not may_lose_contact(x):
             x.refute(what, "its frequency is left out")
             return False
     return True
-
-
-def _has_kinks(x: Examination) -> bool:
-    """Whether there may be a place without a linear motion near it."""
-    parts = (part for tree in expressions_in(x.problem) for part in walk(tree))
-    return any(isinstance(part, Call) and part.function in {"abs", "sign"} for part in parts)
 
 
 def _matrices(motion: SteadyMotion) -> tuple[tuple[tuple[Expression, ...], ...], ...]:
