@@ -163,6 +163,27 @@ def test_contacts_are_named_and_what_follows_is_limited_to_between_impacts():
     assert "h is conserved while the gap is open." in said(shaken, "The energy")
 
 
+@pytest.mark.parametrize("count", [1, 2])
+def test_cyclic_coordinates_and_their_momenta_are_said_in_their_number(count):
+    """Circular orbits, and those of two bodies without a force between them."""
+    bodies = "ab"[:count]
+    radii = ", ".join(f"r{b}: {{assume: positive}}, f{b}: {{}}" for b in bodies)
+    kinetic = " + ".join(f"r{b}'^2 + r{b}^2*f{b}'^2" for b in bodies)
+    potential = " + ".join(f"k*r{b}^2/2" for b in bodies)
+    text = (
+        f"coordinates: {{{radii}}}\nparameters: {{k: {{assume: positive}}}}\n"
+        f"T: ({kinetic})/2\nV: {potential}\n"
+    )
+    several = "" if count == 1 else "s"
+    reduced = said(text, "The reduction", "reduction")
+    velocity = "velocities" if several else "velocity"
+    assert f"Solved for the {velocity} of the cyclic coordinate{several}:" in reduced
+    assert f"Lagrangian of the other coordinate{several}:" in reduced
+    steady = said(text, "Steady motions", "steady_motions")
+    assert f"he {velocity} of the cyclic coordinate{several}" in steady
+    assert ("and the momenta are" if several else "and the momentum is") in steady
+
+
 # -- cyclic coordinates that are kept ---------------------------------------------------------------
 
 KEPT = (

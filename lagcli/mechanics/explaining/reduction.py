@@ -96,12 +96,15 @@ def _routhian(
     explainer: Explainer, reduced: ReductionSection, routhian: Expression
 ) -> Iterator[Block]:
     L, R, cyclic = explainer.letters.L, explainer.letters.free("R"), list(reduced.momenta)
-    yield says("Solved for the velocities of the cyclic coordinates:")
+    one = len(cyclic) == 1
+    yield says(f"Solved for the {'velocity' if one else 'velocities'} of the cyclic "
+               f"coordinate{'s' * (not one)}:")  # fmt: skip
     yield equations_of((Name(name, 1), value) for name, value in reduced.reconstruction.items())
     products = [Product((Name(f"p_{name}"), Name(name, 1))) for name in cyclic]
     terms: list[Part] = [part for each in products for part in (" − ", each)]
-    yield says("With these, the Routhian ", R, " = ", L, *terms,
-               " is the Lagrangian of the other coordinates:")  # fmt: skip
+    others = "s" * (len(reduced.equations or ()) != 1)
+    yield says(f"With {'this' if one else 'these'}, the Routhian ", R, " = ", L, *terms,
+               f" is the Lagrangian of the other coordinate{others}:")  # fmt: skip
     yield shows(R, routhian)
 
 

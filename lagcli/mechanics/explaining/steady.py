@@ -29,6 +29,7 @@ from lagcli.statements.plus_minus import mirror_images, steady_in_pairs, unlike
 from lagcli.statements.stability import steady_stability
 from lagcli.statements.wording import (
     POTENTIALS,
+    capitalized,
     conditions,
     constraints_give,
     in_moving_frames,
@@ -183,6 +184,8 @@ def _motion(
     placed = bool(motion.at) or motion.on is not None
     rates = {n: rate for n, rate in (motion.rates or {}).items() if rate != Name(n, 1)}
     velocities = "velocities of the cyclic coordinates are"
+    if len(motion.rates or ()) == 1:
+        velocities = "velocity of the cyclic coordinate is"
     if motion.free and placed:
         yield says("For any value of ", _free(motion), ",")
     elif motion.free:
@@ -198,11 +201,14 @@ def _motion(
         yield equations_of((Name(name, 1), rate) for name, rate in rates.items())
     momenta = {n: p for n, p in motion.momenta.items() if p != Name(f"p_{n}")}
     if momenta:
-        yield says("and the momenta are" if rates else "The momenta are")
+        they = "the momentum is" if len(momenta) == 1 else "the momenta are"
+        yield says(f"and {they}" if rates else capitalized(they))
         yield equations_of((Name(f"p_{name}"), p) for name, p in momenta.items())
         yield from two_rates(explainer, motion)
     if motion.mirrored:
-        yield says("The same holds with the opposite signs of these velocities and momenta.")
+        one = len(rates) == len(momenta) == 1
+        these = "this velocity and momentum" if one else "these velocities and momenta"
+        yield says(f"The same holds with the opposite signs of {these}.")
     if motion.where:
         at_rest = " At equality it is a state of rest." if motion.rests else ""
         yield says("It is possible for ", conditions(motion.where), f".{at_rest}")
