@@ -259,6 +259,9 @@ def _sides(each: Above) -> list[Part]:
 def _compared(difference: Expression, sign: str) -> list[Part]:
     """a = b + c of a - b - c, else that it is 0; or another sign than =."""
     plus, minus = added_and_subtracted(difference)
+    match plus, minus:
+        case Name(name=left), Name(name=right) if left > right:  # m1 = m2, not m2 = m1
+            plus, minus = minus, plus
     if ZERO not in (plus, minus):
         named = any(isinstance(node, Name) for node in walk(plus))
         return [plus, sign, minus] if named else [minus, sign, plus]

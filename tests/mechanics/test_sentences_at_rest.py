@@ -585,6 +585,33 @@ def test_rest_is_not_denied_for_each_function_of_time(force):
     assert none in said(text, "Equilibria", "equilibria")
 
 
+@pytest.mark.parametrize("one", ["m1", "k"])
+@pytest.mark.parametrize("other", ["m2", "b"])
+def test_an_equality_of_two_parameters_begins_with_the_first(one, other):
+    """Atwood's machine: there is no equilibrium unless m1 = m2, whichever stands first in V."""
+    first, second = sorted((one, other))
+    for left, right in ((one, other), (other, one)):
+        text = (
+            f"coordinates: [x]\nparameters: {{{left}: , {right}: , g: {{assume: positive}}}}\n"
+            f"T: x'^2/2\nV: g*({left} - {right})*x\n"
+        )
+        told = said(text, "Equilibria", "equilibria")
+        assert f"there is no equilibrium unless {first} = {second}." in told
+
+
+@pytest.mark.parametrize("size", ["8*m", "m/2", "m*a^2"])
+def test_the_arc_length_is_proportional_to_a_function_without_a_number(size):
+    """Of a cycloid, 4 a cos(phi/2): Landau and Lifshitz, section 21, problem."""
+    text = (
+        "{coordinates: [phi], parameters: {m: {assume: positive}, a: {assume: positive}}, "
+        f"T: {size}*(1 - cos(phi))*phi'^2, V: m*a*cos(phi)}}"
+    )
+    blocks = [b for s in explain(derive(text), ["discovered"]).steps for b in s.blocks]
+    said_of = [b.parts for b in blocks if "The arc length" in str(getattr(b, "parts", ""))]
+    assert said_of
+    assert all(to_grammar(parts[1]) == "cos(phi/2)" for parts in said_of)
+
+
 @pytest.mark.parametrize(
     ("forces", "lead"),
     [

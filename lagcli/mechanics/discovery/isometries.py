@@ -42,6 +42,9 @@ _MOST_TOGETHER = 3  # measured: at most 3
 
 Vector = tuple[Expr, ...]
 
+#: What stands before the X_a that are Cartesian coordinates as they are, not but for factors.
+THEY_ARE = "The Cartesian coordinates are "
+
 
 class Isometries:
     """The Killing vectors of a kinetic energy of constant curvature.
@@ -118,7 +121,7 @@ class Isometries:
             return "Cartesian coordinates are linear combinations of "
         if len({*self._gram.diagonal()}) > 1:
             return "Cartesian coordinates are constant multiples of "
-        return "The Cartesian coordinates are "
+        return THEY_ARE
 
     @cached_property
     def dilation(self) -> Vector:

@@ -15,6 +15,7 @@ from lagcli.algebra.place import NO_VALUE
 from lagcli.document import Block, Bracket, Equations, Heading, Label, Row, equations_of
 from lagcli.expression import ZERO, Expression, Name, sum_of, walk
 from lagcli.mechanics.canonical.poisson import poisson
+from lagcli.mechanics.discovery.isometries import THEY_ARE
 from lagcli.mechanics.discovery.lie_algebra import MODULO_CONSTANTS
 from lagcli.mechanics.discovery.limits import TooMuchWork
 from lagcli.mechanics.explaining.conservation import noether_words
@@ -60,9 +61,9 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
         f"{discovery.ansatz}."
     )
     if discovery.cartesian:
-        named = [
-            part for X in discovery.cartesian for part in (", ", explainer.readable.as_written(X))
-        ]
+        factors = discovery.cartesian_lead == THEY_ARE  # else only multiples of them are said
+        shown = [X if factors else X.as_coeff_Mul()[1] for X in discovery.cartesian]
+        named = [part for X in shown for part in (", ", explainer.readable.as_written(X))]
         yield says(discovery.cartesian_lead, *named[1:], ".")
     yield says(
         "For a point transformation the Euler-Lagrange expression of the change of ",
