@@ -213,3 +213,15 @@ def test_a_redundant_constraint_forbids_no_displacement(first, rest):
     assert point.verdict.stable
     assert not [w for w in answers.warnings if "holds where" in w]
     assert [w for w in answers.warnings if w.startswith("redundant: ")]
+
+
+@pytest.mark.parametrize("rest", ["(y^2 + 1)", "(y - 2)", "y"])
+def test_a_redundant_constraint_leaves_a_minimum_even_along_a_family(rest):
+    """x^2 + z^2 = a^2 with V = m g z: stable up to y at z = -a, whatever is multiplied by it."""
+    d = derive(
+        "coordinates: [x, y, z]\nparameters: {m: {assume: positive}, g: {assume: positive}, "
+        "a: {assume: positive}}\nT: m*(x'^2 + y'^2 + z'^2)/2\nV: m*g*z\nconstraints:\n"
+        f"  c: x^2 + z^2 = a^2\n  more: (x^2 + z^2 - a^2)*{rest} = 0\n"
+    )
+    found = Statements(d).answers(["equilibria"]).sections["equilibria"].equilibria
+    assert {plain(e.at)["z"]: e.verdict.stable for e in found} == {"a": False, "-a": True}

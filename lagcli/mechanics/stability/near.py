@@ -309,11 +309,13 @@ class Near:
     def is_even(self) -> bool:
         """Whether V has its minimum across the family evenly along it."""
         linear, known = self.linear, self.linear.point.family
+        equations = linear.dynamics.constraints.equations
+        kept = [equations[k] for k in linear.dynamics.independent_constraints]
         return even(
             linear.point.values if known is None else known.given,
             linear.point.free,
             linear.forces_at_rest,
-            [e.f for e in linear.dynamics.constraints.equations if e.holonomic],
+            [e.f for e in kept if e.holonomic],
             linear.system.q,
             None if known is None else known.relation,
         )
