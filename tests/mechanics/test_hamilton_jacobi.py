@@ -307,16 +307,20 @@ def test_the_equation_of_one_coordinate_is_the_equation_itself(V):
 
 
 @pytest.mark.parametrize(
-    ("constraint", "why"),
+    ("constraints", "why"),
     [
-        ("x'*sin(a) - y'*cos(a) = 0", "there are constraints on the velocities"),
-        ("x^2 + y^2 = (1 + t)^2", "the constraints depend explicitly on the time"),
-        ("x^2 + x*y^3 = 1", "the constraints are not solved for coordinates"),
+        (["x'*sin(a) - y'*cos(a) = 0"], "there is a constraint on the velocities"),
+        (["x' = a'*cos(b)", "y' = a'*sin(b)"], "there are constraints on the velocities"),
+        (["x^2 + y^2 = (1 + t)^2"], "a constraint depends explicitly on the time"),
+        (["x^2 + y^2 = (1 + t)^2", "a^2 + a*b^3 = t"], "constraints depend explicitly on the time"),
+        (["x^2 + x*y^3 = 1"], "the constraint is not solved for a coordinate"),
+        (["x^2 + x*y^3 = 1", "a^2 + a*b^3 = 1"], "the constraints are not solved for coordinates"),
     ],
 )
-def test_why_constraints_leave_no_equation(constraint, why):
+def test_why_constraints_leave_no_equation(constraints, why):
+    named = ", ".join(f'c{k}: "{each}"' for k, each in enumerate(constraints))
     derivation = derive(
-        f"coordinates: [x, y, a]\nL: (x'^2 + y'^2 + a'^2)/2\nconstraints: {{c: \"{constraint}\"}}\n"
+        f"coordinates: [x, y, a, b]\nL: (x'^2 + y'^2 + a'^2 + b'^2)/2\nconstraints: {{{named}}}\n"
     )
     separation = Separation(derivation)
     assert separation.hamiltonian is None

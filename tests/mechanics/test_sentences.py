@@ -224,6 +224,7 @@ def test_a_cyclic_coordinate_is_kept_for_a_reason(acting, conserved, why):
     sentences = said(text, "The reduction", "reduction")
     verdict = "is cyclic and p_x is constant, but" if conserved else "but p_x is not conserved:"
     assert verdict in sentences
+    assert "No momentum eliminates a coordinate, so the Routhian is L." in sentences
     assert "No coordinate is cyclic" not in sentences
 
 

@@ -90,6 +90,9 @@ def _cyclic(explainer: Explainer, reduced: ReductionSection) -> Iterator[Block]:
         yield says(f"{none}, so the Routhian is ", explainer.letters.L, ".")
     for name, why in reduced.irreducible.items():
         yield says(*irreducible(name, why, explainer.letters.L))
+    if reduced.irreducible and not cyclic:
+        yield says("No momentum eliminates a coordinate, so the Routhian is ",
+                   explainer.letters.L, ".")  # fmt: skip
 
 
 def _routhian(

@@ -85,10 +85,15 @@ def levi_civita(
 
 def _why_constrained(constraints: Constraints) -> str:
     """Why constraints leave no H of independent coordinates without t."""
-    if any(kind != "holonomic" for kind in constraints.kinds.values()):
-        return "there are constraints on the velocities"
-    if any(is_zero(e.drift) is not True for e in constraints.equations):
-        return "the constraints depend explicitly on the time"
+    quick = sum(kind != "holonomic" for kind in constraints.kinds.values())
+    if quick:
+        return f"there {'is a constraint' if quick == 1 else 'are constraints'} on the velocities"
+    moving = sum(is_zero(e.drift) is not True for e in constraints.equations)
+    if moving:
+        depend = "a constraint depends" if moving == 1 else "constraints depend"
+        return f"{depend} explicitly on the time"
+    if len(constraints.equations) == 1:
+        return "the constraint is not solved for a coordinate"
     return "the constraints are not solved for coordinates"
 
 
