@@ -409,9 +409,12 @@ class RestConditions:
         """What is positive at the members of a family that lie on one surface of the constraints.
 
         On z (z - x) = 0 the family z = 0 meets the other surface where x = 0: there det(A A^T) is
-        0, and what holds beside it need not hold.
+        0, and what holds beside it need not hold.  Constraints on velocities have no surfaces that
+        meet: without a force all positions are at rest, also where x' sin(phi) = 0 is 0 = 0.
         """
-        given = self.dynamics.independent_rows if free else ()
+        surfaces = any(e.holonomic for e in self.dynamics.constraints.equations)
+        pushed = any(is_zero(at(F, values)) is not True for F in self.forces_at_rest)
+        given = self.dynamics.independent_rows if free and (surfaces or pushed) else ()
         rows = [[at(a, values) for a in row] for row in given]
         found = determinant([[dot(a, b) for b in rows] for a in rows]) if rows else None
         gram = S.One if found is None else simplify(found)
