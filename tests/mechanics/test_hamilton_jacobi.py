@@ -10,7 +10,7 @@ from sympy import Float, Symbol, diff, lambdify, symbols
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import Builder, symbol
-from lagcli.expression import Call, walk
+from lagcli.expression import Call, terms_of, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.separation_statement import hamilton_jacobi
@@ -118,6 +118,8 @@ L: m*x'^2/2 + ({force})*x
     pushed = build(parse_text(force))
     assert is_zero(names["m"] * motion.diff(t, 2) - pushed) is True
     assert is_zero(build(found.time_rate) - build(found.of_time).diff(t)) is True
+    kinetic = [build(term) for term in terms_of(found.of_time) if build(term).diff(alpha, 2) != 0]
+    assert kinetic == [-(alpha**2) * t / (2 * names["m"])]  # by itself, not in a bracket over 120
 
 
 def test_a_force_without_a_closed_integral_stays_one():

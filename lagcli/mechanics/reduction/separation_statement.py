@@ -103,7 +103,7 @@ def _by_forces_of_time(separation: Separation, found: Driven) -> HamiltonJacobiS
         constants=constants,
         derivatives=dict(zip(system.names, map(sum_, found.momenta), strict=True)),
         time_rate=sum_(found.rate),
-        of_time=None if found.of_time is None else sum_(found.of_time),
+        of_time=None if found.of_time is None else terms(found.of_time, order, constants),
         integrals={i.name: sum_(force) for i, force in found.integrals.items()},
     )
 
