@@ -162,9 +162,11 @@ class FileReader:
 
         Another one is a map without colons, `{x = 1, x' = 0}`.
         """
-        pairs = [_ASSIGNED.fullmatch(key.label) for key, value in node.entries if value.is_empty]
+        labels = [key.label if value.is_empty else "" for key, value in node.entries]
+        parts = [part for label in labels for part in label.split(";")]  # {x = 1; x' = 0}
+        pairs = [_ASSIGNED.fullmatch(part.strip()) for part in parts]
         given = [f"{each['key']}: {each['value']}" for each in pairs if each]
-        if what in _ASSIGNABLE and given and len(given) == len(node.entries):
+        if what in _ASSIGNABLE and given and len(given) == len(parts):
             first = node.entries[0][0]
             message = f"': ' is missing behind '{given[0].partition(':')[0]}'"
             whole = f"{{{', '.join(given)}}}" if given[1:] else given[0]

@@ -48,7 +48,7 @@ _NUMBER = regex(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
 _WITH_UNIT = regex(
     r"[-+]?[\d.]+(?:[eE][-+]?\d+|/\d+)?\s*(?:[,;]\s+)?"
     r"(?P<unit>(?:[kmcµunp]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa|F|H|Wb|Ω|ohm)"
-    r"|rad|deg|rpm|min|h|mol)(?:[ \^*/].*)?)"
+    r"|rad|deg|rpm|min|h|mol)(?:[ \^*/·⋅²³].*)?)"
 )
 _ANGLES = frozenset("theta th phi ph psi alpha beta gamma varphi angle θ φ ϕ ψ α β γ".split())
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"

@@ -114,7 +114,12 @@ def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:
     parts = []
     for heading, value in node.entries if isinstance(node, Mapping) else []:
         rate = "'" if RATE.search(heading.label) else ""
-        if isinstance(value, Scalar):
+        listed = re.fullmatch(r"\((.*,.*)\)", value.value) if isinstance(value, Scalar) else None
+        given_ = listed[1].split(",") if listed else []
+        if given_ and len(given_) == len(coordinates):
+            pairs = zip(coordinates, given_, strict=True)
+            parts += [f"{name}{rate}: {each.strip()}" for name, each in pairs]
+        elif isinstance(value, Scalar):
             parts.append(f"{heading.label}: {source_of(value)}")
         elif number := _number_of(value):
             parts.append(f"{heading.label}: {number}")

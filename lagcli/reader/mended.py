@@ -103,7 +103,7 @@ class _Mending:
             start, end, _ = edits[0]
             owner = state.owner((start, end)) if start < end else None
             number = len(self.followed) if owner is None else owner
-            author = text[slice(*place)] + text[start:end]
+            author = " ".join([text[slice(*place)], *(text[e.start : e.end] for e in edits)])
             after = self._settled(
                 self._edited(state, edits, number), number, author, mistake.message
             )

@@ -58,7 +58,11 @@ def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]
     initial: dict[Name, Expression] = {}
     coordinates = list(file.scope.of_kind("coordinate"))
     entries = list(file.entries(node, "initial", by_name(node, file.scope)))
-    headings = [key for key, value in entries if not isinstance(value, Scalar)]
+    headings = [
+        key for key, value in entries
+        if not isinstance(value, Scalar)
+        or (value.value.startswith("(") and key.label.rstrip("'") not in coordinates)
+    ]  # fmt: skip
     if headings and (whole := state_without_headings(node, coordinates)):
         message = f"'{headings[0].label}' in initial has no number"
         file.error(message, headings[0].span, whole)

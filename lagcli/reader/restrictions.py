@@ -26,7 +26,7 @@ _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RE
                           "acts_as")  # fmt: skip
 #: `x -> x - eps*y`, and so on.
 _MOVED = regex(
-    r"(\w+)\s*(?:->|→|↦|=>|=)\s*\1\s*([-+])\s*(?:eps(?:ilon)?|ε|s|delta|a|alpha)\b\s*\*?\s*([^,;]*)"
+    r"(\w+)\s*(?:->|→|↦|=>|=)\s*\1\s*([-+])\s*(?:eps(?:ilon)?|ε|s|delta|a|alpha|const|c|C)\b\s*\*?\s*([^,;]*)"
 )
 #: `x -> -x`, and words for it.
 _REFLECTED = regex(
@@ -242,7 +242,10 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
     listed = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
     named = [name for name in listed if name in {*coordinates, "t"}]
     hint = f"write {{shift: {change_of(next(iter([*named, *coordinates]), 'x'))}}}"
-    if listed and not named and (usual := _usual_change(listed[0], coordinates)):
+    if moved := _MOVED.findall(listed[0]) if listed else []:  # phi -> phi + const
+        moving = (f"{x}: {sign.strip('+')}{change.strip() or 1}" for x, sign, change in moved)
+        hint = f"write {{shift: {{{', '.join(moving)}}}}}"
+    elif listed and not named and (usual := _usual_change(listed[0], coordinates)):
         hint = f"write {{{name_meant(listed[0], one=True) or listed[0]}: {usual}}}"
     entries = [*file.entries(node, "symmetries", hint)]
     moves = [key.label for key, value in entries if key.in_flow and _MOVED.search(key.label)]

@@ -138,6 +138,8 @@ def _meant(
     if square and "drag" in word.casefold():
         law = f"-{square[1] or 1}*{square[2]}*abs({square[2]})"
         return None, f"write forces: {{{square[2][:-1]}: {law}}}"
+    if meant == "dissipation" and re.search(r"\||abs\(", written) and len(along) == 1:
+        return None, f"a law of a force: write forces: {{{along[0]}: {written}}}"
     if meant == "dissipation" and (whole := as_rayleigh(written)):
         return None, f"write dissipation: {whole}"
     if meant == "dissipation" and re.fullmatch(r"[\d.]+|[^\W\d]\w*", written) and len(along) == 1:
@@ -302,7 +304,7 @@ def _is_used(key: Scalar, value: DocumentNode, around: Mapping) -> bool:
     elsewhere = text[: key.start] + text[value.end :]
     name = re.escape(key.label)
     used = re.search(rf"(?<![\w.])d?{name}(?:[²³]|dot|_dot|(?!\w|\s*[:,\]])|(?=/dt))", elsewhere)
-    is_formula = re.search(r"[-+*/^(√]|[^\W\d]\s[^\W\d]", value.value) and "=" not in value.value
+    is_formula = re.search(r"[-−+*/^(√]|[^\W\d]\s[^\W\d]", value.value) and "=" not in value.value
     return used is not None and is_formula is not None
 
 

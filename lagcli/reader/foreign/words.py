@@ -138,6 +138,8 @@ def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
         turns = word in {"omega", "ω"}
         alike = [x for x in names.coordinates if is_angle(x) == turns]
         found |= {(x, 1) for x in alike if len(alike) == 1 and (alone or turns or not radial)}
+    if alone and names.coordinates[0] in {"q", "Q"} and word in {"i", "I"}:  # a current
+        found.add((names.coordinates[0], 1))
     if names.momenta and alone and word in {"p", "P"}:
         found.add((f"p_{names.coordinates[0]}", 0))
     if names.momenta and alone and word in {"q", "Q"}:
