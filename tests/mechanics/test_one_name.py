@@ -97,3 +97,15 @@ def test_at_a_pole_the_displacements_have_names():
     assert {Name("theta"), Call("cos", phi), Call("sin", phi)} <= {
         part for part in parts if not isinstance(part, str)
     }
+
+
+def test_cartesian_coordinates_stand_in_the_order_of_the_axes_of_the_charges():
+    """L_z is p_phi: the third one is that of the axis."""
+    text = (
+        f"{{coordinates: {{r: {_POSITIVE}, theta: {{}}, phi: {{}}}}, "
+        "T: (r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2, V: r^4}"
+    )
+    derivation = derive(text)
+    assert any(c.name == "L_x" for c in derivation.discovery.charges)
+    x, y, z = map(str, derivation.discovery.cartesian)
+    assert ("cos(phi)" in x, "sin(phi)" in y, "phi" in z) == (True, True, False)

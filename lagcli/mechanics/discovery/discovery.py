@@ -174,7 +174,10 @@ class Discovery(Setting):
         times = self.time_functions
         if isometries is not None and (isometries.flat or isometries.beyond(kinds)):
             if isometries.flat:
-                self.cartesian = tuple(isometries.functions)
+                axes = self.listing.naming.cartesian
+                found = tuple(isometries.functions)
+                named = axes.X if axes is not None else ()  # x, y, z, by which charges are named
+                self.cartesian = named if {*named} == {*found} else found
                 self.cartesian_lead = isometries.what_they_are
             return isometries.search(times, allowed), isometries.words + _timed(times)
         slots = point_slots(equations)
