@@ -459,6 +459,26 @@ V: k*s^2/2
     assert not swing.shaped_where
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_a_shape_has_a_value_where_it_is_said_to_have_one(seed):
+    """Under a follower force, as of Ziegler's pendulum: (k ± sqrt(…))/(2 (P - 2 k))."""
+    a, b, c = Random(seed).sample(range(2, 9), 3)
+    derivation = derive(
+        "coordinates: [x, y]\nparameters: {k: {assume: positive}, P: {assume: positive}}\n"
+        f"T: ({a + c}*x'^2 + 2*{min(b, c)}*x'*y' + {c + b}*y'^2)/2\n"
+        "V: k*(x^2 + (y - x)^2)/2\nforces: {x: P*(x - y)}\n"
+    )
+    build, found = derivation.system.build, modes(derivation.dynamics).modes
+    assert found
+    for mode in found:
+        shape = [sympy.radsimp(build(part)) for part in mode.shape.values()]
+        below = sympy.Mul(*(sympy.fraction(part)[1] for part in shape))
+        [P] = [s for s in below.free_symbols if s.name == "P"]
+        where = [build(each.left) - build(each.right) for each in mode.shaped_where]
+        for critical in sympy.solve(below, P):
+            assert any(sympy.simplify(x.subs(P, critical)) == 0 for x in where)
+
+
 @pytest.mark.parametrize("name", ["chains/triple-pendulum", "steady/penning-trap"])
 def test_frequencies_without_shapes_are_called_frequencies(name):
     """Roots of a cubic equation and gyroscopic modes have no shapes here, and none is missed."""

@@ -302,9 +302,25 @@ def _may_be_infinite(shape: Sequence[Expr]) -> list[Expr]:
 
 
 def infinite_where(shape: Sequence[Expr]) -> list[Expr]:
-    """What vanishes where a shape has no value, as a coupling does; without roots."""
-    below = dict.fromkeys(_may_be_infinite(shape))
+    """What vanishes where a shape has no value, as a coupling does; without roots.
+
+    Of n/(a + b sqrt(D)) it is what n/(a² - b² D) is divided by.
+    """
+    parts = [_with_norm(x) for x in shape]
+    below = dict.fromkeys(_may_be_infinite(parts))
     return [d for d in below if all(p.exp.is_Integer for p in d.atoms(sympy.Pow))]
+
+
+def _with_norm(part: Expr) -> Expr:
+    """n/(a² - b² D) of n/(a + b sqrt(D)) without other roots; anything else as it is."""
+    roots = {p for p in part.atoms(sympy.Pow) if abs(p.exp) == S.Half}
+    above, below = sympy.fraction(part)
+    if len(roots) != 1 or not roots <= below.atoms(sympy.Pow) or above.has(*roots):
+        return part
+    [root] = roots
+    b = sympy.expand(below).coeff(root)
+    a = sympy.expand(below - b * root)
+    return part if (a * b).has(root) else simplify(above / (a**2 - b**2 * root**2))
 
 
 # -- checks ------------------------------------------------------------------------------------
