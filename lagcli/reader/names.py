@@ -250,6 +250,8 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     known = [*coordinates, *scope.definitions] if primes else scope.usable(role)
     known = [each for each in known if each != "pi" or name not in GREEK]  # phi is not pi
     hint = "" if rate else did_you_mean(name, known)
+    if len(name) == 1 and name.swapcase() in known:  # M is another mass than m
+        hint = ""
     if not hint and role.time and name[-1] == "t" and (len(name) == 2 or name[:-1] in GREEK):
         return f"did you mean {name[:-1]}*t?"
     if re.fullmatch(r"_?\d+", name.removeprefix(closest(name, scope.usable(role)))):

@@ -43,8 +43,7 @@ def closest(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
     names = list(known)
     if (usual := meanings("functions").get(name)) in names:
         return usual
-    same = alike(name, names)
-    if same and (len(name) > 1 or same.swapcase() != name):  # M is another mass than m
+    if same := alike(name, names):
         return same
     from difflib import get_close_matches
 
