@@ -67,8 +67,11 @@ def test_on_a_driven_wire_h_is_conserved_and_the_drive_does_work(seed):
 
 def test_a_free_particle_in_a_turning_frame_conserves_both():
     """T is the kinetic energy of an inertial frame, h = T - w L_z."""
-    text = "coordinates: [x, y]\nparameters: [m, w]\nT: m*((x' - w*y)^2 + (y' + w*x)^2)/2\nV: 0\n"
-    assert "T + V is conserved as well." in said(text, "The energy")
+    text = "coordinates: [x, y]\nparameters: [m, w]\nT: m*((x' - w*y)^2 + (y' + w*x)^2)/2\n"
+    for V, total in (("0", "T"), ("m*(x^2 + y^2)", "T + V")):
+        told = said(f"{text}V: {V}\n", "The energy")
+        assert f"so h does not equal {total}." in told
+        assert f". {total} is conserved as well." in told
 
 
 def test_a_relativistic_particle_has_no_drive():

@@ -76,7 +76,14 @@ def _total(explainer: Explainer) -> list[Part]:
     verdict: list[Part] = ["whether ", h, " equals "] if undecided else [
         "so " if reasons else "", h, " does not equal "]  # fmt: skip
     end = " was not decided." if undecided else "."
-    return [*reasons, ", " if reasons else "", *verdict, T, " + ", V, end]
+    return [*reasons, ", " if reasons else "", *verdict, *_both(explainer), end]
+
+
+def _both(explainer: Explainer) -> list[Part]:
+    """T + V, and T where V is 0."""
+    alone = explainer.system.V is not None and is_zero(explainer.system.V) is True
+    letters = explainer.letters
+    return [letters.T] if alone else [letters.T, " + ", letters.V]
 
 
 def _rate(explainer: Explainer) -> Iterator[Block]:
@@ -131,14 +138,15 @@ def _work_of_drive(explainer: Explainer) -> Iterator[Block]:
     rate = function.total_rate
     if not function.driven or rate is None:
         return
+    both = _both(explainer)
     if rate == 0:
-        yield says(letters.T, " + ", letters.V, " is conserved as well.")
+        yield says(*both, " is conserved as well.")
         return
     yield says(
-        letters.T, " + ", letters.V,
-        " is not conserved: what keeps up the prescribed motion does work. Its rate is",
-    )  # fmt: skip
-    yield shows(Rate(Sum((letters.T, letters.V))), explainer.readable.on_surface(rate))
+        *both, " is not conserved: what keeps up the prescribed motion does work. Its rate is"
+    )
+    total = letters.T if len(both) == 1 else Sum((letters.T, letters.V))
+    yield shows(Rate(total), explainer.readable.on_surface(rate))
 
 
 def charges(explainer: Explainer) -> Iterator[Block]:
