@@ -109,6 +109,9 @@ class Dynamics:
         if any(power > 1 for _, power in sympy.factor_list(above)[1]):
             message = f"the derivatives of constraint '{constraint.name}' vanish where it holds"
             hint = "write it without the power"
+        elif (name := self._flat_where_all_hold) is not None:
+            message = f"the derivatives of constraint '{name}' vanish where all constraints hold"
+            hint = "write it without a power or a factor, or leave it out where the others imply it"
         return ProblemError(
             self.system.problem.source, (Diagnostic(message, constraint.equation.span, hint),)
         )
@@ -116,11 +119,30 @@ class Dynamics:
     @property
     def _contradict(self) -> bool:
         """Whether 1 is in the ideal of the holonomic constraints, for general parameters."""
+        forms = self._polynomials
+        return len(forms) > 1 and sympy.groebner(forms, *self.system.q).exprs == [1]
+
+    @property
+    def _polynomials(self) -> list[Expr]:
+        """The numerators of the holonomic constraints; empty where one is no polynomial."""
         forms = [e.f for e in self.constraints.equations if e.holonomic]
         polynomials = [sympy.numer(sympy.together(f)) for f in forms]
-        if not all(p.is_polynomial(*self.system.q) for p in polynomials):
-            return False
-        return len(forms) > 1 and sympy.groebner(polynomials, *self.system.q).exprs == [1]
+        return polynomials if all(p.is_polynomial(*self.system.q) for p in polynomials) else []
+
+    @property
+    def _flat_where_all_hold(self) -> str | None:
+        """A constraint with the gradient 0 wherever all hold, as z (z - x) = 0 has beside x = 0.
+
+        A polynomial vanishes where all hold if 1 is in their ideal with 1 - w a (Rabinowitsch).
+        """
+        forms, q, w = self._polynomials, self.system.q, sympy.Dummy("w")
+        if len(forms) < 2 or len(forms) < len(self.constraints.equations) or self._contradict:
+            return None
+        for e, form in zip(self.constraints.equations, forms, strict=True):
+            slopes = [form.diff(x) for x in q if not free_of(form, [x])]
+            if all(sympy.groebner([*forms, 1 - w * a], w, *q).exprs == [1] for a in slopes):
+                return e.name
+        return None
 
     @property
     def redundant(self) -> tuple[str, ...]:

@@ -398,10 +398,14 @@ class RestConditions:
                 yield there
 
     def loses_rank(self, values: Mapping[Symbol, Expr]) -> bool:
-        """Whether the gradients of the constraints are independent, but not there."""
-        rows = self.dynamics.independent_rows
-        there = [[at(a, values) for a in row] for row in rows]
-        return bool(rows) and len(nullspace(there)) > len(nullspace(rows))
+        """Whether the gradients of the constraints are independent, but not there.
+
+        Of y (x' - z') = 0 and (y - 1) (x' - z') = 0 one restricts the velocities everywhere.
+        """
+        rows = self.dynamics.constraints.jacobian
+        there = [[at(at(a, values), values) for a in row] for row in rows]
+        freedom = len(self.system.q) - len(self.dynamics.independent_constraints)
+        return bool(rows) and len(nullspace(there)) > freedom
 
     def independent_where(
         self, values: Mapping[Symbol, Expr], free: Sequence[Symbol]
@@ -421,7 +425,9 @@ class RestConditions:
         for factor, power in factors_of(gram) if sympy.count_ops(gram) < _LONGEST_GRAM else ():
             if power > 0 and not free_of(factor, free) and sign(factor) not in (1, -1):
                 vanishing = solve_system([factor], free)
-                if vanishing.solutions or not vanishing.complete:
+                if not vanishing.complete or any(
+                    self.loses_rank({**values, **each.values}) for each in vanishing.solutions
+                ):
                     yield factor if weak_sign(factor) == 1 else factor**2
 
     def balanced(self, values: Mapping[Symbol, Expr], positive: Sequence[Expr] = ()) -> bool:
