@@ -35,7 +35,7 @@ from lagcli.statements.forces import ForcesSection
 from lagcli.statements.motions import HamiltonJacobiSection, SteadySection
 from lagcli.statements.phase_space import BracketsSection, TransformationsSection
 from lagcli.statements.questions import FindSection
-from lagcli.verification.claims.complete import is_complete
+from lagcli.verification.claims.complete import is_complete, lists_once
 from lagcli.verification.examination import PRECISIONS, Examination
 from lagcli.verification.linear import Unclear
 from lagcli.verification.sweeps import Unknown
@@ -130,11 +130,12 @@ def _examined(examination: Examination, name: str, section: Section) -> Section 
     claim = _CLAIMS.get(type(section))
     if not is_complete(examination, name, section):
         return None
-    if claim is None:
-        return section
-    module, _, function = claim.partition(".")
-    examine = getattr(import_module(f"lagcli.verification.claims.{module}"), function)
-    return _tried(examination, name, section, examine)
+    found: Section | None = section
+    if claim is not None:
+        module, _, function = claim.partition(".")
+        examine = getattr(import_module(f"lagcli.verification.claims.{module}"), function)
+        found = _tried(examination, name, section, examine)
+    return found if found is None or lists_once(examination, name, found) else None
 
 
 def _tried(

@@ -11,7 +11,7 @@ import pytest
 from lagcli.formatters.built_in.json import to_object
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.reader import read_problem
-from lagcli.verification.claims.algebra import signature_of
+from lagcli.verification.claims.algebra import signatures_of
 from tests.oracle.constancy import digits_of
 from tests.solved import solve
 
@@ -156,9 +156,8 @@ def test_a_hoop_on_an_incline_has_all_its_integrals():
 
 
 def test_a_sum_with_the_schroedinger_algebra_keeps_its_name():
-    assert signature_of(f"{LINE.removesuffix(', modulo constants')} + R, modulo constants") == (
-        (6, 2, 1)
-    )
+    name = f"{LINE.removesuffix(', modulo constants')} + R, modulo constants"
+    assert signatures_of(name) == {None: (6, 2, 1, 0)}
     text = problem("(r'^2 + r^2*v'^2 + z'^2)/2 - k*(r^2 + z^2)/2 - b/r^2",
                    "{r: {assume: positive}, v: {}, z: {}}", "k b")  # fmt: skip
     answers = solve(read_problem("test.yaml", text.encode()).checked(), ["algebra"])

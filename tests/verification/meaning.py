@@ -208,6 +208,8 @@ class Meaning:
             return len(one) == len(other) and all(
                 any(self._same_text(key, x, y) for y in other) for x in one
             )
+        if key == "name":
+            return _algebra(a) == _algebra(b)
         return self.values.equal(a, b)
 
     def _has_its_rate(self, charge: Any) -> bool:
@@ -263,6 +265,11 @@ class Meaning:
         if not a or not b:
             return a == b
         return self.values.parallel([a[n] for n in a], [b.get(n, "0") for n in a])
+
+
+def _algebra(name: str) -> str:
+    """The name without what two right names of one algebra differ in: so(2) is R."""
+    return re.sub(r"Schrödinger sch\(\d\): ", "", name).replace("so(2)", "R")
 
 
 def _renamed(sheet: Any, old: Sequence[str], new: Sequence[str]) -> Iterator[Any]:

@@ -101,3 +101,33 @@ def test_a_centre_among_the_charges_is_counted() -> None:
     for wrong in ("oscillator algebra + R, modulo constants", "oscillator algebra + R^2"):
         beside = {**answers.sections, "algebra": replace(section, name=wrong)}
         assert verified(problem, replace(answers, sections=beside)).sections["algebra"].name is None
+
+
+AT = ("where the energy is negative", "where it is 0", "where it is positive")
+
+
+@pytest.mark.parametrize(
+    ("n", "right"), [(2, ("so(3)", "e(2)", "sl(2,R)")), (3, ("so(4)", "e(3)", "so(3,1)"))]
+)
+def test_a_name_for_each_sign_of_the_energy_is_tried(n: int, right: tuple[str, ...]) -> None:
+    """Kepler's problem: {A_i, A_j} = -2 m E epsilon_ijk L_k."""
+    names = "xyz"[:n]
+    square = " + ".join(f"{x}^2" for x in names)
+    text = (
+        f"coordinates: [{', '.join(names)}]\n"
+        "parameters: {m: {assume: positive}, k: {assume: positive}}\n"
+        f"T: m*({square.replace('^', chr(39) + '^')})/2\nV: -k/sqrt({square})\n"
+    )
+    problem = read_problem("test.yaml", text.encode()).checked()
+    answers = solve(problem, ["discovered", "algebra"])
+    assert answers.complete, answers.warnings
+    section = answers.sections["algebra"]
+
+    def named(kinds: tuple[str, ...]) -> str:
+        return "the energy and " + ", ".join(map(" ".join, zip(kinds, AT, strict=True)))
+
+    assert section.name == named(right)
+    for wrong in (named(right[::-1]), named((right[0],) * 3), f"{right[0]} + R", "a great one"):
+        spoiled = {**answers.sections, "algebra": replace(section, name=wrong)}
+        found = verified(problem, replace(answers, sections=spoiled))
+        assert found.sections["algebra"].name is None

@@ -5,10 +5,13 @@ from __future__ import annotations
 import pytest
 
 from lagcli.expression import Product
+from lagcli.formatters.grammar import to_grammar
 from lagcli.reader import parse_text
 from lagcli.record import replace
+from lagcli.verification import verified
 
-from .test_conditions_and_lists import after, derived
+from .sheets import derived as of_library
+from .test_conditions_and_lists import HOOPS, after, derived
 
 BALL = "T: m*(x'^2 + sin(x)^2*y'^2)/2\nV: -k*cos(x)"
 
@@ -35,6 +38,60 @@ def test_a_steady_motion_that_is_left_out_is_missed(left_out: int) -> None:
     found, warnings = after(problem, answers, replace(section, motions=motions))
     assert not found.complete
     assert any("no other steady motion" in each for each in warnings)
+
+
+@pytest.mark.parametrize("section", ["equilibria", "steady_motions"])
+@pytest.mark.parametrize("turns", ["{}", "{} + 2*pi", "{} - 4*pi"])
+@pytest.mark.parametrize("twice", range(3))
+def test_a_place_that_is_listed_twice_is_left_out(section: str, turns: str, twice: int) -> None:
+    T, V = HOOPS[0].split("|")
+    problem, answers, found = derived("x", f"T: {T}\nV: {V}", section)
+    field = "motions" if section == "steady_motions" else "equilibria"
+    listed = getattr(found, field)
+    x = parse_text(turns.format(f"({to_grammar(listed[twice].at['x'])})"))
+    whole = (*listed, replace(listed[twice], at={"x": x}))
+    after_it, warnings = after(problem, answers, replace(found, **{field: whole}))
+    assert getattr(after_it, field) == listed
+    assert any("listed twice" in each for each in warnings)
+
+
+def test_a_family_that_is_listed_twice_is_left_out() -> None:
+    problem, answers, found = derived("x, y", BALL, "steady_motions")
+    [turning] = [each for each in found.motions if each.rates is not None]
+    whole = replace(found, motions=(*found.motions, turning))
+    after_it, _ = after(problem, answers, whole)
+    assert after_it.motions == found.motions
+
+
+def test_places_half_a_turn_apart_are_two_also_where_the_laws_repeat() -> None:
+    physics = "T: m*(x'^2 + x^2*y'^2 + x^2*sin(y)^2*z'^2)/2\nV: k*x^2/2"
+    positive = "{x: {assume: positive}, y: {}, z: {}}"
+    _, _, found = derived(positive, physics, "steady_motions")
+    places = {to_grammar(each.at["y"]) for each in found.motions if "y" in each.at}
+    assert {"pi/2", "-pi/2"} <= places
+
+
+@pytest.mark.parametrize("factor", ["1.02", "0.98", "1.3", "0.5"])
+@pytest.mark.parametrize("hoop", HOOPS)
+def test_a_bound_of_stability_that_is_a_little_off_is_missed(hoop: str, factor: str) -> None:
+    T, V = hoop.split("|")
+    problem, answers, section = derived("x", f"T: {T}\nV: {V}", "equilibria")
+
+    def moved(each):
+        wrong = [replace(c, left=Product((parse_text(factor), c.left))) for c in each]
+        return tuple(wrong)
+
+    verdicts = [e.verdict for e in section.equilibria]
+    assert any(v.minimum for v in verdicts)
+    false = tuple(
+        replace(e, verdict=replace(e.verdict, minimum=moved(e.verdict.minimum)))
+        if e.verdict.minimum
+        else e
+        for e in section.equilibria
+    )
+    found, warnings = after(problem, answers, replace(section, equilibria=false))
+    assert any("stability" in each for each in warnings)
+    assert not any(e.verdict.minimum for e in found.equilibria)
 
 
 @pytest.mark.parametrize("V", ["k*abs(x^2 - b^2)", "k*x*abs(x)", "k*abs(x) + b*x^2"])
@@ -154,3 +211,23 @@ def test_a_wrong_frequency_of_a_damped_mode_is_refuted_in_any_shape(factor: str)
         found, warnings = after(problem, answers, replace(section, modes=tuple(changed)))
         assert found.modes is None
         assert any("an exponent is not" in each for each in warnings)
+
+
+@pytest.mark.parametrize(
+    ("name", "section", "field"),
+    [
+        ("symmetry/free-particle", "discovered", "charges"),
+        ("hamiltonian/brackets-of-angular-momentum", "brackets", "brackets"),
+        ("pulleys/atwood-tension", "forces", "forces"),
+        ("oscillations/coupled-oscillators", "modes", "modes"),
+    ],
+)
+def test_no_list_has_an_entry_twice(name: str, section: str, field: str) -> None:
+    problem, answers = of_library(name, (section,))
+    assert verified(problem, answers) is answers
+    whole = answers.sections[section]
+    for each in getattr(whole, field):
+        twice = replace(whole, **{field: (*getattr(whole, field), each)})
+        found = verified(problem, replace(answers, sections={section: twice}))
+        assert not found.complete
+        assert twice not in found.sections.values()

@@ -8,7 +8,7 @@ Killing form tr(ad_a ad_b), which a basis does not change.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from itertools import islice, pairwise
 
 from flint import arb, arb_mat
@@ -25,16 +25,21 @@ _SMALL = 1e-12
 _NO_COEFFICIENT = 1e-25  # measured: zeros are below 2e-35
 #: Choices of the parameters at which the name is tried.
 _PARAMETERS = 12
-_MODULO_CONSTANTS = ", modulo constants"
-Signature = tuple[int, int, int]
-#: Dimension, and how many positive and negative eigenvalues the Killing form has.
+#: Dimension, how many positive and negative eigenvalues the Killing form has, and how many it may
+#: have besides: of R that acts on h(d), which the name does not say to turn or to stretch.
+Signature = tuple[int, int, int, int]
 _KNOWN: dict[str, Signature] = {
-    "so(3)": (3, 0, 3), "sl(2,R)": (3, 2, 1), "so(4)": (6, 0, 6), "so(3,1)": (6, 3, 3),
-    "so(2,2)": (6, 4, 2), "su(3)": (8, 0, 8), "e(2)": (3, 0, 1), "R": (1, 0, 0),
-    "Poincaré iso(1,1)": (3, 1, 0), "oscillator algebra": (4, 0, 1), "so(1,1)": (0, 1, 0),
-    "oscillator algebra (hyperbolic)": (4, 1, 0),
-    "sl(2,R) + so(1,1) with Heisenberg h(2)": (9, 3, 1),
+    "so(3)": (3, 0, 3, 0), "sl(2,R)": (3, 2, 1, 0), "so(4)": (6, 0, 6, 0),
+    "so(3,1)": (6, 3, 3, 0), "so(2,2)": (6, 4, 2, 0), "su(3)": (8, 0, 8, 0),
+    "so(5)": (10, 0, 10, 0), "so(4,1)": (10, 4, 6, 0), "so(3,2)": (10, 6, 4, 0),
+    "e(2)": (3, 0, 1, 0), "R": (1, 0, 0, 0), "so(2)": (1, 0, 1, 0), "so(1,1)": (1, 1, 0, 0),
+    "Poincaré iso(1,1)": (3, 1, 0, 0), "oscillator algebra": (4, 0, 1, 0),
+    "oscillator algebra (hyperbolic)": (4, 1, 0, 0),
 }  # fmt: skip
+_MODULO_CONSTANTS = ", modulo constants"
+#: Energies for which a name says that it is that of the algebra.
+_AT = {"the energy is negative": -1, "it is 0": 0, "it is positive": 1}
+_OVER_ENERGY = "the energy and "
 
 
 def conserved(x: Examination, listed: ChargesSection) -> tuple[list[int], int]:
@@ -141,16 +146,15 @@ class Counted:
     # -- structure ------------------------------------------------------------------------------
 
     def _has_name(self, name: str) -> bool:
-        """Whether the Killing form has the signature that the name stands for; True if unknown.
+        """Whether the Killing form has the signature that the name stands for.
 
         For several choices of the parameters: their signs may change that.
         """
-        expected = signature_of(name)
-        if expected is None:
-            return True
+        expected = signatures_of(name)
         size_ = self.section.dimension
-        around = islice(around_states(self.x, self.places, size_ + 5), _PARAMETERS)
-        return all(_has_signature(each, size_, expected) for each in around)
+        columns = size_ + 1 if None in expected else 2 * size_ + 1
+        around = islice(around_states(self.x, self.places, columns + 4), _PARAMETERS)
+        return bool(expected) and all(_has(each, size_, columns, expected) for each in around)
 
 
 def algebra(
@@ -170,17 +174,25 @@ def algebra(
     return counted(x, section, found, places, points).examined()
 
 
-def _has_signature(around: Sequence[CanonicalSample], size_: int, expected: Signature) -> bool:
-    if len(around) < size_ + 5:
+def _has(
+    around: Sequence[CanonicalSample],
+    size_: int,
+    columns: int,
+    expected: Mapping[int | None, Signature],
+) -> bool:
+    if len(around) < columns + 4:
         return True
-    constants = _structure(around, size_)
-    if constants is None:
-        return False
-    form = [[_trace(one, other) for other in constants] for one in constants]
-    plus, minus = signs(form)
-    if plus == minus == 0 and expected[1:] != (0, 0):
-        return False
-    return (size_, plus, minus) == expected
+    structure = _structure(around, size_, columns)
+    return structure is not None and all(
+        _has_signature(structure(energy or 0), signature) for energy, signature in expected.items()
+    )
+
+
+def _has_signature(constants: Sequence[Sequence[Sequence[arb]]], expected: Signature) -> bool:
+    plus, minus = signs([[_trace(one, other) for other in constants] for one in constants])
+    size_, least_plus, least_minus, more = expected
+    beyond = (plus - least_plus, minus - least_minus)
+    return len(constants) == size_ and min(beyond) >= 0 and sum(beyond) <= more
 
 
 def signs(form: Sequence[Sequence[arb]]) -> tuple[int, int]:
@@ -196,26 +208,41 @@ def signs(form: Sequence[Sequence[arb]]) -> tuple[int, int]:
     return plus, len(form) - kept[0][0] - plus
 
 
-def _structure(around: Sequence[CanonicalSample], count: int) -> list[list[list[arb]]] | None:
-    """C with {Q_a, Q_b} = sum_c C_abc Q_c + a constant; None where there is none."""
-    fitted, tried = around[: count + 1], around[count + 1 :]
-    matrix = arb_mat([[*s.values[:count], arb(1)] for s in fitted])
+def _structure(
+    around: Sequence[CanonicalSample], count: int, columns: int
+) -> Callable[[int], list[list[list[arb]]]] | None:
+    """C, by the energy E, with {Q_a, Q_b} = sum_c C_abc Q_c + a constant; None where there is none.
+
+    C = A + E B where there are columns for the E Q_c.
+    """
+
+    def row(s: CanonicalSample) -> list[arb]:
+        Q = s.values[:count]
+        return [*Q, arb(1), *(s.state.laws.energy * each for each in Q)][:columns]
+
+    fitted, tried = around[:columns], around[columns:]
     pairs = [(a, b) for a in range(count) for b in range(a)]
     right = arb_mat([[s.bracket(a, b) for a, b in pairs] or [arb(0)] for s in fitted])
     try:
-        solution = matrix.solve(right)
+        solution = arb_mat(list(map(row, fitted))).solve(right)
     except ZeroDivisionError:
         return None
-    constants = [[[arb(0)] * count for _ in range(count)] for _ in range(count)]
+    found = {}
     for column, (a, b) in enumerate(pairs):
-        found = [solution[row, column].mid() for row in range(count + 1)]
-        for s in tried[:4]:
-            terms = zip(found[:-1], s.values[:count], strict=True)
-            value = sum((c * v for c, v in terms), found[-1])
+        found[a, b] = [solution[place, column].mid() for place in range(columns)]
+        for s in tried:
+            value = dot(found[a, b], row(s))
             if size(value - s.bracket(a, b)) > 1e-9 * (1 + size(value)):
                 return None
-        constants[a][b] = found[:-1]
-        constants[b][a] = [-c for c in found[:-1]]
+
+    def constants(energy: int) -> list[list[list[arb]]]:
+        whole = [[[arb(0)] * count for _ in range(count)] for _ in range(count)]
+        for (a, b), given in found.items():
+            rates = given[count + 1 :] or [arb(0)] * count
+            whole[a][b] = [c + energy * rate for c, rate in zip(given, rates, strict=False)]
+            whole[b][a] = [-c for c in whole[a][b]]
+        return whole
+
     return constants
 
 
@@ -237,40 +264,54 @@ def _rank(rows: Sequence[Sequence[arb]], columns: int) -> int:
         return -1
 
 
-def signature_of(name: str) -> Signature | None:
-    """Of a name, or of the parts of a direct sum; None where it is not known.
+def signatures_of(name: str) -> dict[int | None, Signature]:
+    """That of a name, or those at the energies -1, 0, 1 that it tells apart; none if unknown.
 
     The centre of an algebra with constants is one of the charges, or the constant 1.
     """
-    alone = name.removesuffix(_MODULO_CONSTANTS)
-    found = re.fullmatch(r"(Schrödinger sch\(\d\)): .* with Heisenberg h\(\d\)(.*)", alone)
-    if found:
-        alone = found[1] + found[2]
-    elif alone not in _KNOWN and ("energy" in alone or " with " in alone):
+    found = {}
+    for part in name.removesuffix(_MODULO_CONSTANTS).removeprefix(_OVER_ENERGY).split(", "):
+        algebra_, _, where = part.partition(" where ")
+        signature = signature_of(f"{algebra_} + R" if name.startswith(_OVER_ENERGY) else algebra_)
+        if signature is None:
+            return {}
+        size_, plus, minus, more = signature
+        found[_AT.get(where)] = (size_ - name.endswith(_MODULO_CONSTANTS), plus, minus, more)
+    return found
+
+
+def signature_of(name: str) -> Signature | None:
+    """Of a name, a direct sum, or what acts on a Heisenberg algebra; None if it is not known."""
+    acting = re.fullmatch(
+        r"(?:Schrödinger sch\(\d\): )?(.*) with Heisenberg h\((\d+)\)(?: \+ (.*))?", name
+    )
+    parts = (acting[3] if acting else name) or "R^0"
+    known = [*map(_one, parts.split(" + "))]
+    if acting:
+        known += [_one(f"Heisenberg h({acting[2]})"), *map(_acting, acting[1].split(" + "))]
+    if None in known:
         return None
-    parts = [_one(part) for part in ([alone] if alone in _KNOWN else alone.split(" + "))]
-    known = [part for part in parts if part is not None]
-    if len(known) < len(parts):
-        return None
-    size_, plus, minus = map(sum, zip(*known, strict=True))
-    return (size_ - name.endswith(_MODULO_CONSTANTS), plus, minus)
+    return tuple(map(sum, zip(*known, strict=True)))  # type: ignore[return-value]
+
+
+def _acting(name: str) -> Signature | None:
+    found = _one(name)
+    return (*found[:3], found[0]) if found and name.startswith("R") else found
 
 
 def _one(name: str) -> Signature | None:
     if name in _KNOWN:
         return _KNOWN[name]
-    pattern = r"(Heisenberg h\(|e\(|Galilei in |Poincaré iso\(|Schrödinger sch\()(\d)\D.*|R\^(\d+)"
-    found = re.fullmatch(pattern, name)
+    found = re.fullmatch(r"(Heisenberg h\(|e\(|Galilei in |Poincaré iso\()(\d+)\D.*|R\^(\d+)", name)
     if found is None:
         return None
     if found[3]:
-        return (int(found[3]), 0, 0)
+        return (int(found[3]), 0, 0, 0)
     d = int(found[2])
     turns = d * (d - 1) // 2
     return {
-        "Heisenberg h(": (2 * d + 1, 0, 0),
-        "e(": (turns + d, 0, turns),
-        "Galilei in ": (2 + turns + 2 * d, 0, turns),
-        "Schrödinger sch(": (4 + turns + 2 * d, 2, 1 + turns),
-        "Poincaré iso(": (turns + 2 * d + 1, d, turns),
+        "Heisenberg h(": (2 * d + 1, 0, 0, 0),
+        "e(": (turns + d, 0, turns, 0),
+        "Galilei in ": (2 + turns + 2 * d, 0, turns, 0),
+        "Poincaré iso(": (turns + 2 * d + 1, d, turns, 0),
     }.get(found[1])

@@ -5,10 +5,11 @@ That is known from the file alone; a section without one of them is not printed.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import fields, is_dataclass
 from itertools import combinations
 
-from lagcli.expression import Name, walk
+from lagcli.expression import Expression, Name, walk
 from lagcli.problem_data import Problem
 from lagcli.statements.answers import (
     AccelerationsSection,
@@ -40,6 +41,26 @@ def is_complete(x: Examination, name: str, section: Section) -> bool:
             x.refute(f"the section '{name}'", f"it leaves out {', '.join(missing)}")
             return False
     return True
+
+
+def lists_once(x: Examination, name: str, section: Section) -> bool:
+    """Whether no list of it has the same entry twice; noted if one has."""
+    twice = _has_twice(section)
+    if twice:
+        x.refute(f"the section '{name}'", "something is listed twice")
+    return not twice
+
+
+def _has_twice(part: object) -> bool:
+    """Entries of matrices and other formulas may be the same."""
+    if isinstance(part, Expression):
+        return False
+    if isinstance(part, tuple):
+        entries = [each for each in part if is_dataclass(each) and not isinstance(each, Expression)]
+        return any(a == b for a, b in combinations(entries, 2)) or any(map(_has_twice, part))
+    if is_dataclass(part):
+        return any(_has_twice(getattr(part, each.name)) for each in fields(part))
+    return isinstance(part, Mapping) and any(map(_has_twice, part.values()))
 
 
 def _compared(problem: Problem, section: Section) -> Iterator[Compared]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import chain, islice
 from math import isqrt
+from typing import TypeVar
 
 from flint import arb, arb_mat, ctx
 
@@ -30,6 +31,7 @@ from lagcli.verification.claims.stability import refutes
 from lagcli.verification.claims.unlisted import (
     Balance,
     at_special_values,
+    repeated,
     shown,
     unlisted,
     without_sign,
@@ -44,6 +46,7 @@ _AGREE = 1e-9
 
 #: States with parameters of other sizes at which several conditions are tried.
 _SPREAD = 12
+_Place = TypeVar("_Place", Equilibrium, SteadyMotion)
 _WHY = "the verdict was not confirmed at random states"
 #: Of a place whose conditions no parameters satisfy: it is left out, the others stay.
 _NOWHERE = Verdict(stable=None, reason="no parameters were found that satisfy its conditions")
@@ -81,6 +84,7 @@ def equilibria(x: Examination, section: EquilibriaSection) -> EquilibriaSection:
                 section = replace(section, complete=False)
                 continue
             found.append(each if verdict is judged else replace(each, verdict=verdict))
+        found = _once(x, "the equilibrium", found)
         searched = section.complete and not section.at_all_times
         other = _another(x, found) if searched else ""
         if searched and not (other or found or section.where):
@@ -109,6 +113,22 @@ def _repeat(x: Examination, periods: Mapping[str, Expression]) -> bool:
         return here, there
 
     return not periods or x.decide(what, both)
+
+
+def _once(
+    x: Examination, what: str, found: list[_Place], turning: Sequence[str] = ()
+) -> list[_Place]:
+    """The list without those that are an earlier one, which are noted; at a pole none is."""
+    tried = [k for k, each in enumerate(found) if getattr(each, "rates", {}) is not None]
+    if x.reference.large or x.problem.contacts or len(tried) < 2:
+        return found
+    some = [found[k] for k in tried]
+    places = [RestPlace(x, what, m.at, getattr(m, "rates", {}), m.on, m.where) for m in some]
+    mirrored = [getattr(m, "mirrored", False) for m in some]
+    again = {tried[k] for k in repeated(Balance(x, turning), places, mirrored)}
+    for k in sorted(again):
+        x.refute(f"{what} {named(found[k].at, found[k].on)}", "it is listed twice")
+    return [each for k, each in enumerate(found) if k not in again]
 
 
 def _cyclic(x: Examination) -> int:
@@ -174,6 +194,7 @@ def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
             if verdict is None or not _with_momenta(x, what, place, each):
                 return replace(section, motions=None, reason=not_confirmed("a steady motion"))
             found.append(each if verdict is each.verdict else replace(each, verdict=verdict))
+        found = _once(x, "the steady motion", found, section.momenta)
         other = _another_motion(x, section, found) if section.complete else ""
     if other:
         x.refute("that there is no other steady motion", f"there is one with {other}")

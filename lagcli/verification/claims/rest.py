@@ -28,7 +28,7 @@ _ROUNDS = 4
 BITS = PRECISIONS[1]
 _NEWTON_STEPS = 30
 #: Of a condition's change with its parameter: how far beside its bound stability is tried.
-_BESIDE = arb(1) / 32
+_BESIDE = arb(2) ** -10
 
 
 class RestPlace:

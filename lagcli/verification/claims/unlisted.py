@@ -11,6 +11,7 @@ with given momenta.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import islice
 from math import ceil, pi
 from random import Random
 
@@ -172,8 +173,8 @@ class Balance:
         reference = self.x.reference
         with ctx.workprec(PRECISIONS[0]):
             here = dict(near.environment)
-            for k, (name, primes) in enumerate(self.sought):
-                here[name, primes] = here[name, primes] + arb(2 * k + 3) / 16
+            for k, key in enumerate(self.sought):
+                here[key] = here.get(key, arb(0)) + arb(2 * k + 3) / 16
             there = dict(here)
             for n in reference.names:
                 change = listed.environment[n, 0] - near.environment[n, 0]
@@ -228,6 +229,17 @@ def unlisted(
             yield near
 
 
+def repeated(balance: Balance, places: Sequence[RestPlace], mirrored: Sequence[bool]) -> set[int]:
+    """The numbers of places that are an earlier one, up to whole turns and reversed rates."""
+    both, found = list(zip(places, mirrored, strict=True)), set()
+    for number, place in enumerate(places):
+        there = list(islice(place.states(), _STATES)) if number else []
+        for other, mirror in both[:number] if there else ():
+            if all(_is_at(balance, near, other, mirror=mirror, turns=True) for near in there):
+                found.add(number)
+    return found
+
+
 def at_special_values(
     x: Examination, unless: Sequence[int], turning: Sequence[str] = ()
 ) -> LinearMotion | None:
@@ -255,22 +267,33 @@ def _vanishes(at: StepValues, place: int) -> bool:
     return size(at(place)) < _SAME * scale
 
 
-def _is_at(balance: Balance, near: LinearMotion, place: RestPlace, *, mirror: bool) -> bool:
-    """Whether a listed motion is the one found, or with `mirror` the one reversed."""
+def _is_at(
+    balance: Balance, near: LinearMotion, place: RestPlace, *, mirror: bool, turns: bool = False
+) -> bool:
+    """Whether a listed motion is the one found, or with `mirror` the one reversed.
+
+    With `turns` no other periods of the laws than whole turns count.
+    """
     sign = -1 if mirror else 1
     reversed_ = {key for n in balance.turning for key in ((f"p_{n}", 0), (n, 1))}
     known = {key: v * sign if key in reversed_ else v for key, v in near.environment.items()}
     with ctx.workprec(PRECISIONS[0]):
         listed = place.near(known)
     if listed is None:
-        return mirror and _is_at(balance, near, place, mirror=False)
+        return mirror and _is_at(balance, near, place, mirror=False, turns=turns)
     still = [n for n in balance.x.reference.names if n not in balance.turning]
     gaps = [abs(_gap(near, listed, (n, 0))) for n in still]
     turned = [abs(_gap(near, listed, (n, 1), sign)) for n in balance.turning]
     same = all(gap < _SAME for gap in turned) and (
-        all(gap < _SAME for gap in gaps) or balance.is_period(near, listed)
+        all(gap < _SAME for gap in gaps)
+        or (all(map(_is_whole, gaps if turns else ())) and balance.is_period(near, listed))
     )
-    return same or (mirror and _is_at(balance, near, place, mirror=False))
+    return same or (mirror and _is_at(balance, near, place, mirror=False, turns=turns))
+
+
+def _is_whole(gap: float) -> bool:
+    """Whether it is a number of turns."""
+    return abs(gap / (2 * pi) - round(gap / (2 * pi))) < _SAME
 
 
 def _gap(a: LinearMotion, b: LinearMotion, key: tuple[str, int], sign: int = 1) -> float:
@@ -286,4 +309,4 @@ def shown(near: LinearMotion, turning: Sequence[str] = (), parameters: Sequence[
     return ", ".join(parts)
 
 
-__all__ = ["Balance", "at_special_values", "shown", "unlisted", "without_sign"]
+__all__ = ["Balance", "at_special_values", "repeated", "shown", "unlisted", "without_sign"]
