@@ -157,8 +157,9 @@ class GivenSums:
         terms, polys = list(node.terms), cast(list[Polynomial], parts)
         for _, value, given in near:
             for used, ratio, scale in _multiples(polys, value):
+                again = any(given in parts_of(term)[1] for term in node.terms)
                 letters = letters or _letters(node) | brackets
-                if not all(letter in letters for letter, _ in scale):
+                if not (scale or again) or not all(letter in letters for letter, _ in scale):
                     continue
                 powers = {letters[x]: e for x, e in scale}
                 letters_only = all(map(is_letter, terms_of(given)))
@@ -167,7 +168,6 @@ class GivenSums:
                 powers[_base(given)] = 2 if isinstance(given, Power) else 1
                 whole = product_of_powers(ratio, powers, self._ordering)
                 before = sum(_cost(terms[k]) for k in used) + len(used) - 1
-                again = any(given in parts_of(term)[1] for term in node.terms)
                 if _cost(whole) < before + _worth(given) + again:
                     rest = [k for k in range(len(terms)) if k not in used[1:]]
                     terms[used[0]] = whole
@@ -393,7 +393,7 @@ def _multiples(
         ratio, scale = parts[place][term] / value[first], joined(term, inverse(first))
         wanted = {joined(t, scale): ratio * c for t, c in value.items()}
         used = sorted({owner[t] for t in wanted if t in owner})
-        if not scale or len(used) < 2 or sum(len(parts[k]) for k in used) != len(wanted):
+        if len(used) < 2 or sum(len(parts[k]) for k in used) != len(wanted):
             continue
         if all(wanted.get(t) == c for k in used for t, c in parts[k].items()):
             yield used, ratio, scale

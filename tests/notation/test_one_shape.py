@@ -567,6 +567,15 @@ def test_a_spring_has_its_length_in_one_bracket(place: str) -> None:
     assert found.count("(1 − s/√(") == 3
 
 
+@pytest.mark.parametrize("name", ["l", "a", "z"])
+def test_a_bracket_of_one_term_stays_in_the_others(name: str) -> None:
+    """r k (l + r) (1 − s/√…) sin q, not r k ((l + r) s/√… − r − l) sin q (Landau, section 21)."""
+    length = f"sqrt(r^2 + ({name} + r)^2 - 2*r*({name} + r)*cos(q))"
+    physics = f"T: m*r^2*q'^2/2\nV: k*({length} - s)^2/2"
+    found = text("q", f"m r {name} s k", physics, "equations", "canonical_equations")
+    assert found.count("(1 − s/√(") == 2
+
+
 @pytest.mark.parametrize("inertia", ["I/R^2", "2*I/R^2", "I/(a*R)"])
 def test_a_sum_of_masses_stays_where_every_row_can_have_it(inertia: str) -> None:
     physics = f"T: (M + {inertia})*x'^2/2\nV: -M*g*x"
