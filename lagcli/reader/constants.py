@@ -23,6 +23,7 @@ from lagcli.expression import (
     Sum,
     folded,
     postorder,
+    walk,
 )
 from lagcli.reader.builder import mistake
 from lagcli.reader.limits import NUMBER_DIGITS, thousands
@@ -184,3 +185,19 @@ def _sign_power(base: Fraction | None, exponent: Fraction) -> Fraction:
     if base == 0:
         return Fraction(1 if exponent == 0 else 0)
     return Fraction(1) if base == 1 or exponent % 2 == 0 else Fraction(-1)
+
+
+def value_cycle(values: dict[str, Expression]) -> tuple[str, str] | None:
+    """A parameter whose value needs itself, and the sentence on it; None without one."""
+    from graphlib import CycleError, TopologicalSorter
+
+    uses = {
+        name: {node.name for node in walk(value) if isinstance(node, Name)} & values.keys()
+        for name, value in values.items()
+    }
+    try:
+        TopologicalSorter(uses).prepare()
+    except CycleError as error:
+        cycle = list(reversed(error.args[1]))
+        return cycle[0], f"the value of '{cycle[0]}' needs itself: {' → '.join(cycle)}"
+    return None

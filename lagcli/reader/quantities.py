@@ -5,9 +5,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, TypedDict, cast, get_args
 
-from lagcli.expression import FUNCTIONS, Expression, Name, walk
+from lagcli.expression import FUNCTIONS
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
+from lagcli.reader.constants import value_cycle
 from lagcli.reader.habits import (
     SIGNS,
     is_constant,
@@ -495,19 +496,3 @@ def _check_cycles(file: FileReader, parameters: list[Parameter]) -> None:
     found = value_cycle({one.name: one.value for one in parameters if one.value is not None})
     if found is not None:
         file.error(found[1], spans[found[0]])
-
-
-def value_cycle(values: dict[str, Expression]) -> tuple[str, str] | None:
-    """A parameter whose value needs itself, and the sentence on it; None without one."""
-    from graphlib import CycleError, TopologicalSorter
-
-    uses = {
-        name: {node.name for node in walk(value) if isinstance(node, Name)} & values.keys()
-        for name, value in values.items()
-    }
-    try:
-        TopologicalSorter(uses).prepare()
-    except CycleError as error:
-        cycle = list(reversed(error.args[1]))
-        return cycle[0], f"the value of '{cycle[0]}' needs itself: {' → '.join(cycle)}"
-    return None

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
 from lagcli.expression import Name
 from lagcli.reader.by_coordinate import state_meant
+from lagcli.reader.constants import value_cycle
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.number_units import unit_mistake
 from lagcli.reader.positions import Excerpt
-from lagcli.reader.quantities import value_cycle
 from lagcli.reader.scope import VALUES, Scope
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.text import Mistake, SourceText
