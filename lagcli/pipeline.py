@@ -385,7 +385,8 @@ def _in_the_manner(derivation: Derivation, account: Explanation) -> Explanation:
     if one_way := manner.both_ways(steps):
         manner.anew(one_way)
         steps = rewritten(account.steps, manner)
-    account = replace(account, steps=tuple(map(without_minuses, steps)))
+    turned = (replace(each, blocks=without_minuses(each.blocks)) for each in steps)
+    account = replace(account, steps=tuple(turned))
     if derivation.large_form is None:
         account = in_steps(account, taken)
     said = tuple(sentence(warning, taken) for warning in account.warnings)

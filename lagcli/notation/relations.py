@@ -7,17 +7,18 @@ A page is written in the manner of its file when it is complete, which may turn 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from lagcli.document import Block, Equations, Formula, Paragraph, Row
 from lagcli.expression import ZERO, Negative
 from lagcli.record import replace
-from lagcli.statements.explanation import ExplanationStep
 
 _TURNED = {" > ": " < ", " < ": " > "}
 
 
-def without_minuses(step: ExplanationStep) -> ExplanationStep:
-    """The step, each of its relations to 0 turned where all of the other side has a minus."""
-    return replace(step, blocks=tuple(map(_block, step.blocks)))
+def without_minuses(blocks: Sequence[Block]) -> tuple[Block, ...]:
+    """The blocks, each relation to 0 turned where all of its other side has a minus."""
+    return tuple(map(_block, blocks))
 
 
 def _block(block: Block) -> Block:
