@@ -400,12 +400,16 @@ class RestConditions:
     def loses_rank(self, values: Mapping[Symbol, Expr]) -> bool:
         """Whether the gradients of the constraints are independent, but not there.
 
-        Of y (x' - z') = 0 and (y - 1) (x' - z') = 0 one restricts the velocities everywhere.
+        Not where one has no value.  Of y (x' - z') = 0 and (y - 1) (x' - z') = 0 one restricts the
+        velocities everywhere.
         """
         rows = self.dynamics.constraints.jacobian
         there = [[at(at(a, values), values) for a in row] for row in rows]
         freedom = len(self.system.q) - len(self.dynamics.independent_constraints)
-        return bool(rows) and len(nullspace(there)) > freedom
+        try:
+            return bool(rows) and len(nullspace(there)) > freedom
+        except ZeroDivisionError:
+            return False
 
     def independent_where(
         self, values: Mapping[Symbol, Expr], free: Sequence[Symbol]
