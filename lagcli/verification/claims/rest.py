@@ -84,9 +84,10 @@ class RestPlace:
     def _just_inside(self) -> Iterator[LinearMotion]:
         """States where one of the conditions just holds: x > 30 is met by none that is drawn."""
         for state in self.x.states(WANTED, BITS):
+            known = {**self._momenta, **state.environment}
             for bound in self.where:
-                known = self._moved(state.environment, bound, 1)
-                near = None if known is None else self.near(known)
+                inside = self._moved(known, bound, 1)
+                near = None if inside is None else self.near(inside)
                 if near is not None:
                     yield near
 
