@@ -13,7 +13,7 @@ from math import gcd
 from operator import mul
 from typing import TypeAlias
 
-from sympy import Expr, Symbol
+from sympy import Expr, Symbol, count_ops
 
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
@@ -67,13 +67,8 @@ class Relations:
         self._welcome = list(eliminate) or _dynamic(symbols) or symbols
         self._moving = frozenset(moving)
         self._ideals: dict[int, tuple[Field, list[Ideal], Iterator[Ideal]]] = {}
-        for expression in expressions:
-            self._add(expression)
-        # a relation that came before the solution of one of its symbols
-        for expression in self.remaining[:]:
-            if expression.free_symbols & self.solved.keys():
-                self.remaining.remove(expression)
-                self._add(expression)
+        if not self._add_all(expressions):  # of z - b x + f = 0, f = 0 and z = b x the short ones
+            self._add_all(sorted(expressions, key=count_ops))
 
     def __bool__(self) -> bool:
         return bool(self.solved or self.remaining)
@@ -100,22 +95,37 @@ class Relations:
                     found.append((symbol, element))
         return sorted(found, key=lambda pair: pair[0].name)
 
-    def _add(self, expression: Expr) -> None:
+    def _add_all(self, expressions: Sequence[Expr]) -> bool:
+        """Solve them in turn; False where one is seen to follow from the others."""
+        self.solved, self.remaining = {}, []
+        new = [self._add(expression) for expression in expressions]
+        # a relation that came before the solution of one of its symbols
+        for expression in self.remaining[:]:
+            if expression.free_symbols & self.solved.keys():
+                self.remaining.remove(expression)
+                new.append(self._add(expression))
+        return all(new)
+
+    def _add(self, expression: Expr) -> bool:
         expression = self.substitute(expression)
         field = Field([expression])
         try:
             relation = field(expression)
         except ZeroDivisionError:
-            return
+            return True
         if relation.is_zero():
-            return
+            return False
         found = self._solution(field, relation.numerator)
         if found is None:
-            self.remaining.append(field.polynomial_to_sympy(relation.numerator))
-            return
+            rest = field.polynomial_to_sympy(relation.numerator)
+            if rest in self.remaining or -rest in self.remaining:
+                return False
+            self.remaining.append(rest)
+            return True
         symbol, value = found
         self.solved = {s: e.xreplace({symbol: value}) for s, e in self.solved.items()}
         self.solved[symbol] = value
+        return True
 
     def _solution(self, field: Field, poly: Poly) -> tuple[Symbol, Expr] | None:
         """The most welcome symbol in which the relation is linear, and its value."""

@@ -36,7 +36,7 @@ from lagcli.graph.substitution import Substitution
 from lagcli.mechanics.abbreviation import PartLabels, Written, abbreviated
 from lagcli.mechanics.gathering import gathered
 from lagcli.mechanics.identities import vanish
-from lagcli.mechanics.matrix_form import MatrixForm
+from lagcli.mechanics.matrix_form import MatrixForm, NotStructural
 from lagcli.mechanics.symbolic_elimination import StepNames, SymbolicElimination
 from lagcli.notation.given_formulas import order_of_parameters
 from lagcli.record import record
@@ -88,7 +88,10 @@ class ClosedForm:
     def motion(self) -> ClosedSolution | None:
         """The verified solution; None where it fills more than a page, or K has no such factors."""
         form = self.form
-        if len(form.independent) < len(form.constraints):
+        try:
+            if len(form.independent) < len(form.constraints):
+                return None
+        except NotStructural:
             return None
         found = next(filter(None, map(self._eliminated, self._elimination_orders)), None)
         if found is None:

@@ -177,3 +177,42 @@ def test_one_coordinate_is_a_multiple_of_another_that_changes(factor: str) -> No
         constraints={"c1": f"x*({factor}) = y"},
     )
     assert judged(tied) == []
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("factor", ["m", "g", "3"])
+@pytest.mark.parametrize(
+    "turning", ["x*cos(k*t) + y*sin(k*t) = g", "x*exp(b*t) - y = m", "x^2 + y^2 = g"]
+)
+def test_a_constraint_is_given_again_in_a_sum(turning: str, factor: str) -> None:
+    """Of f + c (z - b x) = 0, f = 0 and z = b x the two short ones are used."""
+    left, right = turning.split(" = ")
+    again = System(
+        coordinates=dict.fromkeys("xyz"),
+        parameters=M,
+        T="m*(x'^2 + y'^2 + z'^2)/2",
+        V="k/(1 + 2*z^2)",
+        constraints={
+            "c0": turning,
+            "c1": f"({left} - {right}) + {factor}*(z - b*x) = 0",
+            "c2": "z - b*x = 0",
+        },
+    )
+    assert judged(again) == []
+
+
+@pytest.mark.long
+def test_a_rank_in_doubt_in_double_precision_hides_no_long_answer() -> None:
+    """c1 is (1 + z^2) times c2, on which x^2 + y^2 = (k + b t)^2."""
+    held = System(
+        coordinates=dict.fromkeys("xyz"),
+        parameters=M,
+        T="m*(x'^2 + y'^2 + z'^2)/2",
+        V="k*cos(z) + g*x",
+        constraints={
+            "c0": "z - x*y = 0",
+            "c1": "(1 + z^2)*(x^2 + y^2 - (k + b*t)^2) = 0",
+            "c2": "x^2 + y^2 - (k + b*t)^2 = 0",
+        },
+    )
+    assert judged(held) == []
