@@ -1,4 +1,4 @@
-"""The mechanics of a system by brute force: differences of L at 70 digits, and linear algebra.
+"""The mechanics of a system by brute force: differences of L at 90 digits, and linear algebra.
 
 d/dt(dL/dq') - dL/dq = Q - dD/dq' + A^T lam with the constraints f = 0 differentiated until
 they are linear in q'': A q'' + b = 0.  Along q(t + h) = q + q' h + q'' h^2/2 every total
@@ -18,8 +18,8 @@ from .grammar import Undefined, Unspecified, read
 from .legendre import Legendre
 from .system import System
 
-mp.dps = 70
-H = mpf(10) ** -12
+mp.dps = 90
+H = mpf(10) ** -18  # exp(40) in a potential has a third derivative of 1e19
 FREE = (None, "nonzero")
 
 
