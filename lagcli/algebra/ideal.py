@@ -68,6 +68,11 @@ class Ideal:
                 self._recent.append((poly, known))
         return known
 
+    @property
+    def is_whole(self) -> bool:
+        """Whether 1 is seen to be in it, for general values of what ranks below."""
+        return any(not leading.keys() & {*self._ranked} for leading in self._leading)
+
     def touches(self, poly: Poly) -> bool:
         """Whether some term is divisible by a leading term: else it is its own remainder."""
         for monomial, _ in self.field.ring.terms(poly):

@@ -10,15 +10,18 @@ that vanishes has a part in it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import cached_property
 
 import mpmath
 import sympy
 from mpmath import mpf
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import Shapes, dot, is_zero, left_nullspace, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
+from lagcli.algebra.entry import Field
+from lagcli.algebra.ideal import Ideal
 from lagcli.algebra.linear import LinearSolution
 from lagcli.algebra.numeric import DIGITS
 from lagcli.algebra.row_rank import independent_rows
@@ -119,30 +122,37 @@ class Dynamics:
     @property
     def _contradict(self) -> bool:
         """Whether 1 is in the ideal of the holonomic constraints, for general parameters."""
-        forms = self._polynomials
-        return len(forms) > 1 and sympy.groebner(forms, *self.system.q).exprs == [1]
-
-    @property
-    def _polynomials(self) -> list[Expr]:
-        """The numerators of the holonomic constraints; empty where one is no polynomial."""
         forms = [e.f for e in self.constraints.equations if e.holonomic]
-        polynomials = [sympy.numer(sympy.together(f)) for f in forms]
-        return polynomials if all(p.is_polynomial(*self.system.q) for p in polynomials) else []
+        return len(forms) > 1 and self._exclude(forms)
 
     @property
     def _flat_where_all_hold(self) -> str | None:
         """A constraint with the gradient 0 wherever all hold, as z (z - x) = 0 has beside x = 0.
 
-        A polynomial vanishes where all hold if 1 is in their ideal with 1 - w a (Rabinowitsch).
+        A form vanishes where all hold if 1 is in their ideal with 1 - w a (Rabinowitsch).
         """
-        forms, q, w = self._polynomials, self.system.q, sympy.Dummy("w")
-        if len(forms) < 2 or len(forms) < len(self.constraints.equations) or self._contradict:
+        equations, q, w = self.constraints.equations, self.system.q, sympy.Dummy("w")
+        forms = [e.f for e in equations]
+        if len(forms) < 2 or not all(e.holonomic for e in equations) or self._contradict:
             return None
-        for e, form in zip(self.constraints.equations, forms, strict=True):
+        for form, e in zip(forms, equations, strict=True):
             slopes = [form.diff(x) for x in q if not free_of(form, [x])]
-            if all(sympy.groebner([*forms, 1 - w * a], w, *q).exprs == [1] for a in slopes):
+            if all(self._exclude([*forms, 1 - w * a], w) for a in slopes):
                 return e.name
         return None
+
+    def _exclude(self, forms: Sequence[Expr], *more: Symbol) -> bool:
+        """Whether the forms are seen to have no common zero, for general parameters."""
+        field = Field(forms)
+        try:
+            above = [field(form).numerator for form in forms]
+        except ZeroDivisionError:
+            return False
+        ranked = [
+            number for number, generator in enumerate(field.generators)
+            if not free_of(generator.expression, [*more, *self.system.q])
+        ]  # fmt: skip
+        return Ideal(field, above, ranked).is_whole
 
     @property
     def redundant(self) -> tuple[str, ...]:

@@ -113,6 +113,8 @@ def test_constraints_that_hold_for_some_parameters_only_are_no_contradiction(see
         ("x = a", "x = l", True),
         ("x^2 + y^2 = l^2", "x^2 + y^2 = a^2", True),
         ("x + y = a", "2*x + 2*y = 3*a", True),
+        ("y = sin(x)", "y = a + sin(x)", True),
+        ("y*cos(x) = l", "y*cos(x) = a", True),
         ("x = a", "x^2 + y^2 = -l^2", False),
         ("y = 1", "cos(x) = 1 + y", False),
     ],
@@ -256,3 +258,21 @@ def test_of_two_constraints_with_factors_one_restricts_everywhere():
     [family] = section.equilibria
     assert plain(family.at) == {"x": "-z"}
     assert not family.where
+
+
+@pytest.mark.long
+def test_no_basis_is_sought_beyond_its_bounds():
+    """A Gröbner basis of four forms of degree 4 in six coordinates would take hours."""
+    text = """
+coordinates: [x, y, z, u, v, w]
+parameters: {m: {assume: positive}, l: {assume: positive}, b: {assume: positive}}
+T: m*(x'^2 + y'^2 + z'^2 + u'^2 + v'^2 + w'^2)/2
+constraints:
+  c1: (x^2 + y^2)^2 + z^2*u^2 + l^2 = 0
+  c2: x*y*z + u*v*w - l*x^3 = b^2
+  c3: (x - u)^2 + (y - v)^2 + (z - w)^2 = l^2
+  c4: x^3*u + y^3*v + z^3*w - l^4 = 0
+"""
+    with pytest.raises(ProblemError) as refused:
+        _ = derive(text).dynamics.independent_constraints
+    assert "no state was found" in str(refused.value.diagnostics)
