@@ -10,7 +10,7 @@ from typing import NamedTuple
 from lagcli.diagnostics import Diagnostic
 from lagcli.reader.habits import KEYS
 from lagcli.reader.misshapen import pieces
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, entries_in, nodes_in
 from lagcli.reader.regex import regex
 from lagcli.reader.text import SourceText
 
@@ -232,26 +232,3 @@ def entry_at(root: DocumentNode, start: int, end: int) -> tuple[Scalar, Document
         if key.start <= start <= end <= max(key.end, value.end):
             found = (key, value)
     return found
-
-
-def entries_in(node: DocumentNode) -> Iterator[tuple[Scalar, DocumentNode]]:
-    """Every entry of every map, the outer ones first."""
-    if isinstance(node, Mapping):
-        for key, value in node.entries:
-            yield key, value
-            yield from entries_in(value)
-    elif isinstance(node, Sequence):
-        for item in node.items:
-            yield from entries_in(item)
-
-
-def nodes_in(node: DocumentNode) -> Iterator[DocumentNode]:
-    """Every node of a document, the outer ones first."""
-    yield node
-    if isinstance(node, Sequence):
-        for item in node.items:
-            yield from nodes_in(item)
-    elif isinstance(node, Mapping):
-        for key, value in node.entries:
-            yield key
-            yield from nodes_in(value)

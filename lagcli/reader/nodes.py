@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -90,3 +91,26 @@ def kind(node: DocumentNode) -> str:
 def size(node: Sequence | Mapping) -> int:
     """How many items or entries a node has."""
     return len(node.items if isinstance(node, Sequence) else node.entries)
+
+
+def entries_in(node: DocumentNode) -> Iterator[tuple[Scalar, DocumentNode]]:
+    """Every entry of every map, the outer ones first."""
+    if isinstance(node, Mapping):
+        for key, value in node.entries:
+            yield key, value
+            yield from entries_in(value)
+    elif isinstance(node, Sequence):
+        for item in node.items:
+            yield from entries_in(item)
+
+
+def nodes_in(node: DocumentNode) -> Iterator[DocumentNode]:
+    """Every node of a document, the outer ones first."""
+    yield node
+    if isinstance(node, Sequence):
+        for item in node.items:
+            yield from nodes_in(item)
+    elif isinstance(node, Mapping):
+        for key, value in node.entries:
+            yield key
+            yield from nodes_in(value)
