@@ -170,18 +170,18 @@ def _commuting(C: list[list[Vector]], chosen: list[int], most: int = 16) -> list
 
 
 def _direct_sum(C: list[list[Vector]], central: Sequence[Vector]) -> str | None:
-    """Ideals that the basis vectors fall into, the largest first.
+    """Ideals that the basis vectors fall into, the largest first, with the constants in it.
 
     Those with constants have one centre: h(1) beside h(1) is h(2), not h(1) + h(1) with two.
     """
     parts = _ideals(C, central)
     extended = [p for p in parts if not _are_shifts(*_restricted(C, central, p))]
     parts = [p for p in parts if p not in extended]
-    parts += [sorted(chain(*extended))] if extended else []
+    parts = [sorted(chain(*extended)), *parts] if extended else parts
     if len(parts) < 2:
         return None
     found = []
-    for part in sorted(parts, key=len, reverse=True):
+    for part in sorted(parts, key=len, reverse=True):  # of equal ones that with constants first
         name = _name(*_restricted(C, central, part))
         if name is None:
             return None
