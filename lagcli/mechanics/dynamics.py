@@ -10,8 +10,10 @@ that vanishes has a part in it.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Sequence
 from functools import cached_property
+from itertools import combinations
 
 import mpmath
 import sympy
@@ -20,11 +22,13 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import Shapes, dot, is_zero, left_nullspace, nullspace, simplify, solve_linear
 from lagcli.algebra.build import free_of
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.entry import Field
 from lagcli.algebra.ideal import Ideal
 from lagcli.algebra.linear import LinearSolution
 from lagcli.algebra.numeric import DIGITS
 from lagcli.algebra.row_rank import independent_rows
+from lagcli.algebra.signs import sign
 from lagcli.diagnostics import Diagnostic, ProblemError
 from lagcli.expression import ZERO
 from lagcli.mechanics.by_multipliers import by_multipliers
@@ -39,6 +43,12 @@ from lagcli.statements.answers import Verification
 
 #: Beyond this many unknowns a symbolic solution is no longer readable: matrix form only.
 READABLE_UNKNOWNS = 12
+#: Minors of gradients that are looked at where no state was found: 3 of 6 coordinates.
+_MOST_MINORS = 20
+
+
+def _quoted(names: Iterable[str]) -> str:
+    return ", ".join(f"'{name}'" for name in names)
 
 
 @record
@@ -99,47 +109,79 @@ class Dynamics:
         return [self.constraints.jacobian[k] for k in self.independent_constraints]
 
     def _contradiction(self, index: int) -> ProblemError:
+        """What is wrong where no state was found at which all constraints hold.
+
+        Only what is proved is called a contradiction.
+        """
         constraint = self.system.problem.constraints[max(index, 0)]
         others = [c.name for c in self.system.problem.constraints if c is not constraint]
-        with_what = " with " + ", ".join(f"'{name}'" for name in others) if others else ""
-        message = f"constraint '{constraint.name}' cannot be satisfied{with_what}"
-        hint = "no state was found at which all constraints hold"
-        if constraint.equation.right == ZERO and not constraint.equation.right.span.line:
-            hint += ": without '=' it means = 0"
-        if self._contradict:
-            hint += ": they contradict each other"
+        with_what = " with " + _quoted(others) if others else ""
         above = sympy.numer(sympy.together(self.constraints.equations[max(index, 0)].f))
         if any(power > 1 for _, power in sympy.factor_list(above)[1]):
             message = f"the derivatives of constraint '{constraint.name}' vanish where it holds"
             hint = "write it without the power"
-        elif (name := self._flat_where_all_hold) is not None:
-            message = f"the derivatives of constraint '{name}' vanish where all constraints hold"
+        elif self._contradict:
+            message = f"constraint '{constraint.name}' cannot be satisfied{with_what}"
+            hint = "they contradict each other" if others else "it holds nowhere"
+        elif len(names := self._dependent_where_all_hold) == 1:
+            message = (
+                f"the derivatives of constraint '{names[0]}' vanish where all constraints hold"
+            )
             hint = "write it without a power or a factor, or leave it out where the others imply it"
+        elif names:
+            message = f"constraints {_quoted(names)} hold together only where they touch"
+            hint = "their derivatives depend on each other there: write the place itself, as x = 0"
+        else:
+            message = f"no state was found at which constraint '{constraint.name}' holds{with_what}"
+            hint = "check the signs and the numbers in it"
+        if constraint.equation.right == ZERO and not constraint.equation.right.span.line:
+            hint += ": without '=' it means = 0"
         return ProblemError(
             self.system.problem.source, (Diagnostic(message, constraint.equation.span, hint),)
         )
 
-    @property
+    @cached_property
     def _contradict(self) -> bool:
-        """Whether 1 is in the ideal of the holonomic constraints, for general parameters."""
-        forms = [e.f for e in self.constraints.equations if e.holonomic]
-        return len(forms) > 1 and self._exclude(forms)
+        """Whether the constraints are seen to hold nowhere, for general parameters.
+
+        1 is in the ideal of their forms and of those on the velocities, a . q' + b.
+        """
+        equations = self.constraints.equations
+        if any(e.holonomic and sign(e.f) in (1, -1) for e in equations):
+            return True
+        forms = [e.f for e in equations if e.holonomic]
+        moving = [dot(e.row, self.system.qdot) + e.drift for e in equations]
+        return self._exclude(forms) or self._exclude([*forms, *moving], *self.system.qdot)
 
     @property
-    def _flat_where_all_hold(self) -> str | None:
-        """A constraint with the gradient 0 wherever all hold, as z (z - x) = 0 has beside x = 0.
+    def _dependent_where_all_hold(self) -> Sequence[str]:
+        """The fewest constraints with dependent gradients wherever all hold, none if not seen.
 
-        A form vanishes where all hold if 1 is in their ideal with 1 - w a (Rabinowitsch).
+        z (z - x) = 0 has the gradient 0 where x = 0 holds beside it; a sphere and a tangent plane
+        have parallel ones.  A minor vanishes where all hold if 1 is in their ideal with 1 - w a
+        (Rabinowitsch).
         """
-        equations, q, w = self.constraints.equations, self.system.q, sympy.Dummy("w")
+        equations, w = self.constraints.equations, sympy.Dummy("w")
         forms = [e.f for e in equations]
-        if len(forms) < 2 or not all(e.holonomic for e in equations) or self._contradict:
-            return None
-        for form, e in zip(forms, equations, strict=True):
-            slopes = [form.diff(x) for x in q if not free_of(form, [x])]
-            if all(self._exclude([*forms, 1 - w * a], w) for a in slopes):
-                return e.name
-        return None
+        if len(forms) < 2 or not all(e.holonomic for e in equations):
+            return ()
+        for size in range(1, len(forms) + 1):
+            for chosen in combinations(equations, size):
+                minors = self._minors([e.row for e in chosen])
+                if minors and all(self._exclude([*forms, 1 - w * a], w) for a in minors):
+                    return [e.name for e in chosen]
+        return ()
+
+    def _minors(self, rows: Sequence[Sequence[Expr]]) -> list[Expr]:
+        """Those that are not 0 of the largest minors of some rows, none if there are too many."""
+        used = [j for j in range(len(self.system.q)) if any(row[j] != 0 for row in rows)]
+        if math.comb(len(used), len(rows)) > _MOST_MINORS:
+            return []
+        every = [
+            determinant([[row[j] for j in at] for row in rows])
+            for at in combinations(used, len(rows))
+        ]
+        return [] if None in every else [a for a in map(simplify, filter(None, every)) if a != 0]
 
     def _exclude(self, forms: Sequence[Expr], *more: Symbol) -> bool:
         """Whether the forms are seen to have no common zero, for general parameters."""

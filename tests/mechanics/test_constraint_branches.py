@@ -229,6 +229,14 @@ def test_a_redundant_constraint_leaves_a_minimum_even_along_a_family(rest):
     assert {plain(e.at)["z"]: e.verdict.stable for e in found} == {"a": False, "-a": True}
 
 
+def refused(given):
+    rows = "".join(f'  {n}: "{c}"\n' for n, c in zip("abc", given, strict=False))
+    d = derive(f"coordinates: [x, y, z]\nT: (x'^2 + y'^2 + z'^2)/2\nconstraints:\n{rows}")
+    with pytest.raises(ProblemError) as error:
+        d.dynamics.independent_constraints  # noqa: B018 - asks whether they agree
+    return error
+
+
 @pytest.mark.parametrize(
     ("given", "name"),
     [
@@ -240,12 +248,24 @@ def test_a_redundant_constraint_leaves_a_minimum_even_along_a_family(rest):
 )
 def test_constraints_that_hold_together_are_not_said_to_contradict(given, name):
     """z (z - x) = 0 holds at x = z = 0, where its gradient is 0."""
-    rows = "".join(f"  {n}: {c}\n" for n, c in zip("abc", given, strict=False))
-    d = derive(f"coordinates: [x, y, z]\nT: (x'^2 + y'^2 + z'^2)/2\nconstraints:\n{rows}")
-    with pytest.raises(ProblemError) as error:
-        d.dynamics.independent_constraints  # noqa: B018 - asks whether they agree
-    [found] = error.value.diagnostics
+    [found] = refused(given).value.diagnostics
     assert f"derivatives of constraint '{name}' vanish where all constraints hold" in found.message
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (["z = x^2 + y^2", "z = 2*x*y"], "'a', 'b' hold together only where they touch"),
+        (["x^2 + y^2 = 4", "y = 2", "z = x"], "'a', 'b' hold together only where they touch"),
+        (["x^2 + y^2 + z^2 = 4", "z = 2"], "no state was found at which constraint 'b' holds"),
+        (["x = 5", "x^2 + y^2 = 1"], "no state was found at which constraint 'b' holds"),
+        (["x*y' = 0", "y' = 1", "x = 2"], "constraint 'b' cannot be satisfied with 'a', 'c'"),
+    ],
+)
+def test_only_what_is_proved_is_called_a_contradiction(given, said):
+    """A sphere and a tangent plane share a point, where no motion can be derived from them."""
+    [found] = refused(given).value.diagnostics
+    assert said in found.message
 
 
 def test_of_two_constraints_with_factors_one_restricts_everywhere():
