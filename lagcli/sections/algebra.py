@@ -104,6 +104,7 @@ def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
     if section.in_involution is not None:
         charges += f", {section.in_involution} in involution"
     counts = "" if section.dimension_counts == "charges" else f" of the {section.dimension_counts}"
+    counts += ", modulo constants" if section.with_constants and not section.name else ""
     where = [" where ", *conditions(section.named_where)] if section.named_where else []
     yield Paragraph((f"Dimension {section.dimension}{counts}{named}", *where, f"; {charges}."))
     lead = "The Hamilton-Jacobi equation separates: t" if section.separates else "T"

@@ -211,7 +211,8 @@ class AlgebraSection:
 
     `dimension` counts generators: all `number` of them, or those of the point symmetries.
     `independent` is None where no state was found, or not in the work allowed.
-    `closed`: every bracket is a combination of all of them and of constants.  `integrable` is
+    `closed`: every bracket is a combination of all of them and of constants.  `with_constants`:
+    constants belong to the algebra that `dimension` counts without them.  `integrable` is
     True or None; `separates` where the Hamilton-Jacobi equation shows it, not the charges.
     `named_where`: the name is another one where the charges are not real.  `autonomous`: how many
     charges do not depend on t, and the name of the algebra that they make.  Where the motion
@@ -226,6 +227,7 @@ class AlgebraSection:
     integrable: bool | None
     number: int = 0
     closed: bool = False
+    with_constants: bool = False
     separates: bool = False
     special: tuple[SpecialValue, ...] = ()
     named_where: tuple[Above, ...] = ()

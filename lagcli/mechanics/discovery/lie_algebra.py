@@ -66,9 +66,12 @@ def _with_centre(name: str | None, structure: Structure) -> str | None:
     """The name, with a note where the constants belong to the algebra, and no charge in it."""
     if name is None or not any(word in name for word in _EXTENDED):
         return name
-    if _are_shifts(structure.constants, structure.central):
-        return name
-    return f"{name}{MODULO_CONSTANTS}"
+    return f"{name}{MODULO_CONSTANTS}" if has_constants(structure) else name
+
+
+def has_constants(structure: Structure) -> bool:
+    """Whether the constants belong to the algebra: no shift of the charges removes them."""
+    return not _are_shifts(structure.constants, structure.central)
 
 
 def _changes_elsewhere(structure: Structure) -> bool:

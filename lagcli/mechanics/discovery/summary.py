@@ -14,7 +14,7 @@ from lagcli.algebra import is_zero
 from lagcli.mechanics.discovery.brackets import ChargeBrackets, NoState, Structure
 from lagcli.mechanics.discovery.constrained import rank_on_surface
 from lagcli.mechanics.discovery.discovery import Discovery
-from lagcli.mechanics.discovery.lie_algebra import name_of
+from lagcli.mechanics.discovery.lie_algebra import has_constants, name_of
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.states import Contradiction
 from lagcli.statements.answers import AlgebraSection
@@ -36,6 +36,7 @@ class Summary:
     integrable: bool | None
     notes: tuple[str, ...] = ()
     closed: bool = False  # all brackets are combinations of the charges and of constants
+    with_constants: bool = False  # constants belong to the algebra that `dimension` counts
     autonomous: tuple[int, str] | None = None  # of those without t: how many, and their algebra
 
 
@@ -63,6 +64,7 @@ def algebra_section(
         separates=separable,
         number=len(discovery.charges),
         closed=found.closed,
+        with_constants=found.with_constants,
         autonomous=found.autonomous,
         is_prescribed=discovery.is_prescribed,
     )
@@ -113,7 +115,7 @@ def _free(discovery: Discovery) -> Summary:
     if structure is not None:
         dimension, name = len(everything), _name(brackets, everything, structure)
     elif len(everything) > points:
-        dimension, name = _over_energy(brackets, everything, points, energy)
+        dimension, name, structure = _over_energy(brackets, everything, points, energy)
         if name is None:
             notes.append("the integrals of second degree are not counted in the dimension")
     t = discovery.system.t
@@ -142,6 +144,7 @@ def _free(discovery: Discovery) -> Summary:
         involution == freedom or None,
         tuple(notes),
         closed,
+        structure is not None and has_constants(structure),
         alone,
     )
 
@@ -163,16 +166,17 @@ def _without_time(discovery: Discovery) -> tuple[int, str] | None:
 
 def _over_energy(
     brackets: ChargeBrackets, everything: list[int], points: int, energy: int | None
-) -> tuple[int, str | None]:
+) -> tuple[int, str | None, Structure | None]:
     """The algebra where coefficients depend on the energy (Kepler's); else of the points."""
     if energy is not None and all(brackets.commute(energy, k) for k in everything):
         rest = [k for k in everything if k != energy]
         structure = brackets.structure(rest, energy)
         name = None if structure is None else _name(brackets, rest, structure, energy)
         if name is not None:
-            return len(everything), f"the energy and {name}"
+            return len(everything), f"the energy and {name}", structure
     structure = brackets.structure(everything[:points])
-    return points, None if structure is None else _name(brackets, everything[:points], structure)
+    name = None if structure is None else _name(brackets, everything[:points], structure)
+    return points, name, structure
 
 
 def _name(

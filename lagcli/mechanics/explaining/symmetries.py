@@ -217,8 +217,11 @@ def _dimension(found: AlgebraSection) -> Iterator[Block]:
     kind = "symmetries" if found.dimension_counts == "charges" else "point symmetries"
     if not found.name:
         if found.in_involution is not None:
+            counted = f"is {found.dimension}"
+            if found.with_constants:
+                counted += f" modulo constants and {found.dimension + 1} with them"
             yield says(
-                f"The dimension of the {kind} found is {found.dimension}. Their algebra is not "
+                f"The dimension of the {kind} found {counted}. Their algebra is not "
                 "one of those with a name here."
             )
         yield from _without_time(found, [])
