@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 
 import sympy
 from sympy import Expr, Symbol
@@ -43,40 +43,46 @@ def restricting(factors: Sequence[Expr], velocities: Collection[Symbol]) -> Expr
     return next((f for f in factors if not free_of(f, velocities)), factors[-1])
 
 
-def sentence(
-    name: str, factors: Sequence[Expr], velocities: Collection[Symbol], position: Expr | None
-) -> str:
-    """What the factors of a constraint f = 0 on the `position`, or of another, mean."""
-    if position is not None:
-        either = " or where ".join(f"{_written(f)} = 0" for f in factors)
+class Surfaces:
+    """Sentences on surfaces on which the factors of constraints are 0, as `write` has these."""
+
+    def __init__(self, write: Callable[[Expr], str]) -> None:
+        self.write = write
+
+    def of_factors(
+        self,
+        name: str,
+        factors: Sequence[Expr],
+        velocities: Collection[Symbol],
+        position: Expr | None,
+    ) -> str:
+        """What the factors of a constraint f = 0 on the `position`, or of another, mean."""
+        if position is None:
+            alone = self._either(f for f in factors if free_of(f, velocities))
+            return (
+                f"constraint '{name}' does not restrict the velocities where {alone}: "
+                "the answers hold elsewhere"
+            )
         flat = [f for f, power in factors_of(position) if power > 1 and f in factors]
-        there = " or ".join(f"{_written(f)} = 0" for f in flat)
         hold = (
-            f"the answers do not hold where {there}, since its gradient vanishes there"
+            f"the answers do not hold where {self._either(flat)}, since its gradient vanishes there"
             if flat
             else "the answers hold on each"
         )
         return (
-            f"constraint '{name}' holds where {either}: {hold}; "
+            f"constraint '{name}' holds where {self._either(factors, ' or where ')}: {hold}; "
             "what is conserved on some of these only is called not conserved"
         )
-    where = " or ".join(f"{_written(f)} = 0" for f in factors if free_of(f, velocities))
-    return (
-        f"constraint '{name}' does not restrict the velocities where {where}: "
-        "the answers hold elsewhere"
-    )
 
+    def of_another_rank(self, forms: Sequence[Expr], rank: int, usual: int) -> str:
+        """A surface on which other constraints are independent than where the answers hold."""
+        where = self._either(dict.fromkeys(forms), " and ")
+        rest = (
+            "other constraints are redundant"
+            if rank == usual
+            else f"the constraints have rank {rank}, not {usual}"
+        )
+        return f"where {where}, {rest}: the answers do not hold there"
 
-def of_another_rank(forms: Sequence[Expr], rank: int, usual: int) -> str:
-    """A surface on which other constraints are independent than where the answers hold."""
-    where = " and ".join(f"{_written(f)} = 0" for f in dict.fromkeys(forms))
-    if rank == usual:
-        return f"where {where}, other constraints are redundant: the answers do not hold there"
-    return (
-        f"where {where}, the constraints have rank {rank}, not {usual}: "
-        "the answers do not hold there"
-    )
-
-
-def _written(factor: Expr) -> str:
-    return str(factor).replace("**", "^")
+    def _either(self, forms: Iterable[Expr], between: str = " or ") -> str:
+        return between.join(f"{self.write(form)} = 0" for form in forms)

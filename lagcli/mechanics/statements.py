@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from sympy import Expr
 
 from lagcli.expression import Expression, operation_count
-from lagcli.mechanics.branches import of_another_rank, sentence
+from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.branches import Surfaces
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import SolvedMotion
 from lagcli.mechanics.readable import Readable
@@ -152,12 +153,13 @@ class Statements(Stating):
 
     def _on_branches(self) -> Iterator[str]:
         constraints = self.dynamics.constraints
+        surfaces = Surfaces(lambda form: to_grammar(Manner(self.problem)(self.as_written(form))))
         for equation in constraints.equations:
             factors = constraints.branches.get(equation.name, ())
             if factors and not any(constraints.follows(f, equation) for f in factors):
                 position = equation.f if equation.holonomic else None
-                yield sentence(equation.name, factors, self.system.qdot, position)
+                yield surfaces.of_factors(equation.name, factors, self.system.qdot, position)
         states = self.dynamics.states
         for forms, elimination in states.other_surfaces:
             rank, usual = len(elimination.independent), len(self.dynamics.independent_constraints)
-            yield of_another_rank(forms, rank, usual)
+            yield surfaces.of_another_rank(forms, rank, usual)

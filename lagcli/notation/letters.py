@@ -7,7 +7,7 @@ uses one for itself, ours gets the index "sys" (L_sys), and a sentence says the 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection
+from collections.abc import Collection, Iterator, Sequence
 from typing import Any, TypeVar, cast
 from unicodedata import normalize
 
@@ -36,6 +36,7 @@ _WORDS = (
 #: Names there are those of the file.
 _OF_THE_FILE = re.compile(r"(\bthe functions? .*? (?:is|are) not specified)")
 _OF_FUNCTIONS = re.compile(r"(the functions? )(.*)( (?:is|are) not specified)")
+_OPERATION = re.compile(r"\w\(|[*/^]| [-+] ")
 _LETTERS = re.compile(
     r"(?<![\w'])(T \+ V|[LH]|T(?= is | plus )|V(?= depends | without )|t(?= explicitly))(?![\w'])"
 )
@@ -53,23 +54,62 @@ def names_in(value: object) -> set[str]:
     return {part.name for part in parts if isinstance(part, Name)} | called - FUNCTIONS.keys()
 
 
-def with_names(text: str, names: Collection[str]) -> tuple[str | Name, ...]:
-    """The sentence with names of the file as they are set: θ in "there is one at theta = 0".
+def with_names(text: str, names: Collection[str]) -> tuple[str | Expression, ...]:
+    """The sentence with names and formulas of the file as they are set: θ in "at theta = 0".
 
-    One letter may be a word: it is a name with primes, or before a relation.
+    One letter may be a word: it is a name with primes, before a relation, or in a formula.
     """
     ordered = sorted((re.escape(n) for n in names), key=len, reverse=True)
+    if not ordered:
+        return (text,)
+    parts: list[str | Expression] = []
+    end = 0
+    for start, stop, node in _formulas(text, ordered):
+        parts += [*_single_names(text[end:start], ordered), node]
+        end = stop
+    return tuple(part for part in (*parts, *_single_names(text[end:], ordered)) if part != "")
+
+
+def _single_names(text: str, ordered: Sequence[str]) -> Iterator[str | Name]:
     long, short = ("|".join(n for n in ordered if (len(n) > 1) == several) for several in (1, 0))
     either = [f"({long})('*)"] * bool(long) + [f"({short})('+|(?= [=<>≠] ))"] * bool(short)
-    if not either:
-        return (text,)
-    parts: list[str | Name] = []
     end = 0
     for found in re.finditer(rf"(?<![\w'])(?:{'|'.join(either)})(?![\w'(])", text):
         name, primes = (g for g in found.groups() if g is not None)
-        parts += [text[end : found.start()], Name(name, len(primes))]
+        yield text[end : found.start()]
+        yield Name(name, len(primes))
         end = found.end()
-    return tuple(part for part in (*parts, text[end:]) if part != "")
+    yield text[end:]
+
+
+def _formulas(text: str, ordered: Sequence[str]) -> Iterator[tuple[int, int, Expression]]:
+    """The longest parts that read as sums, products, powers or calls of the names, and where."""
+    if not _OPERATION.search(text):
+        return
+    names = "|".join((*ordered, *(rf"{function}(?=\()" for function in FUNCTIONS)))
+    token = rf"(?:(?:{names})'*(?![\w'])|\d+(?![\w.])|[-+*/^()])"
+    end = 0
+    for run in re.finditer(rf"(?<![\w'.]){token}(?: ?{token})+", text):
+        marks = [found.span() for found in re.finditer(token, run[0])]
+        for first, last in ((a, b) for a, _ in marks for _, b in reversed(marks)):
+            start, stop = run.start() + first, run.start() + last
+            if end <= start < stop and (node := _read(run[0][first:last], ordered)):
+                yield start, stop, node
+                end = stop
+
+
+def _read(text: str, names: Collection[str]) -> Expression | None:
+    from lagcli.diagnostics import ProblemError
+    from lagcli.reader.expressions import parse_text
+
+    if not _OPERATION.search(text):
+        return None
+    try:
+        node = parse_text(text)
+    except ProblemError:
+        return None
+    used = names_in(node)
+    return node if used and used <= {*names} else None
 
 
 def settled(page: Page, taken: Collection[str]) -> Page:

@@ -6,6 +6,7 @@ import pytest
 
 from lagcli.expression import Name
 from lagcli.notation.letters import sentence, with_names
+from lagcli.reader.expressions import parse_text
 
 
 @pytest.mark.parametrize(
@@ -21,6 +22,11 @@ from lagcli.notation.letters import sentence, with_names
         ("where theta2 > a", ("where ", Name("theta2"), " > a")),
         ("atheta and theta_3 stay", ("atheta and theta_3 stay",)),
         ("theta(t) is given", ("theta(t) is given",)),
+        ("where theta - 2*u^2 = 0", ("where ", parse_text("theta - 2*u^2"), " = 0")),
+        ("or sin(theta) = 0: a rest", ("or ", parse_text("sin(theta)"), " = 0: a rest")),
+        ("(u' + 1)/theta2, not x - u", (parse_text("(u' + 1)/theta2"), ", not x - u")),
+        ("a theta-like a - 0.3", ("a ", Name("theta"), "-like a - 0.3")),
+        ("U(theta - u) is given", ("U(", parse_text("theta - u"), ") is given")),
     ],
 )
 def test_what_is_a_name(text, parts):
