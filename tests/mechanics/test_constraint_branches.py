@@ -262,7 +262,7 @@ def test_constraints_that_hold_together_are_not_said_to_contradict(given, name):
         (["x*y' = 0", "y' = 1", "x = 2"], "constraint 'b' cannot be satisfied with 'a', 'c'"),
     ],
 )
-def test_only_what_is_proved_is_called_a_contradiction(given, said):
+def test_surfaces_that_touch_are_no_contradiction(given, said):
     """A sphere and a tangent plane share a point, where no motion can be derived from them."""
     [found] = refused(given).value.diagnostics
     assert said in found.message
