@@ -43,10 +43,10 @@ from lagcli.statements.wording import (
     linear_equations,
     listed,
     none_found,
+    other_motions,
     other_places,
     place_rows,
     the_equilibria,
-    there_may_be_others,
 )
 
 if TYPE_CHECKING:
@@ -99,8 +99,8 @@ def blocks(section: SteadySection, answers: Answers) -> Iterator[Block]:
         yield Heading(f"Steady motion {number}", 2)
         yield from _motion(group[0], group[1:])
     yield from in_moving_frames(section)
-    if section.motions and not section.complete:
-        yield there_may_be_others(section)
+    if section.motions:
+        yield from other_motions(section)
 
 
 def _motion(motion: SteadyMotion, alike: Sequence[SteadyMotion] = ()) -> Iterator[Block]:

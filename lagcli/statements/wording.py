@@ -426,13 +426,22 @@ def constraints_give(names: Collection[str]) -> str:
     return f"The constraint{'s give' if len(names) > 1 else ' gives'} "
 
 
-def there_may_be_others(section: SteadySection) -> Paragraph:
+def while_open(contacts: Sequence[object]) -> str:
+    """While what is said without the force of a contact holds; empty without contacts."""
+    return f" while the contact{' is' if len(contacts) == 1 else 's are'} open" if contacts else ""
+
+
+def other_motions(section: SteadySection) -> Iterator[Paragraph]:
     """That not all steady motions are listed, and where none was sought."""
+    if section.where:
+        yield Paragraph((f"They were sought only{section.where}.",))
+    if section.complete:
+        return
     parts: list[Part] = []
     for each in section.singular_where:
         parts += [" or " if parts else ", as where ", each, " = 0"]
     parts += [": the coordinates are singular there"] if parts else []
-    return Paragraph(("There may be others", *parts, "."))
+    yield Paragraph(("There may be others", *parts, "."))
 
 
 def in_moving_frames(section: SteadySection) -> Iterator[Paragraph]:

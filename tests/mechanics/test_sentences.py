@@ -251,6 +251,7 @@ def test_what_the_constraints_eliminate_is_named_before_none_is_cyclic():
     assert "None of the other coordinates is cyclic" in sentences
     answers = " ".join(str(lagcli.solve(lagcli.loads(text), sections=["reduction"])).split())
     assert "None of the other coordinates is cyclic: the Routhian is the Lagrangian." in answers
+    assert "with the constraint put in" in said(text, "Discovered symmetries", "discovered")
 
 
 # -- turning points -------------------------------------------------------------------------------
@@ -654,7 +655,18 @@ def test_no_motion_is_called_steady_through_an_impact():
         " contacts: {buffer: {gap: s - q, restitution: e}}}"
     )
     told = words(explain(derive(text), ["steady_motions"]), "Steady motions")
-    assert "steady while the contacts are open" in told
+    assert "steady while the contact is open" in told
+
+
+@pytest.mark.parametrize("walls", [1, 2])
+def test_steady_motions_are_said_to_be_sought_without_contacts(walls):
+    """At rest on a contact its force would have to be added."""
+    contacts = ", ".join(f"w{k}: {{gap: x >= {-k - 1}, restitution: 0}}" for k in range(walls))
+    text = f"{{coordinates: [x, y], T: x'^2 + y'^2, V: x^2 + y^4, contacts: {{{contacts}}}}}"
+    told = words(explain(derive(text), ["steady_motions"]), "Steady motions")
+    contact = "the contact is open" if walls == 1 else "the contacts are open"
+    assert f"They were sought only while {contact}." in told
+    assert "There may be others." not in told
 
 
 @pytest.mark.long

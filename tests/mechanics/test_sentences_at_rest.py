@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+import re
 
 import mpmath
 import pytest
@@ -867,6 +868,7 @@ def test_conditions_of_a_constraint_that_opens_are_said_to_be_of_its_contact(a):
     )
     told = said(text, "Equilibria", "equilibria")
     assert "'wall' is open here" in told
+    assert re.findall("In contact: ([^.]*)[.]", told) == ["floor", "wall, floor"]
     assert "Each contact is either closed, and pushes, or open, and there is no force." in told
 
 

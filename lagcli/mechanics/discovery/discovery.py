@@ -140,7 +140,8 @@ class Discovery(Setting):
         if fewer is None or fewer.unsearched:
             return False
         self.unconstrained = fewer
-        self.words.append(f"with the constraints put in, {'; '.join(dict.fromkeys(fewer.words))}")
+        given = "constraints" if len(self.dynamics.constraints.equations) > 1 else "constraint"
+        self.words.append(f"with the {given} put in, {'; '.join(dict.fromkeys(fewer.words))}")
         self.stopped += fewer.stopped
         self.unproved = fewer.unproved
         self.cartesian, self.cartesian_lead = fewer.cartesian, fewer.cartesian_lead

@@ -35,11 +35,12 @@ from lagcli.statements.wording import (
     in_moving_frames,
     in_polar_coordinates,
     linear_equations,
+    other_motions,
     other_places,
     place_rows,
     the_equilibria,
-    there_may_be_others,
     unless,
+    while_open,
 )
 
 _BALANCED = {
@@ -66,7 +67,7 @@ def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
         constant = (
             "momenta are constant" if timed else "velocities are constant: every motion is steady"
         )
-        between = " while the contacts are open" if explainer.derivation.problem.contacts else ""
+        between = while_open(explainer.derivation.problem.contacts)
         left = " that is left" if explainer.dynamics.constraints.equations else ""
         yield says(f"Every coordinate{left} is cyclic, so all {constant}{between}.")
         return
@@ -158,8 +159,8 @@ def _steady_states(explainer: Explainer, found: SteadySection) -> Iterator[Block
         yield from _motion(explainer, group[0], group[1:])
     yield from in_moving_frames(found)
     yield from in_polar_coordinates(found)
-    if found.motions and not found.complete:
-        yield there_may_be_others(found)
+    if found.motions:
+        yield from other_motions(found)
     if found.motions:
         yield from recurring(explainer)
 

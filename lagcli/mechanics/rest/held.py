@@ -83,8 +83,8 @@ class HeldCombination:
         Functions of q and the multipliers.
     gaps
         Of the contacts that are open.
-    touching, sticking
-        The names of the closed contacts; whether dry friction holds something.
+    touching, closed, sticking
+        The closed contacts that may open; all that are closed; whether dry friction holds.
     """
 
     rest: RestPoints
@@ -92,6 +92,7 @@ class HeldCombination:
     gaps: tuple[Expr, ...] = ()
     touching: tuple[str, ...] = ()
     open: tuple[str, ...] = ()
+    closed: tuple[str, ...] = ()
     sticking: bool = False
     kinked: bool = False
 
@@ -235,6 +236,7 @@ def _variant(
         (*gaps, *(each.u**2 for name, each in kinks.items() if name in opened)),
         tuple(each.name for each in closed if each.may_open),
         tuple(name for name in opened if name not in kinks),
+        tuple(each.name for each in closed),
         sticking=bool(friction),
         kinked=bool(shut),
     )

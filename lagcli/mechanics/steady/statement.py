@@ -48,9 +48,7 @@ from lagcli.notation.manner import Manner
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.statements.motions import Above, SteadyMotion, SteadySection, Verdict
-
-#: Where none was found, those along a closed contact were not sought.
-_OPEN = " while the contacts are open"
+from lagcli.statements.wording import while_open
 
 
 def steady_motions(derivation: Derivation) -> tuple[SteadySection, Missing]:
@@ -124,9 +122,8 @@ class _SteadyStatement:
                     self.steady.full.parameters,
                     self._shape,
                 ),
-                # those along a closed contact, and on a kink of V, are not sought
-                complete=steady.complete
-                and not (found and (steady.full.problem.contacts or self._is_kinked)),
+                # those on a kink of V are not sought
+                complete=steady.complete and not (found and self._is_kinked),
                 singular_where=()
                 if steady.complete
                 else tuple(map(self._shape, CoincidingAxes(self.routh).singular_where)),
@@ -134,7 +131,8 @@ class _SteadyStatement:
                 momenta=cyclic,
                 resting=resting,
                 unless=() if found else unless_written(steady.unless, self.order),
-                where=steady.rest.restricted_to + _OPEN * bool(steady.full.problem.contacts),
+                # nor those along a closed contact
+                where=steady.rest.restricted_to + while_open(steady.full.problem.contacts),
                 frames=self._frames if found and not steady.full.problem.contacts else (),
                 plane=plane,
             ),
