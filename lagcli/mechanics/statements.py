@@ -153,7 +153,8 @@ class Statements(Stating):
 
     def _on_branches(self) -> Iterator[str]:
         constraints = self.dynamics.constraints
-        surfaces = Surfaces(lambda form: to_grammar(Manner(self.problem)(self.as_written(form))))
+        manner = Manner(self.problem)
+        surfaces = Surfaces(lambda form: to_grammar(manner.vanishing(self.as_written(form))))
         for equation in constraints.equations:
             factors = constraints.branches.get(equation.name, ())
             if factors and not any(constraints.follows(f, equation) for f in factors):

@@ -470,7 +470,8 @@ def is_tidy(node: Expression) -> bool:
             bad = isinstance(above, (Negative, Quotient)) or isinstance(below, Quotient)
             bad = bad or gcd(_number(above), _number(below)) > 1
         case Power(base=base, exponent=exponent):
-            bad = isinstance(base, (Product, Quotient)) or exponent == ONE  # (2 l θ')², x¹
+            bad = isinstance(base, Product) or exponent == ONE  # (2 l θ')², x¹
+            bad = bad or (isinstance(base, Quotient) and not all(map(is_letter, children(base))))
         case _:
             bad = False
     return not bad and all(map(is_tidy, children(node)))

@@ -384,6 +384,14 @@ def test_squared_brackets_of_a_potential_keep_their_symmetry() -> None:
     assert found.count("+ q₁²/(2 C) + q₂²/(2 C) + (q₁ − q₂)²/(2 C)") == 2
 
 
+@pytest.mark.parametrize(("n", "k"), [(12, 6), (4, 2), (3, 1)])
+def test_a_power_of_a_ratio_in_a_potential_stays(n: int, k: int) -> None:
+    """(s/r)¹² − (s/r)⁶ of Lennard and Jones, not s¹²/r¹² − s⁶/r⁶."""
+    physics = f"T: m*(r'^2 + r^2*u'^2)/2\nV: 4*q*((s/r)^{n} - (s/r)^{k})"
+    found = text("r, u", "m q s", physics, "lagrangian", "energy", "hamiltonian", "reduction")
+    assert found.count("4 q ((s/r)") >= 4
+
+
 @pytest.mark.parametrize("parameters", ["I m k", "m k I"])
 @pytest.mark.parametrize(
     ("given", "inertia"), [("I + m*r^2", "I + m r²"), ("m*r^2 + I", "m r² + I")], ids=["I m", "m I"]
