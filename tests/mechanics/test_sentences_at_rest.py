@@ -870,6 +870,9 @@ def test_conditions_of_a_constraint_that_opens_are_said_to_be_of_its_contact(a):
     assert "'wall' is open here" in told
     assert re.findall("In contact: ([^.]*)[.]", told) == ["floor", "wall, floor"]
     assert "Each contact is either closed, and pushes, or open, and there is no force." in told
+    told = said(text, "Small oscillations", "modes")
+    allowed = "the displacements that the constraint allows, in terms of those of x and th"
+    assert f"{allowed}, while the contact 'wall' is open." in told
 
 
 @pytest.mark.parametrize(("V", "length"), [

@@ -127,13 +127,15 @@ def _linear(explainer: Explainer, place: Place) -> Iterator[Block]:
     yield from linear_equations("the equations of motion are ", *matrices)
     near, entries = place.near, (e for m in place.matrices for row in m for e in row)
     where = above_zero(squares_divided_by(entries), near.system.order, place.point.positive)
-    constraints = len(explainer.dynamics.constraints.equations)
+    equations = [each.name for each in explainer.dynamics.constraints.equations]
+    lost = [name for name in place.held.open if name in equations]
     names = near.system.names
     pole = (names[near.radius], names[near.around]) if isinstance(near, AtPole) else None
     contacts = {contact.name for contact in explainer.problem.contacts}
     closed = [name for name in place.held.touching if name in contacts]
     free = [q.name for q in near.independent]
-    yield from displacements(constraints, free, where, closed=closed, pole=pole)
+    number = len(equations) - len(lost)
+    yield from displacements(number, free, where, closed=closed, lost=lost, pole=pole)
 
 
 # -- without damping -----------------------------------------------------------------------------

@@ -77,11 +77,13 @@ def displacements(
     where: Sequence[Above],
     *,
     closed: Sequence[str] = (),
+    lost: Sequence[str] = (),
     pole: tuple[str, str] | None = None,
 ) -> Iterator[Paragraph]:
     """Which displacements linear equations are about, and where these are finite.
 
-    At a `pole` of a distance r and an angle φ they are those of r cos φ and r sin φ.
+    The contacts `closed` stay so, the one-sided constraints `lost` do not act.  At a `pole` of a
+    distance r and an angle φ they are those of r cos φ and r sin φ.
     """
     parts: list[Part] = []
     allowed = [constraints_allow(constraints)] if constraints else []
@@ -89,6 +91,9 @@ def displacements(
     if allowed:
         parts += [f"restricted to the displacements that {' and that '.join(allowed)}"]
         parts += [", in terms of those of ", *names(free)] if free else []
+    if lost:
+        verb = "is" if len(lost) == 1 else "are"
+        parts += [", " * bool(parts), f"while {constraints_named('the contact', lost)} {verb} open"]
     if pole is not None:
         r, phi = map(Name, pole)
         first, second = Call("cos", (phi,)), Call("sin", (phi,))
