@@ -299,12 +299,12 @@ initial: {x: 1, y: 0}
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("accuracy", [1e-6, 1e-12])
-def test_a_stiff_spring_against_many_digits(accuracy):
+def test_a_stiff_spring_against_many_digits():
     true = simulated(SPRING, 0.25, 1e-14, digits=30, method="taylor")
-    found = simulated(SPRING, 0.25, accuracy)
-    assert found.certificate.reached
-    assert found.rows[-1] == pytest.approx(true.rows[-1], rel=accuracy, abs=accuracy)
+    for accuracy in (1e-6, 1e-12):
+        found = simulated(SPRING, 0.25, accuracy)
+        assert found.certificate.reached
+        assert found.rows[-1] == pytest.approx(true.rows[-1], rel=accuracy, abs=accuracy)
 
 
 @pytest.mark.parametrize("power", [-60, -30, 30, 60])

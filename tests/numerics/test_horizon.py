@@ -24,8 +24,8 @@ def _rate(seed):
     return round(random.Random(seed).uniform(0.1, 9), 3)
 
 
-#: Each takes ten seconds: two are for `make check-all`, the others by `-m hours`.
-SEEDS = [pytest.param(k, marks=pytest.mark.long if k < 2 else pytest.mark.hours) for k in range(6)]
+#: Each takes ten seconds: one is for `make check-all`, the others by `-m hours`.
+SEEDS = [pytest.param(k, marks=pytest.mark.hours if k else pytest.mark.long) for k in range(6)]
 
 
 @pytest.mark.parametrize("method", ["auto", "taylor64"])
