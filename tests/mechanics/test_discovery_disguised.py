@@ -157,7 +157,7 @@ def test_a_hoop_on_an_incline_has_all_its_integrals():
 
 def test_a_sum_with_the_schroedinger_algebra_keeps_its_name():
     name = f"{LINE.removesuffix(', modulo constants')} + R, modulo constants"
-    assert signatures_of(name) == {None: (6, 2, 1, 0)}
+    assert signatures_of(name) == {None: (6, 2, 1, 6, 0, 0)}
     text = problem("(r'^2 + r^2*v'^2 + z'^2)/2 - k*(r^2 + z^2)/2 - b/r^2",
                    "{r: {assume: positive}, v: {}, z: {}}", "k b")  # fmt: skip
     answers = solve(read_problem("test.yaml", text.encode()).checked(), ["algebra"])

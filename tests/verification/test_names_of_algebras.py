@@ -131,3 +131,23 @@ def test_a_name_for_each_sign_of_the_energy_is_tried(n: int, right: tuple[str, .
         spoiled = {**answers.sections, "algebra": replace(section, name=wrong)}
         found = verified(problem, replace(answers, sections=spoiled))
         assert found.sections["algebra"].name is None
+
+
+@pytest.mark.parametrize(
+    ("surface", "name"),
+    [("x^2 + y^2 + z^2 = R^2", "so(3)"), ("z = b", "Schrödinger")],
+)
+def test_a_name_is_tried_on_constraints(surface: str, name: str) -> None:
+    """{L_x, L_y} = L_z with Dirac's bracket of a sphere; a plane is free of its z."""
+    text = (
+        "coordinates: [x, y, z]\nparameters: {m: {assume: positive}, R: {assume: positive}, b: {}}\n"
+        f"T: m*(x'^2 + y'^2 + z'^2)/2\nconstraints: {{s: {surface}}}\n"
+    )
+    problem = read_problem("test.yaml", text.encode()).checked()
+    answers = solve(problem, ["discovered", "algebra"])
+    section = answers.sections["algebra"]
+    assert section.name.startswith(name)
+    for wrong in ("sl(2,R)", "e(2)", "R^3", "sl(2,R) + so(1,1) with Heisenberg h(2)"):
+        spoiled = {**answers.sections, "algebra": replace(section, name=wrong)}
+        found = verified(problem, replace(answers, sections=spoiled))
+        assert found.sections["algebra"].name is None

@@ -1,14 +1,14 @@
 """The Lie algebra of the listed charges: counts, structure constants, invariants of its name.
 
 The brackets of the charges are fitted by combinations of them and of 1 at random states with the
-same parameters, and tried at others.  A name stands for a dimension and a signature of the
-Killing form tr(ad_a ad_b), which a basis does not change.
+same parameters, and tried at others.  A name stands for what a basis does not change: dimensions of
+the algebra and of the derived one, and the signature of the Killing form tr(ad_a ad_b).
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import islice, pairwise
 
 from flint import arb, arb_mat
@@ -25,16 +25,18 @@ _SMALL = 1e-12
 _NO_COEFFICIENT = 1e-25  # measured: zeros are below 2e-35
 #: Choices of the parameters at which the name is tried.
 _PARAMETERS = 12
-#: Dimension, how many positive and negative eigenvalues the Killing form has, and how many it may
-#: have besides: of R that acts on h(d), which the name does not say to turn or to stretch.
-Signature = tuple[int, int, int, int]
+#: Dimension, how many positive and negative eigenvalues the Killing form has, the dimension of the
+#: derived algebra with the constants in it; how many more eigenvalues and dimensions of the derived
+#: algebra there may be: a name does not say whether R turns or stretches h(d), nor how much of it.
+Signature = tuple[int, int, int, int, int, int]
 _KNOWN: dict[str, Signature] = {
-    "so(3)": (3, 0, 3, 0), "sl(2,R)": (3, 2, 1, 0), "so(4)": (6, 0, 6, 0),
-    "so(3,1)": (6, 3, 3, 0), "so(2,2)": (6, 4, 2, 0), "su(3)": (8, 0, 8, 0),
-    "so(5)": (10, 0, 10, 0), "so(4,1)": (10, 4, 6, 0), "so(3,2)": (10, 6, 4, 0),
-    "e(2)": (3, 0, 1, 0), "R": (1, 0, 0, 0), "so(2)": (1, 0, 1, 0), "so(1,1)": (1, 1, 0, 0),
-    "Poincaré iso(1,1)": (3, 1, 0, 0), "oscillator algebra": (4, 0, 1, 0),
-    "oscillator algebra (hyperbolic)": (4, 1, 0, 0),
+    "so(3)": (3, 0, 3, 3, 0, 0), "sl(2,R)": (3, 2, 1, 3, 0, 0), "so(4)": (6, 0, 6, 6, 0, 0),
+    "so(3,1)": (6, 3, 3, 6, 0, 0), "so(2,2)": (6, 4, 2, 6, 0, 0), "su(3)": (8, 0, 8, 8, 0, 0),
+    "so(5)": (10, 0, 10, 10, 0, 0), "so(4,1)": (10, 4, 6, 10, 0, 0),
+    "so(3,2)": (10, 6, 4, 10, 0, 0),
+    "e(2)": (3, 0, 1, 2, 0, 0), "R": (1, 0, 0, 0, 0, 0), "so(2)": (1, 0, 1, 0, 0, 0),
+    "so(1,1)": (1, 1, 0, 0, 0, 0), "Poincaré iso(1,1)": (3, 1, 0, 2, 0, 0),
+    "oscillator algebra": (4, 0, 1, 3, 0, 0), "oscillator algebra (hyperbolic)": (4, 1, 0, 3, 0, 0),
 }  # fmt: skip
 _MODULO_CONSTANTS = ", modulo constants"
 #: Energies for which a name says that it is that of the algebra.
@@ -146,15 +148,19 @@ class Counted:
     # -- structure ------------------------------------------------------------------------------
 
     def _has_name(self, name: str) -> bool:
-        """Whether the Killing form has the signature that the name stands for.
+        """Whether the algebra has the signature that the name stands for.
 
         For several choices of the parameters: their signs may change that.
         """
         expected = signatures_of(name)
         size_ = self.section.dimension
         columns = size_ + 1 if None in expected else 2 * size_ + 1
-        around = islice(around_states(self.x, self.places, columns + 4), _PARAMETERS)
+        around = islice(self._around(columns + 4), _PARAMETERS)
         return bool(expected) and all(_has(each, size_, columns, expected) for each in around)
+
+    def _around(self, count: int) -> Iterator[Sequence[CanonicalSample]]:
+        """So many samples for each of several choices of the parameters."""
+        return around_states(self.x, self.places, count, CanonicalSample)
 
 
 def algebra(
@@ -188,11 +194,18 @@ def _has(
     )
 
 
-def _has_signature(constants: Sequence[Sequence[Sequence[arb]]], expected: Signature) -> bool:
+def _has_signature(brackets: Sequence[Sequence[Sequence[arb]]], expected: Signature) -> bool:
+    constants = [[row[:-1] for row in rows] for rows in brackets]
     plus, minus = signs([[_trace(one, other) for other in constants] for one in constants])
-    size_, least_plus, least_minus, more = expected
+    size_, least_plus, least_minus, derived, more, outside = expected
     beyond = (plus - least_plus, minus - least_minus)
-    return len(constants) == size_ and min(beyond) >= 0 and sum(beyond) <= more
+    products = [row for number, rows in enumerate(brackets) for row in rows[:number]]
+    return (
+        len(constants) == size_
+        and min(beyond) >= 0
+        and sum(beyond) <= more
+        and _rank(products, size_ + 1) in {-1, *range(derived, derived + outside + 1)}
+    )
 
 
 def signs(form: Sequence[Sequence[arb]]) -> tuple[int, int]:
@@ -211,7 +224,7 @@ def signs(form: Sequence[Sequence[arb]]) -> tuple[int, int]:
 def _structure(
     around: Sequence[CanonicalSample], count: int, columns: int
 ) -> Callable[[int], list[list[list[arb]]]] | None:
-    """C, by the energy E, with {Q_a, Q_b} = sum_c C_abc Q_c + a constant; None where there is none.
+    """C, by the energy E, with {Q_a, Q_b} = sum_c C_abc Q_c + C_ab1; None where there is none.
 
     C = A + E B where there are columns for the E Q_c.
     """
@@ -229,16 +242,17 @@ def _structure(
         return None
     found = {}
     for column, (a, b) in enumerate(pairs):
-        found[a, b] = [solution[place, column].mid() for place in range(columns)]
+        fit = (solution[place, column].mid() for place in range(columns))
+        found[a, b] = [c if size(c) > _SMALL else arb(0) for c in fit]
         for s in tried:
             value = dot(found[a, b], row(s))
             if size(value - s.bracket(a, b)) > 1e-9 * (1 + size(value)):
                 return None
 
     def constants(energy: int) -> list[list[list[arb]]]:
-        whole = [[[arb(0)] * count for _ in range(count)] for _ in range(count)]
+        whole = [[[arb(0)] * (count + 1) for _ in range(count)] for _ in range(count)]
         for (a, b), given in found.items():
-            rates = given[count + 1 :] or [arb(0)] * count
+            rates = [*(given[count + 1 :] or [arb(0)] * count), arb(0)]
             whole[a][b] = [c + energy * rate for c, rate in zip(given, rates, strict=False)]
             whole[b][a] = [-c for c in whole[a][b]]
         return whole
@@ -275,8 +289,7 @@ def signatures_of(name: str) -> dict[int | None, Signature]:
         signature = signature_of(f"{algebra_} + R" if name.startswith(_OVER_ENERGY) else algebra_)
         if signature is None:
             return {}
-        size_, plus, minus, more = signature
-        found[_AT.get(where)] = (size_ - name.endswith(_MODULO_CONSTANTS), plus, minus, more)
+        found[_AT.get(where)] = (signature[0] - name.endswith(_MODULO_CONSTANTS), *signature[1:])
     return found
 
 
@@ -288,7 +301,9 @@ def signature_of(name: str) -> Signature | None:
     parts = (acting[3] if acting else name) or "R^0"
     known = [*map(_one, parts.split(" + "))]
     if acting:
-        known += [_one(f"Heisenberg h({acting[2]})"), *map(_acting, acting[1].split(" + "))]
+        d, all_of_it = int(acting[2]), name.startswith("Schrödinger")
+        derived = (1 + 2 * d, 0, 0) if all_of_it else (1, 0, 2 * d)
+        known += [(2 * d + 1, 0, 0, *derived), *map(_acting, acting[1].split(" + "))]
     if None in known:
         return None
     return tuple(map(sum, zip(*known, strict=True)))  # type: ignore[return-value]
@@ -296,7 +311,7 @@ def signature_of(name: str) -> Signature | None:
 
 def _acting(name: str) -> Signature | None:
     found = _one(name)
-    return (*found[:3], found[0]) if found and name.startswith("R") else found
+    return (*found[:4], found[0], 0) if found and name.startswith("R") else found
 
 
 def _one(name: str) -> Signature | None:
@@ -306,12 +321,14 @@ def _one(name: str) -> Signature | None:
     if found is None:
         return None
     if found[3]:
-        return (int(found[3]), 0, 0, 0)
+        return (int(found[3]), 0, 0, 0, 0, 0)
     d = int(found[2])
     turns = d * (d - 1) // 2
+    turned = turns if d > 2 else 0  # so(2) is no bracket
+    boosted = d if d > 1 else 0  # rotations give boosts
     return {
-        "Heisenberg h(": (2 * d + 1, 0, 0, 0),
-        "e(": (turns + d, 0, turns, 0),
-        "Galilei in ": (2 + turns + 2 * d, 0, turns, 0),
-        "Poincaré iso(": (turns + 2 * d + 1, d, turns, 0),
+        "Heisenberg h(": (2 * d + 1, 0, 0, 1, 0, 0),
+        "e(": (turns + d, 0, turns, turned + d, 0, 0),
+        "Galilei in ": (2 + turns + 2 * d, 0, turns, turned + boosted + d + 1, 0, 0),
+        "Poincaré iso(": (turns + 2 * d + 1, d, turns, turns + 2 * d + 1, 0, 0),
     }.get(found[1])

@@ -16,25 +16,55 @@ from itertools import islice
 from flint import arb
 
 from lagcli.verification.claims.algebra import Counted, rank_of
-from lagcli.verification.claims.canonical_samples import CanonicalSample
+from lagcli.verification.claims.canonical_samples import CanonicalSample, around_states
 from lagcli.verification.examination import LOOKED_AT, STATES, Examination
-from lagcli.verification.linear import Unclear, dot, solve
+from lagcli.verification.linear import Unclear, dot, rank, solve
+from lagcli.verification.states import State
+
+
+class OnConstraints(CanonicalSample):
+    """A state on the constraints, with the functions in front of the forms phi_a."""
+
+    def __init__(self, state: State, functions: Sequence[int]) -> None:
+        rows = state.reference.rows
+        forms = [row.value for row in rows if row.holonomic] + [row.velocity for row in rows]
+        super().__init__(state, [*functions, *forms])
+        self.forms = range(len(functions), len(functions) + len(forms))
+
+    def bracket(self, i: int, j: int) -> arb:
+        """Dirac's."""
+        return self.terms(i, j)[0]
+
+    def terms(self, i: int, j: int) -> tuple[arb, arb]:
+        """{f_i, f_j}_D, and the size of what it is the sum of.
+
+        Raises
+        ------
+        Unclear
+            Where the constraints depend on each other.
+        """
+        poisson, forms = super().bracket, self.forms
+        C = [[poisson(a, b) for b in forms] for a in forms]
+        inner = solve(C, [poisson(a, j) for a in forms], len(forms)).x
+        outer = [poisson(i, a) for a in forms]
+        sizes = (abs(a * b) for a, b in zip(outer, inner, strict=True))
+        return poisson(i, j) - dot(outer, inner), sum(sizes, arb(0))
 
 
 class OnSurface(Counted):
     """A section beside what states on the constraints say."""
 
+    samples: Sequence[OnConstraints]
+
     @classmethod
-    def sampled(cls, x: Examination, places: Sequence[int]) -> Sequence[CanonicalSample]:
+    def sampled(cls, x: Examination, places: Sequence[int]) -> Sequence[OnConstraints]:
         """Samples of the charges and of the constraints."""
-        rows = x.reference.rows
-        forms = [row.value for row in rows if row.holonomic] + [row.velocity for row in rows]
-        return list(islice(_samples(x, [*places, *forms]), STATES))
+        return list(islice(_samples(x, places), STATES))
 
     @property
     def forms(self) -> range:
         """The numbers of the constraints among the functions."""
-        return range(self.count, len(self.samples[0].slopes))
+        return self.samples[0].forms
 
     @property
     def freedom(self) -> int:
@@ -55,25 +85,25 @@ class OnSurface(Counted):
     def _commute(self, i: int, j: int) -> bool:
         return all(self._vanishes(s, i, j) for s in self.samples)
 
-    def _vanishes(self, s: CanonicalSample, i: int, j: int) -> bool:
-        C = [[s.bracket(a, b) for b in self.forms] for a in self.forms]
+    def _vanishes(self, s: OnConstraints, i: int, j: int) -> bool:
         try:
-            inner = solve(C, [s.bracket(a, j) for a in self.forms], len(self.forms)).x
+            whole, terms = s.terms(i, j)
         except Unclear:
             return False
-        outer = [s.bracket(i, a) for a in self.forms]
-        terms = [abs(a * b) for a, b in zip(outer, inner, strict=True)]
-        whole = s.bracket(i, j) - dot(outer, inner)
-        return bool(abs(whole).mid() < 1e-9 * (1 + sum(terms, arb(0)).mid()))
+        return bool(abs(whole).mid() < 1e-9 * (1 + terms.mid()))
 
-    def _has_name(self, name: str) -> bool:
-        del name
-        return True
+    def _around(self, count: int) -> Iterator[Sequence[OnConstraints]]:
+        """Where the charges and 1 are independent on the constraints, and C is regular."""
+        for around in around_states(self.x, self.places, count, OnConstraints):
+            rows = [[*s.values[: self.count], arb(1)] for s in around]
+            with suppress(Unclear):
+                if rank(rows, self.count + 1) == self.count + 1 and around[0].terms(0, 0):
+                    yield around
 
 
-def _samples(x: Examination, functions: Sequence[int]) -> Iterator[CanonicalSample]:
+def _samples(x: Examination, functions: Sequence[int]) -> Iterator[OnConstraints]:
     for state in x.states(LOOKED_AT):
         with suppress(Unclear):
-            sample = CanonicalSample(state, functions)
+            sample = OnConstraints(state, functions)
             if sample.finite:
                 yield sample

@@ -7,15 +7,16 @@ With p = dL/dq', dp = P dq + M dq', so that at constant p and q
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from random import Random
+from typing import TypeVar
 
 from flint import arb
 
 from lagcli.verification.examination import LOOKED_AT, Examination
 from lagcli.verification.linear import Unclear, dot, solve
 from lagcli.verification.phase_points import Slopes, poisson
-from lagcli.verification.states import State
+from lagcli.verification.states import State, onto_constraints
 from lagcli.verification.sweeps import column
 
 #: Attempts for each sample: a root may have no value there.
@@ -46,6 +47,9 @@ class CanonicalSample:
         return poisson(self.slopes[i], self.slopes[j])
 
 
+Sample = TypeVar("Sample", bound=CanonicalSample)
+
+
 def slopes_in_phase_space(
     state: State, by: Sequence[tuple[Sequence[arb], Sequence[arb]]]
 ) -> list[Slopes]:
@@ -64,20 +68,23 @@ def samples(x: Examination, functions: Sequence[int], count: int) -> list[Canoni
 
     They lie around a state at which the functions have values, on the one side of a horizon.
     """
-    return next(around_states(x, functions, count), [])
+    return next(around_states(x, functions, count, CanonicalSample), [])
 
 
 def around_states(
-    x: Examination, functions: Sequence[int], count: int
-) -> Iterator[list[CanonicalSample]]:
+    x: Examination,
+    functions: Sequence[int],
+    count: int,
+    sampled: Callable[[State, Sequence[int]], Sample],
+) -> Iterator[list[Sample]]:
     """So many samples for each of several choices of the parameters; fewer where no more exist."""
 
     def inside(states: Sequence[State]) -> list[State]:
         return [s for s in states if all(s.at(f).is_finite() for f in functions)]
 
-    found: list[CanonicalSample] = []
+    found: list[Sample] = []
     for first in inside(x.states(LOOKED_AT)) or x.states(1):
-        around = _around(first, functions, count)
+        around = _around(first, functions, count, sampled)
         found = max(found, around, key=len)
         if len(around) == count:
             yield around
@@ -85,11 +92,16 @@ def around_states(
         yield found
 
 
-def _around(first: State, functions: Sequence[int], count: int) -> list[CanonicalSample]:
-    found: list[CanonicalSample] = []
+def _around(
+    first: State,
+    functions: Sequence[int],
+    count: int,
+    sampled: Callable[[State, Sequence[int]], Sample],
+) -> list[Sample]:
+    found: list[Sample] = []
     for state in nearby(first, count * _ATTEMPTS):
         try:
-            sample = CanonicalSample(state, functions)
+            sample = sampled(state, functions)
         except Unclear:
             continue
         if sample.finite:
@@ -100,11 +112,12 @@ def _around(first: State, functions: Sequence[int], count: int) -> list[Canonica
 
 
 def nearby(first: State, count: int) -> Iterator[State]:
-    """States with the parameters of the first and other t, q and q'."""
+    """States with the parameters of the first and other t, q and q', on the constraints."""
     random, reference = Random(23), first.reference
     for _ in range(count):
         known = dict(first.environment)
         for key in [("t", 0), *((n, k) for n in reference.names for k in (0, 1))]:
             change = arb(random.randint(-512, 512)) / 1024
             known[key] = known[key] * (1 + change) + (change / 8 if key[1] else 0)
-        yield State(reference, known)
+        if onto_constraints(reference, known):
+            yield State(reference, known)

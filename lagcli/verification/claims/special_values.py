@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from flint import arb
 
@@ -27,7 +27,7 @@ def holds(x: Examination, special: SpecialValue, known: Sequence[int]) -> bool:
     number = len(special.values)
     charges = places[number:]
     values_ = dict(zip(special.values, places[:number], strict=True))
-    there = list(_on_constraints(_there(x, values_)))
+    there = list(_there(x, values_))
     if not there and x.states():
         x.refute(what, "the parameter has another sign, or no value there")
         return False
@@ -37,7 +37,7 @@ def holds(x: Examination, special: SpecialValue, known: Sequence[int]) -> bool:
         return True
     everything = [*(p for p in known if first.at(p).is_finite()), *charges]
     tried, values = 0, []
-    for state in _on_constraints(nearby(first, 4 * (len(everything) + _MORE))):
+    for state in nearby(first, 4 * (len(everything) + _MORE)):
         found = [state.at(place) for place in everything]
         try:
             rates = [state.laws.rate(place) for place in charges]
@@ -75,15 +75,8 @@ def _counted(
     return True
 
 
-def _on_constraints(states: Iterable[State]) -> Iterator[State]:
-    for state in states:
-        environment = dict(state.environment)
-        if onto_constraints(state.reference, environment):
-            yield State(state.reference, environment)
-
-
 def _there(x: Examination, values: Mapping[str, int]) -> Iterator[State]:
-    """States with the values, where their signs are those of the parameters."""
+    """States with the values on the constraints, where their signs are those of the parameters."""
     signs = {p.name: p.assume for p in x.problem.parameters}
     for state in x.states(LOOKED_AT):
         numbers = {name: state.at(value) for name, value in values.items()}
@@ -92,5 +85,6 @@ def _there(x: Examination, values: Mapping[str, int]) -> Iterator[State]:
             for name, x in numbers.items()
         )
         if all(x.is_finite() for x in numbers.values()) and not wrong:
-            given = {(name, 0): x.mid() for name, x in numbers.items()}
-            yield State(x.reference, {**state.environment, **given})
+            known = {**state.environment, **{(name, 0): x.mid() for name, x in numbers.items()}}
+            if onto_constraints(x.reference, known):
+                yield State(x.reference, known)
