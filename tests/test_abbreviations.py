@@ -8,7 +8,7 @@ from random import Random
 import pytest
 
 from lagcli import load
-from lagcli.abbreviations import abbreviated, written_out
+from lagcli.abbreviations import _Abbreviations, abbreviated, written_out
 from lagcli.document import Equations, Paragraph
 from lagcli.evaluation import FUNCTIONS, evaluated
 from lagcli.expression import (
@@ -312,6 +312,13 @@ V: -2*m*g*a*cos(theta) + 2*k*a^2*(1 - cos(theta))^2
     assert not names_in(potential) & {*found.where}
     for point in found.sections["reduction"].one_freedom.turning_points:
         assert {n for n in names_in(point) if n in found.where} <= {"Delta"}
+
+
+@pytest.mark.parametrize("taken", [{"k"}, {"xi"}, {"k", "xi"}, {"chi", "xi"}, {"k", "chi"}])
+def test_names_of_denominators_are_letters(taken):
+    """Of two centres in elliptic coordinates xi with k1 and k2 one was named xixi."""
+    stem = _Abbreviations((), taken, changes=True)._denominators
+    assert stem in {"chi", "xi", "zeta"} - taken
 
 
 def test_no_factor_has_a_minus_before_every_term():

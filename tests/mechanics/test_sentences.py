@@ -649,6 +649,17 @@ def test_two_skates_on_a_rod_do_not_only_rest(back):
     assert "There may be others." in told
 
 
+@pytest.mark.parametrize("n", random.Random(32).sample(range(1, 9), 2))
+@pytest.mark.parametrize(("constraint", "glides"), [("x*x' + y*y'", False), ("x*y' - y*x'", True)])
+def test_on_surfaces_of_velocity_constraints_all_that_is_steady_is_known(constraint, glides, n):
+    """A bob rests below or above its pivot; along a level ray it glides, and that is not listed."""
+    text = (
+        f"{{coordinates: [x, y], T: {n}*(x'^2 + y'^2), V: y, constraints: {{c: {constraint} = 0}}}}"
+    )
+    told = words(explain(derive(text), ["steady_motions"]), "Steady motions")
+    assert ("There may be others." in told) is glides
+
+
 def test_no_motion_is_called_steady_through_an_impact():
     text = (
         "{coordinates: [q, s], parameters: {e: {assume: positive}}, T: q'^2 + s'^2,"

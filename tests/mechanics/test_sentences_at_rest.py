@@ -134,7 +134,7 @@ def test_a_slope_on_the_surfaces_beside_it_moves_away(q, constraint, height, n):
     T = " + ".join(f"{name}'^2/2" for name in q.strip("[]").split(", "))
     given = f"coordinates: {q}, T: {T}, constraints: {{c: {constraint.format(n=n)}}}"
     told = said(f"{{{given}, V: {n}*{height}}}", "Equilibria", "equilibria")
-    assert "Unstable: near it, on other surfaces that the constraints allow, a force moves" in told
+    assert "Unstable: near it, on other surfaces that are allowed, a force moves" in told
     free = said(f"{{{given}}}", "Equilibria", "equilibria")
     assert "Neutral: every possible position near it is an equilibrium." in free
     assert "table" not in free

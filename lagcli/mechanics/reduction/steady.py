@@ -19,6 +19,7 @@ import sympy
 from sympy import Expr, S
 
 from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.place import at, lies_in
 from lagcli.mechanics.reduction.coinciding_axes import CoincidingAxes
 from lagcli.mechanics.reduction.routh import Routh
@@ -35,6 +36,7 @@ from lagcli.mechanics.rest.equilibria import (
 )
 from lagcli.mechanics.rest.exceptions import with_a_value, without_unknowns
 from lagcli.mechanics.rest.held import held
+from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.mechanics.rest.rest_conditions import RestPoint, given_formulas
 from lagcli.mechanics.rest.singular import singular
 
@@ -113,6 +115,22 @@ class SteadyMotions:
     def only_rest_is_sought(self) -> bool:
         """Under velocity constraints: some states turn at rates that are no momenta's."""
         return any(kind != "holonomic" for kind in self.dynamics.constraints.kinds.values())
+
+    def _is_alone(self, point: RestPoint) -> bool:
+        """Whether, on its surface of integrable constraints, no state of rest is next to it.
+
+        The constraints are then those of positions, and nothing turns or glides through rest.
+        """
+        constraints = self.dynamics.constraints
+        if "nonholonomic" in constraints.kinds.values():
+            return False
+        if any(is_zero(e.drift) is not True for e in constraints.equations):
+            return False
+        try:
+            stiffness = determinant(Linearization(self.rest, point).K)
+        except ZeroDivisionError:
+            return False
+        return stiffness is not None and is_zero(stiffness) is False
 
     @property
     def _without_forces(self) -> bool:
@@ -200,7 +218,8 @@ class SteadyMotions:
         real = [p for p in points or () if not any(x.has(sympy.I) for x in p.values.values())]
         regular = [point for point in real if self.routh.regular_at(point.values)]
         self._singular = bool(points) and not regular
-        self.complete = self._solved and not self.only_rest_is_sought and len(regular) == len(real)
+        sought = not self.only_rest_is_sought or all(map(self._is_alone, regular))
+        self.complete = self._solved and sought and len(regular) == len(real)
         return [
             Steady(
                 point.values, self.routh.rates_at(point.values), point.positive, family=point.family

@@ -22,7 +22,7 @@ from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.stability.near import Near
 from lagcli.mechanics.stability.verdict import Stability, unstable
 
-_ASIDE = "near it, on other surfaces that the constraints allow, a force moves it away"
+_ASIDE = "near it, on other surfaces that are allowed, a force moves it away"
 #: By an exact solution.
 _ACCELERATES = "near it there are motions with a constant acceleration"
 
