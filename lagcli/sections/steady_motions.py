@@ -60,6 +60,8 @@ def derive(statements: Statements) -> SteadySection:
     section = statements.noted(steady_motions(statements.derivation))
     if section.motions and not section.complete:
         statements.warnings.append("there may be steady motions that are not listed")
+    if section.motions and section.where:
+        statements.warnings.append(f"steady motions were sought only{section.where}")
     return section
 
 

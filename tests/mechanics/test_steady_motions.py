@@ -404,11 +404,15 @@ def test_a_body_that_spins_about_its_axis_at_a_crest_of_the_potential(seed):
 def test_more_motions_may_be_steady_along_a_contact_that_is_closed(potential):
     """Inside p^2 = m r^3 V'(r) the body slides around the wall, pressed against it."""
     text = "{coordinates: {r: {assume: positive}, u: {}}, T: (r'^2 + r^2*u'^2)/2, V: V0 CONTACT}"
-    for contact, complete in ((", contacts: {wall: {gap: r >= 1}}", False), ("", True)):
+    for contact, sought in (
+        (", contacts: {wall: {gap: r >= 1}}", " while the contact is open"),
+        ("", ""),
+    ):
         made = derive(text.replace("CONTACT", contact).replace("V0", potential))
         section, _ = steady_motions(made)
         assert section.motions
-        assert section.complete == complete
+        assert section.complete
+        assert section.where == sought
 
 
 @pytest.mark.parametrize("gap", ["x >= v*t", "x >= sin(v*t) - 1", "x >= -t^2"])
