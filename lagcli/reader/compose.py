@@ -182,7 +182,14 @@ class _Composer:
         others = any(not value.is_empty for value in values)
         if is_text:  # of which a comma cuts off words
             found = [each if each and each["key"] in SECTIONS else None for each in found]
-        if not any(found) or not (others or len(keys) == 1):
+        section = next(
+            (getattr(x.children[-1], "value", "") for x in self._stack[-1:] if x.children), ""
+        )
+        if (
+            not any(found)
+            or not (others or len(keys) == 1)
+            or (section == "constraints" and not others)
+        ):
             return children  # all alike: reported where names are declared
         mended: list[DocumentNode] = []
         for key, value, split in zip(keys, values, found, strict=True):

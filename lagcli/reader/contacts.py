@@ -9,7 +9,7 @@ from lagcli.expression import ZERO, Equation
 from lagcli.problem_data import Contact
 from lagcli.reader.file_reader import Required
 from lagcli.reader.habits import key_meant, name_meant
-from lagcli.reader.misshapen import is_sentence, source_of
+from lagcli.reader.misshapen import is_sentence, source_of, texts_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.scope import POSITION, VALUES, Kind, name_mistake
@@ -97,8 +97,8 @@ def _hint(file: FileReader, key: Scalar, parts: list[tuple[Scalar, DocumentNode]
 def declare_contacts(file: FileReader, node: DocumentNode, constraints: set[str]) -> list[Declared]:
     """Enter the multipliers into the scope; a constraint's name is taken."""
     contacts = []
-    gaps = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
-    gaps = [re.sub(r"([<>])(?!=)", r"\1=", each) for each in gaps if re.search("[<>≤≥]", each)]
+    gaps = [re.sub(r"([<>])(?!=)", r"\1=", each) for each in texts_of(node)]
+    gaps = [each for each in gaps if re.search("[<>≤≥]", each)]
     names = [f"c{place}" for place in range(1, len(gaps) + 1)] if gaps[1:] else ["floor"]
     listed = f"write {{{', '.join(map('{}: {}'.format, names, gaps))}}}" if gaps else _HINT
     for key, value in file.named(node, "contacts", _ATTRIBUTES, listed):

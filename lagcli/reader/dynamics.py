@@ -133,6 +133,11 @@ def declare_definitions(file: FileReader, node: DocumentNode) -> list[tuple[Scal
         return []
     entries = file.entries(node, "definitions", hint)
     for key, value in file.of_section(entries, "definitions", ()):
+        if square := re.fullmatch(r"(\w+?)\s*(?:(?:\^|\*\*)\s*2|²)", key.label):
+            hint = f"write {square[1]}: sqrt({source_of(value)})"
+            file.error(f"'{key.label}' is not a name", key.span, hint)
+            file.scope.refused.append(square[1])
+            continue
         if file.declare(key.label, "definition", key.span):
             file.scope.definitions[key.label] = Definition(place=len(declared))
             declared.append((key, value))

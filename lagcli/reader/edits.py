@@ -131,7 +131,8 @@ def _placed(
     for one in nodes_in(root):
         stop = _end(one, written)
         is_around = one.start <= start <= end <= stop and (one.start, stop) != (start, end)
-        if is_around and (isinstance(one, Scalar) or _keeps(written[one.start : stop], part)):
+        is_whole = isinstance(one, Scalar) and stop - one.start <= 3 * len(part)
+        if is_around and (is_whole or _keeps(written[one.start : stop], part)):
             is_bare = section and part[:1] != "{" and written[one.start] == "{"
             yield [Edit(one.start, stop, f"{{{part}}}" if is_bare else part)]
     if section and entry is not None:

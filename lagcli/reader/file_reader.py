@@ -31,6 +31,7 @@ from lagcli.reader.misshapen import (
     entries_of,
     one_sum,
     source_of,
+    texts_of,
 )
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
@@ -132,6 +133,11 @@ class FileReader:
     ) -> Iterator[tuple[Scalar, DocumentNode]]:
         """The entries of a map; a mistake when it is none."""
         if isinstance(node, Mapping):
+            is_contact = re.search("[<>≤≥]", "".join(texts_of(node))) is not None
+            if texts_of(node) and what == ("contacts" if is_contact else "constraints"):
+                self.error(f"each of {what} has a name", node.span, hint)
+                self.scope.refused.append("")
+                return
             yield from self._with_decimals(node, what)
         else:
             word = node.value.casefold() if isinstance(node, Scalar) else ""

@@ -81,7 +81,8 @@ def as_rayleigh(forces: str) -> str:
     Each term is linear in one velocity, or in a difference of velocities.
     """
     found = []
-    for term in map(str.strip, pieces(forces.strip(" -+−"), "-+−")):
+    law = re.sub(r"(?<=[\w)])\s+(?=[\w(])", "*", re.sub(r"^\s*[FQ]\w*\s*=", "", forces))
+    for term in map(str.strip, pieces(law.strip(" -+−"), "-+−")):
         factors = pieces(term, "*/")
         moving = [each.strip() for each in factors if "'" in each]
         if len(moving) != 1 or not _LINEAR.fullmatch(moving[0]):
@@ -103,6 +104,23 @@ def pieces(text: str, signs: str) -> list[str]:
         else:
             parts[-1] += each
     return parts
+
+
+def texts_of(node: DocumentNode) -> list[str]:
+    """The texts of a list; the lines of a text where each is a relation, else the whole of it.
+
+    Of a map those that have no name: `{x = 1, y = 2}`.
+    """
+    found: list[str] = []
+    if isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
+        found = [key.value for key, _ in node.entries]
+        return found if all(re.search("[=<>≤≥]", each) for each in found) else []
+    for each in getattr(node, "items", [node]):
+        if isinstance(each, Scalar):
+            lines = each.text.source.text[each.start : each.end].split("\n")
+            are_relations = not each.style and all(re.search("[=<>≤≥]", line) for line in lines)
+            found += [line.strip() for line in lines] if are_relations else [each.value]
+    return found
 
 
 def as_items(node: DocumentNode) -> str:

@@ -42,6 +42,8 @@ _MULTIPLIER = regex(
     r"\s*[,;]?\s*\(?(?:with|where|and|mit|avec|con)\s+(?:the\s+)?(?:Lagrange\s+)?(?:multiplier\s+)?"
     r"(?:lambda|lam|λ)\w*\)?\s*$"
 )
+#: What stands behind `r - z = L`.
+_CONSTANT = regex(r"(?<=[^=\s])\s*=\s*[ck]onst(?:ant|ante|\.)?\s*$")
 #: A term of Lagrange's equation.
 _LAGRANGE = regex(r"(?:d|∂|\\partial)\s*[LTV]\s*/\s*(?:d|∂|\\partial)")
 #: `d(x - R*phi)/dt` and `d/dt (x - R*phi)`.
@@ -101,19 +103,11 @@ def with_whole(
         return [replace(found[0], hint=hint)]
     if what == "T" and (unmoved := _rates_meant(found, node, scope)):
         return unmoved
-    if _SUM_IN_WORDS.search(node.value):
-        return [Diagnostic("a formula has no sums", node.span, "write each term")]
     if matrices := _of_matrices(node, what, scope):
         return [matrices]
-    stated = what == "dissipation" and "=" in node.value  # as a force: -c*x'
     too_large = "the limit is" in found[0].hint
     in_lines = any(each.message.startswith("two lines without") for each in found)
-    if (
-        stated
-        or too_large
-        or in_lines
-        or all(each.hint.startswith("did you mean '") for each in found)
-    ):
+    if too_large or in_lines or all(each.hint.startswith("did you mean '") for each in found):
         return found
     if is_sentence(node.value, scope.kinds):
         hint = "write a formula" if role.order > 0 else "write a number or a parameter"
@@ -169,6 +163,8 @@ def with_whole(
         rest = [replace(each, span=spans.get(each.message, node.span)) for each in wrong]
         message = "words are no part of a formula" if has_words else first.message
         return [replace(first, message=message, hint=hint), *rest]
+    if _SUM_IN_WORDS.search(node.value):
+        return [Diagnostic("a formula has no sums", node.span, "write each term")]
     cross = _CROSS.search(node.value) or _CROSS_IN_WORDS.search(node.value)
     if cross and not {cross[1], cross[2]} <= scope.kinds.keys():
         hint = "a product of vectors is written by its components, as in x*p_y - y*p_x"
@@ -331,7 +327,7 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     for each in scope.refused:
         if re.search(r"\w[ .-]\w", each):
             value = re.sub(rf"(?<!\w){re.escape(each)}(?!\w)", name_meant(each, one=True), value)
-    value = _MULTIPLIER.sub("", value) if equation else value
+    value = _CONSTANT.sub("", _MULTIPLIER.sub("", value)) if equation else value
     value = re.sub(
         r"\\(?:math(?:cal|scr|rm)|cal)\s*(?:\{\s*([^\W\d])\s*\}|\s([^\W\d])\b)", r"\1\2", value
     )

@@ -10,9 +10,9 @@ from lagcli.expression import ZERO, Name
 from lagcli.problem_data import Constraint, Symmetry, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
 from lagcli.reader.habits import is_angle, name_meant
-from lagcli.reader.misshapen import pieces
+from lagcli.reader.misshapen import as_list, pieces, texts_of
 from lagcli.reader.names import derivative_order
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import QUESTION, STATE
 from lagcli.reader.suggest import did_you_mean
@@ -53,8 +53,7 @@ _FORCES: dict[str, ForceKind] = {
 
 def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     """Enter the multipliers into the scope."""
-    lines = node.items if isinstance(node, Sequence) else [node]
-    texts = [re.sub("={2,}", "=", each.value) for each in lines if isinstance(each, Scalar)]
+    texts = [re.sub("={2,}", "=", each) for each in texts_of(node)]
     given = [part.strip() for each in texts for part in equations_in(each)]
     given = [each for each in given if _FORMULA.search(each)] or [_ROLLING]
     names = [f"c{place}" for place in range(1, len(given) + 1)] if given[1:] else ["name"]
@@ -239,9 +238,11 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
     coordinates = list(file.scope.of_kind("coordinate"))
     symmetries = []
     change_of = "{{{}: 1}}".format
-    listed = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
-    named = [name for name in listed if name in {*coordinates, "t"}]
-    hint = f"write {{shift: {change_of(next(iter([*named, *coordinates]), 'x'))}}}"
+    listed = texts_of(node)
+    named = [each for each in re.findall(r"\w+", ", ".join(listed)) if each in {*coordinates, "t"}]
+    named = named if as_list(", ".join(listed)) == f"[{', '.join(named)}]" else []
+    shifts = [f"{x if named[1:] else 'shift'}: {change_of(x)}" for x in named or coordinates[:1]]
+    hint = f"write {{{', '.join(shifts or ['shift: {x: 1}'])}}}"
     if moved := _MOVED.findall(listed[0]) if listed else []:  # phi -> phi + const
         moving = (f"{x}: {sign.strip('+')}{change.strip() or 1}" for x, sign, change in moved)
         hint = f"write {{shift: {{{', '.join(moving)}}}}}"

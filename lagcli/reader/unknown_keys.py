@@ -20,6 +20,7 @@ from lagcli.reader.habits import (
     name_meant,
     number_and_unit,
 )
+from lagcli.reader.headings import SECTIONS
 from lagcli.reader.misplaced import names_in
 from lagcli.reader.misshapen import (
     ALREADY_FOUND,
@@ -168,6 +169,8 @@ def _meant_of_problem(
 ) -> tuple[str | None, str]:
     """The same for a key of the problem, whose value and neighbours tell what it is."""
     word, written = key.label, value.value if isinstance(value, Scalar) else ""
+    if whole := _of_each(word, value, around):
+        return None, f"each name has its own: write {whole}"
     if written and (state := _state_meant(key, written, around)):
         return None, f"the state at t = 0 stands under initial: write initial: {{{state}}}"
     if written and (force := _force_meant(word, written, around)):
@@ -215,11 +218,52 @@ def _meant_of_problem(
     if energy and energy != word and meant is None:  # V1 and V2
         terms = [parts[each] for each in parts if re.match(rf"{energy}(?=\d|_)", each)]
         return None, f"it is one sum: write {energy}: {' + '.join(terms).replace('+ -', '- ')}"
+    relation, named = re.search(r"[<>≤≥]|(?<![<>])=", written), {*_coordinates(around)}
+    left, _, right = written.partition("=")
+    if not hint and relation and left.strip().isidentifier() and left.strip() not in named:
+        return None, f"{_DEFINED}: write definitions: {{{left.strip()}: {right.strip()}}}"
+    if not hint and relation and set(re.findall(r"\w+", written)) & named:
+        section = "constraints" if relation[0] == "=" else "contacts"
+        return None, f"it stands under {section}: write {section}: {{{word}: {written}}}"
     is_other = not hint or (meant != word and word.casefold() == (meant or "").casefold())
     if is_other and _is_used(key, value, around):
         scope.refused.append(word)
         return None, f"{_DEFINED}: write definitions: {{{word}: {written}}}"
     return meant, hint
+
+
+#: The attribute of the entries of a section that may stand alone.
+_FIRST = {"coordinates": "unit", "parameters": "value", "points": "position", "contacts": "gap",
+          "constraints": "equation"}  # fmt: skip
+_SAID = ("unit", "symbol", "description", "assume")
+
+
+def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
+    """`points: {A: {position: [x, y], mass: m}}` for `masses: {A: m}` beside `points: {A: [x, y]}`.
+
+    Nothing where the entries are not all names of sections that have the attribute.
+    """
+    given = {key.label: source_of(each) for key, each in getattr(value, "entries", ())}
+    known = (*SECTIONS, *_SAID, "restitution")
+    attribute = key_meant(word, known) or key_meant(word.removesuffix("s"), known)
+    attribute = "mass" if word == "masses" else attribute or ""
+    named = (
+        ("coordinates", "parameters")
+        if attribute in _SAID
+        else (SECTIONS.get(attribute, "contacts"),)
+    )
+    parts, left = [], {*given}
+    for section, node in ((key.label, node) for key, node in around.entries if key.label in named):
+        inner = dict.fromkeys(names_in(node), "")
+        for key, each in getattr(node, "entries", ()):
+            alone = f"{_FIRST[section]}: {source_of(each)}" * (not each.is_empty)
+            inner[key.label] = entries_of(each) if isinstance(each, Mapping) else alone
+        for name in left & {*inner}:
+            inner[name] += ", " * bool(inner[name]) + f"{attribute}: {given[name]}"
+        whole = ", ".join(f"{name}: {{{each}}}" for name, each in inner.items())
+        parts += [f"{section}: {{{whole}}}"] if left & {*inner} else []
+        left -= {*inner}
+    return "; ".join(parts) if given and attribute and not left else ""
 
 
 def _coordinates(around: Mapping) -> list[str]:
@@ -233,10 +277,10 @@ def _state_meant(key: Scalar, written: str, around: Mapping) -> str:
     coordinates = _coordinates(around)
     source = around.text.source.text
     rest = source[: key.start] + source[key.end :]
-    is_used = key.label not in coordinates and re.search(
-        rf"(?<!\w){re.escape(key.label)}(?!\w)", rest
-    )
-    meant = "" if is_used else state_meant(key.label, coordinates)
+    rate, _, value = written.partition("=")  # velocity: x' = 3
+    label, written = (rate.strip(), value.strip()) if "'" in rate else (key.label, written)
+    is_used = label not in coordinates and re.search(rf"(?<!\w){re.escape(label)}(?!\w)", rest)
+    meant = state_meant(label, coordinates) if "'" in label or not is_used else ""
     number = re.sub(r"([\d.]+)\s*°", r"\1*pi/180", written)
     return f"{meant}: {number}" if meant and _STATE.fullmatch(number) else ""
 

@@ -125,15 +125,15 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return Diagnostic(f"this line begins further left than '{key}'", span, "begin them alike")
     for piece, sentence, hint in habits()["yaml"]:
         if piece in said:
-            if not hint and _MIDDLE.match(line) and "=" not in line and line is not first:
+            if not hint and _MIDDLE.match(line) and "=" not in line.lstrip(" =") and line != first:
                 return Diagnostic(sentence, span, _CONTINUED)
             return Diagnostic(sentence, span, hint or colon_advice(line))
     return Diagnostic(f"this is not YAML: {problem}", span)
 
 
 #: A line that begins in the middle of a formula.
-_MIDDLE = regex(r"\s*([-+*^]|/(?![/*])|\w+[-+*/^(])")
-_CONTINUED = "a line that continues the one above it begins with blanks"
+_MIDDLE = regex(r"\s*([-+*^=]|/(?![/*])|\w+[-+*/^(])")
+_CONTINUED = "a line that continues the one above it begins with blanks, further right"
 #: A text in quotes with one of them inside.
 _QUOTED = regex(r"\s*([\w ]+):\s*(['\"])([^#]*\2[^#]*)\2\s*(?:#.*)?")
 #: A comment of another language, the head of a section, a program: // a, ; a, % a; [a]; import a.

@@ -40,6 +40,12 @@ def written_out(text: str, names: Vocabulary) -> str:
         Where the range of an index is neither given nor that of names with it.
     """
     text = re.sub(r"(?<=_[i-n])_dot\b", "'", text)
+    if re.search(r"[Σ∑]|\b[sS]um\b", text):  # m*xi'^2 beside x1
+        text = re.sub(
+            r"(?<!\w)([^\W\d_]+)([i-n])(?!\w)",
+            lambda m: f"{m[1]}_{m[2]}" if f"{m[1]}1" in names.known else m[0],
+            text,
+        )
     while called := _CALL.search(text):
         end = _closing(text, called.end())
         within = text[called.end() : end]

@@ -127,7 +127,7 @@ class Sums(ABC):
                     raise UnclearText  # x'2
                 part = self.power()
                 factor = part.text if _is_names(part.text) else part.within(2)
-                if not over or tells:
+                if not over or tells or (last.text[:1] == factor[:1] == "("):
                     text += f"*{factor}"
                     over = False
                 elif not token.apart and last.level == 3 and not last.text.startswith("("):

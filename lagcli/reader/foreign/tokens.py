@@ -39,6 +39,7 @@ SIGNS = {
     **dict.fromkeys(["≤", "\\le", "\\leq", "\\leqslant"], "<="),
     "\\{": "(", "\\}": ")", "[": "(", "]": ")", "{": "(", "}": ")", "\\|": "|",
 }  # fmt: skip
+_SUM_IN_WORDS = regex(r"\b[sS]um(?:me)?\s+(?:over\s+(?:all\s+)?([i-n])\s+)?(?:of|von|de)\s+")
 #: v², |v|^2, \\vec{v}^2, v.v and v·v.
 _SPEED = regex(
     r"(?<!\w)(?P<v>\|?(?:\\(?:vec|mathbf)\s*\{?)?v\}?\|?)(?:\s*(?:\^|\*\*)\s*\{?2\}?|\s*²"
@@ -115,6 +116,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = re.sub(r"\bSubscript\[(\w+),\s*(\w+)\]", r"\1_\2", text)
     if "half" not in names.known:
         text = re.sub(r"\b(?:(?:one|a)[ -])?half\b(?:\s+of\b)?", "1/2", text)
+    text = _SUM_IN_WORDS.sub(lambda m: f"Σ_{m[1]} " if m[1] else "Σ ", text)
     text = re.sub(r"(\w)\u20d7", r"\\vec{\1}", text)
     text = re.sub(r"\\(?:begin|end)\s*\{\w+\*?\}|\\[()\[\]]", " ", text)
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)

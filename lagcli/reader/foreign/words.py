@@ -10,6 +10,7 @@ from typing import NamedTuple
 from lagcli.expression import FUNCTIONS
 from lagcli.notation.greek import BY_NAME
 from lagcli.reader.habits import is_angle, meanings
+from lagcli.reader.regex import regex
 from lagcli.reader.suggest import alike, spelled_out
 
 _DOTS = {"\u0307": 1, "\u0308": 2}
@@ -24,6 +25,7 @@ VELOCITIES = frozenset({"v", "velocity", "speed", "omega", "ω"})
 _LONGEST, _LETTERS = 40, 8
 
 
+_GREEK = regex(r"^[A-Za-z]+")
 #: A dot in the words of other languages, behind its coordinate.
 _DOT_WORDS = ("punkt", "point", "punto", "ponto", "kropka", "punt", "tochka", "vel", "rate")
 
@@ -82,7 +84,7 @@ def parts_of(word: str, names: Vocabulary) -> list[str]:
     if word in {*names.known, *names.functions} or function_named(word, names):
         return [word]
     apart = re.sub("([\u0307\u0308]+)([₀-₉]+)", r"\2\1", unicodedata.normalize("NFD", word))
-    letters = {BY_NAME[each] for each in names.known if each in BY_NAME}
+    letters = {_GREEK.sub(lambda m: BY_NAME.get(m[0], m[0]), each) for each in names.known}
     lowered = {each.replace("_", "").translate(_LOWERED) for each in names.known}
     spelled = {*names.known, *letters, *lowered, *FUNCTIONS} - {""}  # of the name _
     longest_first = sorted(spelled, key=len, reverse=True)
