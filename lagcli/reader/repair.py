@@ -43,7 +43,7 @@ _MULTIPLIER = regex(
     r"(?:lambda|lam|λ)\w*\)?\s*$"
 )
 #: What stands behind `r - z = L`.
-_CONSTANT = regex(r"(?<=[^=\s])\s*=\s*[ck]onst(?:ant|ante|\.)?\s*$")
+_CONSTANT = regex(r"^([^=]+=[^=]+?)\s*=\s*[ck]onst(?:ant|ante|\.)?\s*$")
 #: A term of Lagrange's equation.
 _LAGRANGE = regex(r"(?:d|∂|\\partial)\s*[LTV]\s*/\s*(?:d|∂|\\partial)")
 #: `d(x - R*phi)/dt` and `d/dt (x - R*phi)`.
@@ -327,7 +327,7 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     for each in scope.refused:
         if re.search(r"\w[ .-]\w", each):
             value = re.sub(rf"(?<!\w){re.escape(each)}(?!\w)", name_meant(each, one=True), value)
-    value = _CONSTANT.sub("", _MULTIPLIER.sub("", value)) if equation else value
+    value = _CONSTANT.sub(r"\1", _MULTIPLIER.sub("", value)) if equation else value
     value = re.sub(
         r"\\(?:math(?:cal|scr|rm)|cal)\s*(?:\{\s*([^\W\d])\s*\}|\s([^\W\d])\b)", r"\1\2", value
     )
