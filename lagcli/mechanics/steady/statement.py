@@ -132,7 +132,8 @@ class _SteadyStatement:
                 resting=resting,
                 unless=() if found else unless_written(steady.unless, self.order),
                 # nor those along a closed contact
-                where=steady.rest.restricted_to + while_open(steady.full.problem.contacts),
+                where=(steady.rest.restricted_to if steady.rest.points or not found else "")
+                + while_open(steady.full.problem.contacts),
                 frames=self._frames if found and not steady.full.problem.contacts else (),
                 plane=plane,
             ),
