@@ -92,6 +92,7 @@ class GivenSums:
         self._unfit: Container[Key] = ()
         for whole in energies:
             self._keep(whole, multiplied_out(whole))
+        self._whole = {shown for found in self._found.values() for _, shown in found}
         for part in (part for node in formulas for part in walk(node)):
             value = multiplied_out(part) if isinstance(part, Sum) else None
             if value and not set.intersection(*({x for x, _ in term} for term in value)):
@@ -202,10 +203,11 @@ class GivenSums:
         found = self._found.get(leaves(node))
         value = multiplied_out(node) if found else None
         for other, given in found or () if value else ():
-            assert value is not None
             first = next(iter(other))
-            ratio = value.get(first, Fraction(0)) / other[first]
+            ratio = (value or {}).get(first, Fraction(0)) / other[first]
             alike = value == {term: ratio * c for term, c in other.items()}
+            if given in self._whole and abs(ratio) != 1:  # no 2 (m v²/2 − k r²/2) for m v² − k r²
+                continue
             if alike and operation_count(given) <= _LONGER * operation_count(node) + 1:
                 return ratio, given
         return None

@@ -384,7 +384,16 @@ def test_squared_brackets_of_a_potential_keep_their_symmetry() -> None:
     assert found.count("+ q₁²/(2 C) + q₂²/(2 C) + (q₁ − q₂)²/(2 C)") == 2
 
 
-@pytest.mark.parametrize(("n", "k"), [(12, 6), (4, 2), (3, 1)])
+@pytest.mark.parametrize("V", ["a*x^2/2 + b*y^2/2", "(a*x^2 + b*y^2)/2"])
+def test_a_multiple_of_the_lagrangian_has_no_halves(V: str) -> None:
+    """Neumann's oscillator: λ is -L/R^2, written as -(m v^2 - a x^2 - b y^2)/(2 R^2)."""
+    physics = f"T: m*(x'^2 + y'^2)/2\nV: {V}\nconstraints: {{c: x^2 + y^2 = R^2}}"
+    found = text("x, y", "m a b R", physics, "multipliers")
+    assert "/(2 R²)" in found
+    assert "/2" not in found
+
+
+@pytest.mark.parametrize(("n", "k"), [(12, 6), (4, 2), (6, 3)])
 def test_a_power_of_a_ratio_in_a_potential_stays(n: int, k: int) -> None:
     """(s/r)¹² − (s/r)⁶ of Lennard and Jones, not s¹²/r¹² − s⁶/r⁶."""
     physics = f"T: m*(r'^2 + r^2*u'^2)/2\nV: 4*q*((s/r)^{n} - (s/r)^{k})"
