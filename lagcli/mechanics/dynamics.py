@@ -113,16 +113,20 @@ class Dynamics:
 
         Only what is proved is called a contradiction.
         """
-        constraint = self.system.problem.constraints[max(index, 0)]
+        index = next(iter(self._without_zero), max(index, 0))
+        constraint = self.system.problem.constraints[index]
         others = [c.name for c in self.system.problem.constraints if c is not constraint]
         with_what = " with " + _quoted(others) if others else ""
-        above = sympy.numer(sympy.together(self.constraints.equations[max(index, 0)].f))
-        if any(power > 1 for _, power in sympy.factor_list(above)[1]):
+        above = sympy.numer(sympy.together(self.constraints.equations[index].f))
+        if index in self._without_zero:
+            message = f"constraint '{constraint.name}' cannot be satisfied"
+            hint = "it holds nowhere"
+        elif any(power > 1 for _, power in sympy.factor_list(above)[1]):
             message = f"the derivatives of constraint '{constraint.name}' vanish where it holds"
             hint = "write it without the power"
         elif self._contradict:
             message = f"constraint '{constraint.name}' cannot be satisfied{with_what}"
-            hint = "they contradict each other" if others else "it holds nowhere"
+            hint = "they contradict each other"
         elif len(names := self._dependent_where_all_hold) == 1:
             message = (
                 f"the derivatives of constraint '{names[0]}' vanish where all constraints hold"
@@ -141,14 +145,18 @@ class Dynamics:
         )
 
     @cached_property
+    def _without_zero(self) -> Sequence[int]:
+        """Constraints that hold nowhere, as 1 + x² = 0."""
+        equations = enumerate(self.constraints.equations)
+        return [k for k, e in equations if e.holonomic and sign(e.f) in (1, -1)]
+
+    @cached_property
     def _contradict(self) -> bool:
-        """Whether the constraints are seen to hold nowhere, for general parameters.
+        """Whether the constraints are seen to hold nowhere together, for general parameters.
 
         1 is in the ideal of their forms and of those on the velocities, a . q' + b.
         """
         equations = self.constraints.equations
-        if any(e.holonomic and sign(e.f) in (1, -1) for e in equations):
-            return True
         forms = [e.f for e in equations if e.holonomic]
         moving = [dot(e.row, self.system.qdot) + e.drift for e in equations]
         return self._exclude(forms) or self._exclude([*forms, *moving], *self.system.qdot)

@@ -15,6 +15,7 @@ from mpmath import mp
 from lagcli import load
 from lagcli.problem_data import Problem
 from lagcli.reader import parse_text
+from tests.marks import one_of
 
 from .constancy import digits_kept, kept_at, searched
 from .examine import DIGITS, examine
@@ -67,8 +68,7 @@ def one_of_many(path: Path) -> object:
     return pytest.param(path, marks=mark, id=str(path.relative_to(LIBRARY)))
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("path", PROBLEMS, ids=lambda p: str(p.relative_to(LIBRARY)))
+@pytest.mark.parametrize("path", one_of(3, PROBLEMS), ids=lambda p: str(p.relative_to(LIBRARY)))
 def test_no_library_problem_gets_a_false_charge(path: Path) -> None:
     stays(path)
 

@@ -17,6 +17,7 @@ from lagcli.pictures.terminal import Terminal, to_text
 from lagcli.pipeline import with_lagrangian
 from lagcli.problem_data import METHODS
 from lagcli.reader.columns import usual_columns
+from tests.marks import one_of
 
 KINDS = ("series", "phase", "path", "potential", "poincare", "drift", "error")
 #: Impacts, friction, rods, charges, constraints.
@@ -74,8 +75,7 @@ def test_a_sample_of_the_library_is_drawn(name):
     assert "series" in drawn(entry.path, written=name == "hoop")
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("entry", list(with_numbers()), ids=lambda entry: entry.name)
+@pytest.mark.parametrize("entry", one_of(3, with_numbers()), ids=lambda entry: entry.name)
 def test_every_problem_with_a_run_is_drawn(entry):
     made = drawn(entry.path, written=True)
     assert made is None or "series" in made or "phase" in made
