@@ -218,7 +218,8 @@ class SteadyMotions:
         real = [p for p in points or () if not any(x.has(sympy.I) for x in p.values.values())]
         regular = [point for point in real if self.routh.regular_at(point.values)]
         self._singular = bool(points) and not regular
-        sought = not self.only_rest_is_sought or all(map(self._is_alone, regular))
+        alone = bool(regular) and all(map(self._is_alone, regular))
+        sought = alone or not self.only_rest_is_sought
         self.complete = self._solved and sought and len(regular) == len(real)
         return [
             Steady(

@@ -31,6 +31,12 @@ class OnConstraints(CanonicalSample):
         super().__init__(state, [*functions, *forms])
         self.forms = range(len(functions), len(functions) + len(forms))
 
+    @property
+    def regular(self) -> bool:
+        """Whether the momenta determine the velocities without the constraints."""
+        laws = self.state.laws
+        return rank(laws.mass_matrix, laws.size) == laws.size
+
     def bracket(self, i: int, j: int) -> arb:
         """Dirac's."""
         return self.terms(i, j)[0]
@@ -93,11 +99,12 @@ class OnSurface(Counted):
         return bool(abs(whole).mid() < 1e-9 * (1 + terms.mid()))
 
     def _around(self, count: int) -> Iterator[Sequence[OnConstraints]]:
-        """Where the charges and 1 are independent on the constraints, and C is regular."""
+        """Where the charges and 1 are independent on the constraints, and M and C are regular."""
         for around in around_states(self.x, self.places, count, OnConstraints):
             rows = [[*s.values[: self.count], arb(1)] for s in around]
             with suppress(Unclear):
-                if rank(rows, self.count + 1) == self.count + 1 and around[0].terms(0, 0):
+                independent = rank(rows, self.count + 1) == self.count + 1
+                if independent and around[0].regular and around[0].terms(0, 0):
                     yield around
 
 
