@@ -76,6 +76,21 @@ class Heading:
     formula: Formula | None = None
 
 
+class Sentence(str):
+    """A sentence that knows the formulas between its words; as a string they are in the grammar."""
+
+    __slots__ = ("parts",)
+
+    parts: tuple[str | Formula, ...]
+
+    @classmethod
+    def of(cls, text: str, parts: tuple[str | Formula, ...]) -> Sentence:
+        """The sentence that a page sets as these parts."""
+        made = cls(text)
+        made.parts = parts
+        return made
+
+
 @record
 class Paragraph:
     """Sentences, with formulas between the words."""

@@ -6,7 +6,7 @@ imported when it is come to.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 from unicodedata import normalize
 
@@ -14,6 +14,7 @@ from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
 from lagcli.record import record, replace
 
 if TYPE_CHECKING:
+    from lagcli.document import Sentence
     from lagcli.formatters import Options
     from lagcli.mechanics.derivation import Derivation
     from lagcli.mechanics.stating import Stating
@@ -176,6 +177,8 @@ def state(derivation: Derivation, request: Request) -> Answers:
         unverified = _with_charges(derivation, answers)
         problem = derivation.given if derivation.no_lagrangian else derivation.problem
         answers = _without_charges(request, _ended(lambda: verified(problem, unverified)))
+    names = (*answers.coordinates, *answers.parameters, *answers.multipliers)
+    answers = replace(answers, warnings=_with_formulas(answers.warnings, names))
     if not request.numeric:
         return _with_given_decimals(derivation.given, request, answers)
     from lagcli.notation.decimals import with_decimals
@@ -185,6 +188,15 @@ def state(derivation: Derivation, request: Request) -> Answers:
         sections=rewritten(answers.sections, with_decimals),
         where=rewritten(answers.where, with_decimals),
     )
+
+
+def _with_formulas(sentences: Sequence[str], names: Collection[str]) -> tuple[Sentence, ...]:
+    """Sentences of the derivation, of which pages set the names and the formulas."""
+    from lagcli.document import Sentence
+    from lagcli.notation.letters import with_names
+    from lagcli.reader.expressions import formula_or_none
+
+    return tuple(Sentence.of(one, with_names(one, names, formula_or_none)) for one in sentences)
 
 
 def _section_in_manner(
@@ -374,7 +386,7 @@ def _in_the_manner(derivation: Derivation, account: Explanation) -> Explanation:
     """The explanation with its formulas as the file writes its own, and no letter twice."""
     from lagcli.abbreviations import in_steps
     from lagcli.notation.given_formulas import names_of
-    from lagcli.notation.letters import sentence, settled
+    from lagcli.notation.letters import names_in, sentence, settled
     from lagcli.notation.manner import Manner
     from lagcli.notation.relations import without_minuses
     from lagcli.rewriting import rewritten
@@ -389,7 +401,8 @@ def _in_the_manner(derivation: Derivation, account: Explanation) -> Explanation:
     account = replace(account, steps=tuple(turned))
     if derivation.large_form is None:
         account = in_steps(account, taken)
-    said = tuple(sentence(warning, taken) for warning in account.warnings)
+    names = (*account.coordinates, *names_in(account.steps))
+    said = _with_formulas([sentence(warning, taken) for warning in account.warnings], names)
     return replace(account, steps=settled(account.steps, taken), warnings=said)
 
 

@@ -10,6 +10,8 @@ from sympy import Expr, Symbol
 from lagcli.algebra.build import free_of
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign
+from lagcli.document import Sentence
+from lagcli.expression import Expression
 
 _LONGEST = 400  # operations of a form that is factored
 
@@ -46,7 +48,7 @@ def restricting(factors: Sequence[Expr], velocities: Collection[Symbol]) -> Expr
 class Surfaces:
     """Sentences on surfaces on which the factors of constraints are 0, as `write` has these."""
 
-    def __init__(self, write: Callable[[Expr], str]) -> None:
+    def __init__(self, write: Callable[[Expr], Expression]) -> None:
         self.write = write
 
     def of_factors(
@@ -55,34 +57,40 @@ class Surfaces:
         factors: Sequence[Expr],
         velocities: Collection[Symbol],
         position: Expr | None,
-    ) -> str:
+    ) -> Sentence:
         """What the factors of a constraint f = 0 on the `position`, or of another, mean."""
         if position is None:
-            alone = self._either(f for f in factors if free_of(f, velocities))
-            return (
-                f"constraint '{name}' does not restrict the velocities where {alone}: "
-                "the answers hold elsewhere"
-            )
+            alone = _either(f for f in factors if free_of(f, velocities))
+            start = f"constraint '{name}' does not restrict the velocities where "
+            return self._sentence(start, *alone, ": the answers hold elsewhere")
         flat = [f for f, power in factors_of(position) if power > 1 and f in factors]
-        hold = (
-            f"the answers do not hold where {self._either(flat)}, since its gradient vanishes there"
-            if flat
-            else "the answers hold on each"
-        )
-        return (
-            f"constraint '{name}' holds where {self._either(factors, ' or where ')}: {hold}; "
-            "what is conserved on some of these only is called not conserved"
+        hold: list[str | Expr] = ["the answers hold on each"]
+        if flat:
+            gradient = ", since its gradient vanishes there"
+            hold = ["the answers do not hold where ", *_either(flat), gradient]
+        return self._sentence(
+            f"constraint '{name}' holds where ",
+            *_either(factors, " or where "),
+            ": ",
+            *hold,
+            "; what is conserved on some of these only is called not conserved",
         )
 
-    def of_another_rank(self, forms: Sequence[Expr], rank: int, usual: int) -> str:
+    def of_another_rank(self, forms: Sequence[Expr], rank: int, usual: int) -> Sentence:
         """A surface on which other constraints are independent than where the answers hold."""
-        where = self._either(dict.fromkeys(forms), " and ")
         rest = (
             "other constraints are redundant"
             if rank == usual
             else f"the constraints have rank {rank}, not {usual}"
         )
-        return f"where {where}, {rest}: the answers do not hold there"
+        where = _either(dict.fromkeys(forms), " and ")
+        return self._sentence("where ", *where, f", {rest}: the answers do not hold there")
 
-    def _either(self, forms: Iterable[Expr], between: str = " or ") -> str:
-        return between.join(f"{self.write(form)} = 0" for form in forms)
+    def _sentence(self, *pieces: str | Expr) -> Sentence:
+        text = (p if isinstance(p, str) else str(p).replace("**", "^") for p in pieces)
+        parts = (p if isinstance(p, str) else self.write(p) for p in pieces)
+        return Sentence.of("".join(text), tuple(parts))
+
+
+def _either(forms: Iterable[Expr], between: str = " or ") -> list[str | Expr]:
+    return [part for form in forms for part in (between, form, " = 0")][1:]

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 from sympy import Expr
 
 from lagcli.expression import Expression, operation_count
-from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.branches import Surfaces
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.dynamics import SolvedMotion
@@ -154,7 +153,7 @@ class Statements(Stating):
     def _on_branches(self) -> Iterator[str]:
         constraints = self.dynamics.constraints
         manner = Manner(self.problem)
-        surfaces = Surfaces(lambda form: to_grammar(manner.vanishing(self.as_written(form))))
+        surfaces = Surfaces(lambda form: manner.vanishing(self.as_written(form)))
         for equation in constraints.equations:
             factors = constraints.branches.get(equation.name, ())
             if factors and not any(constraints.follows(f, equation) for f in factors):

@@ -7,17 +7,19 @@ uses one for itself, ours gets the index "sys" (L_sys), and a sentence says the 
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from typing import Any, TypeVar, cast
 from unicodedata import normalize
 
-from lagcli.document import Items, Label, Paragraph
+from lagcli.document import Formula, Items, Label, Paragraph, Sentence
 from lagcli.expression import FUNCTIONS, Call, Expression, Name, PartialCall, Sum, walk
 from lagcli.notation.naming import INDEX, free
 from lagcli.record import field_names, replace
 from lagcli.rewriting import expressions_in, rebuilt
 
 Page = TypeVar("Page")
+#: The formula that a text is, if it is one.
+Reading = Callable[[str], Expression | None]
 
 #: What stands before a letter of ours until it is known whether the file has it.
 _OWN = "&"
@@ -54,17 +56,22 @@ def names_in(value: object) -> set[str]:
     return {part.name for part in parts if isinstance(part, Name)} | called - FUNCTIONS.keys()
 
 
-def with_names(text: str, names: Collection[str]) -> tuple[str | Expression, ...]:
+def with_names(
+    text: str, names: Collection[str], read: Reading = lambda _: None
+) -> tuple[str | Formula, ...]:
     """The sentence with names and formulas of the file as they are set: θ in "at theta = 0".
 
     One letter may be a word: it is a name with primes, before a relation, or in a formula.
+    What is a formula, `read` says.
     """
+    if isinstance(text, Sentence):
+        return text.parts
     ordered = sorted((re.escape(n) for n in names), key=len, reverse=True)
     if not ordered:
         return (text,)
-    parts: list[str | Expression] = []
+    parts: list[str | Formula] = []
     end = 0
-    for start, stop, node in _formulas(text, ordered):
+    for start, stop, node in _formulas(text, ordered, read):
         parts += [*_single_names(text[end:start], ordered), node]
         end = stop
     return tuple(part for part in (*parts, *_single_names(text[end:], ordered)) if part != "")
@@ -82,7 +89,9 @@ def _single_names(text: str, ordered: Sequence[str]) -> Iterator[str | Name]:
     yield text[end:]
 
 
-def _formulas(text: str, ordered: Sequence[str]) -> Iterator[tuple[int, int, Expression]]:
+def _formulas(
+    text: str, ordered: Sequence[str], read: Reading
+) -> Iterator[tuple[int, int, Expression]]:
     """The longest parts that read as sums, products, powers or calls of the names, and where."""
     if not _OPERATION.search(text):
         return
@@ -93,21 +102,13 @@ def _formulas(text: str, ordered: Sequence[str]) -> Iterator[tuple[int, int, Exp
         marks = [found.span() for found in re.finditer(token, run[0])]
         for first, last in ((a, b) for a, _ in marks for _, b in reversed(marks)):
             start, stop = run.start() + first, run.start() + last
-            if end <= start < stop and (node := _read(run[0][first:last], ordered)):
+            if end <= start < stop and (node := _read(run[0][first:last], ordered, read)):
                 yield start, stop, node
                 end = stop
 
 
-def _read(text: str, names: Collection[str]) -> Expression | None:
-    from lagcli.diagnostics import ProblemError
-    from lagcli.reader.expressions import parse_text
-
-    if not _OPERATION.search(text):
-        return None
-    try:
-        node = parse_text(text)
-    except ProblemError:
-        return None
+def _read(text: str, names: Collection[str], read: Reading) -> Expression | None:
+    node = read(text) if _OPERATION.search(text) else None
     used = names_in(node)
     return node if used and used <= {*names} else None
 
@@ -124,7 +125,8 @@ def sentence(text: str, taken: Collection[str]) -> str:
         clash = letters in taken or (len(letters) == 2 and any(x in taken for x in letters))
         if clash:
             parts[::2] = (re.sub(pattern, words, part) for part in parts[::2])
-    return "".join(parts)
+    said = "".join(parts)
+    return text if said == text else said  # with the formulas that it knows
 
 
 def _settled(value: Any, taken: Collection[str]) -> Any:

@@ -60,6 +60,14 @@ def parse_text(text: str) -> Expression:
     return _read_back(text, "<expression>", read_expression)
 
 
+def formula_or_none(text: str) -> Expression | None:
+    """What a text of any kind means as an expression, if it is one."""
+    try:
+        return parse_text(text)
+    except ProblemError:
+        return None
+
+
 def parse_equation_text(text: str) -> Equation:
     """Read back one printed equation; any name is allowed.
 

@@ -6,7 +6,7 @@ import pytest
 
 from lagcli.expression import Name
 from lagcli.notation.letters import sentence, with_names
-from lagcli.reader.expressions import parse_text
+from lagcli.reader.expressions import formula_or_none, parse_text
 
 
 @pytest.mark.parametrize(
@@ -30,7 +30,7 @@ from lagcli.reader.expressions import parse_text
     ],
 )
 def test_what_is_a_name(text, parts):
-    assert with_names(text, ["a", "u", "theta", "theta2"]) == parts
+    assert with_names(text, ["a", "u", "theta", "theta2"], formula_or_none) == parts
 
 
 def test_without_names_nothing_is_changed():
