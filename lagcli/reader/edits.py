@@ -115,7 +115,9 @@ def _placed(
         if start < end and entry is not None and entry[0].label in KEYS:
             return  # a part of it goes there
         gone = [_without(start, end, text, root)] if start < end else []
-        yield [*_into_section(section[1], section[2], text, root), *gone]
+        edits = [*_into_section(section[1], section[2], text, root), *gone]
+        if edits:  # none where its section is no map
+            yield edits
         return
     end = start + len(written[start:end].rstrip())
     before = part[: start - end - 1]  # g: 9 of g: 9,81

@@ -4,7 +4,7 @@ import subprocess
 import sys
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import lagcli
@@ -221,7 +221,8 @@ PIECES = [
 
 
 @pytest.mark.long
-@settings(max_examples=300, deadline=2000)
+@settings(max_examples=300)
+@example([(13, 0, "m"), (0, 0, "m")])
 @given(
     st.lists(
         st.tuples(

@@ -40,19 +40,19 @@ def test_the_file_to_start_from_is_good():
     assert read_problem("good.yaml", GOOD.encode()).diagnostics == ()
 
 
-@settings(max_examples=150, deadline=2000)
+@settings(max_examples=150)
 @given(st.binary(max_size=300))
 def test_bytes(data):
     check(data)
 
 
-@settings(max_examples=150, deadline=2000)
+@settings(max_examples=150)
 @given(st.text(alphabet=PIECES, max_size=60))
 def test_texts_of_yaml_characters(text):
     check(text.encode("utf-8", "surrogatepass"))
 
 
-@settings(max_examples=300, deadline=2000)
+@settings(max_examples=300)
 @given(
     st.lists(
         st.tuples(
@@ -69,7 +69,7 @@ def test_changes_of_a_good_file(changes):
     check(text.encode())
 
 
-@settings(max_examples=300, deadline=2000)
+@settings(max_examples=300)
 @given(st.text(alphabet="xU'()+-*/^.,=<> 12e\n", max_size=40))
 def test_expressions(text):
     for parse in (parse_text, parse_equation_text):
