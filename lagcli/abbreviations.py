@@ -149,9 +149,8 @@ class _Abbreviations:
         self._long = [operation_count(tree) > _TWO_LINES for tree in trees]
         self._beside: set[str] = set()  # what other rows of a block have
         self._stem = free_stem(PART_STEMS, taken)
-        others = [
-            stem for stem in ("chi", "xi", "zeta") if stem != self._stem
-        ]  # of denominators by Δx
+        # of denominators beside Δx
+        others = [stem for stem in ("chi", "xi", "zeta") if stem != self._stem]
         self._denominators = free_stem(others, taken) if changes else "Delta"
         self._numbered: dict[str, list[str]] = {self._stem: [], self._denominators: []}
         while len(self._chosen) < _MOST_NAMES and (best := self._best()) is not None:

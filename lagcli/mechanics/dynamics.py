@@ -150,7 +150,7 @@ class Dynamics:
         equations = enumerate(self.constraints.equations)
         return [k for k, e in equations if e.holonomic and sign(e.f) in (1, -1)]
 
-    @cached_property
+    @property
     def _contradict(self) -> bool:
         """Whether the constraints are seen to hold nowhere together, for general parameters.
 

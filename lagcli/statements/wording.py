@@ -427,7 +427,7 @@ def constraints_give(names: Collection[str]) -> str:
 
 
 def while_open(contacts: Sequence[object]) -> str:
-    """While what is said without the force of a contact holds; empty without contacts."""
+    """When sentences without the forces of contacts hold; empty without contacts."""
     return f" while the contact{' is' if len(contacts) == 1 else 's are'} open" if contacts else ""
 
 

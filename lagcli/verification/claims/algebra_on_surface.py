@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
+from functools import cached_property
 from itertools import islice
 
 from flint import arb
@@ -37,6 +38,12 @@ class OnConstraints(CanonicalSample):
         laws = self.state.laws
         return rank(laws.mass_matrix, laws.size) == laws.size
 
+    @cached_property
+    def _between_forms(self) -> list[list[arb]]:
+        """C, of which all brackets at this state have the inverse."""
+        poisson = super().bracket
+        return [[poisson(a, b) for b in self.forms] for a in self.forms]
+
     def bracket(self, i: int, j: int) -> arb:
         """Dirac's."""
         return self.terms(i, j)[0]
@@ -50,8 +57,7 @@ class OnConstraints(CanonicalSample):
             Where the constraints depend on each other.
         """
         poisson, forms = super().bracket, self.forms
-        C = [[poisson(a, b) for b in forms] for a in forms]
-        inner = solve(C, [poisson(a, j) for a in forms], len(forms)).x
+        inner = solve(self._between_forms, [poisson(a, j) for a in forms], len(forms)).x
         outer = [poisson(i, a) for a in forms]
         sizes = (abs(a * b) for a, b in zip(outer, inner, strict=True))
         return poisson(i, j) - dot(outer, inner), sum(sizes, arb(0))
