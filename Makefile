@@ -59,7 +59,7 @@ test: $(READY) ## the tests (pytest); make test ARGS="-k noether"
 
 .PHONY: long
 long: $(READY) ## the tests that `make test` leaves out
-	$(BIN)/pytest -q -n auto --dist worksteal -m long $(ARGS)
+	$(BIN)/pytest -q -n auto --dist worksteal -m "long and not hours" $(ARGS)
 
 .PHONY: certificate
 certificate: $(READY) ## whether the errors of runs are what they claim, on some problems

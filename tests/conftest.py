@@ -2,6 +2,7 @@
 
 import gc
 import signal
+from collections import Counter
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -22,8 +23,14 @@ gc.set_threshold(5_000_000, 10, 10)
 SOLVING = ("mechanics", "notation", "verification")
 
 
+def pytest_addoption(parser):
+    parser.addoption(
+        "--every", type=int, default=1, metavar="N", help="of a family's long cases run every N-th"
+    )
+
+
 @pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items):
+def pytest_collection_modifyitems(config, items):
     """Of a family of cases marked `first_quick`, or in these rooms, all but the first are long."""
     seen = set()
     for item in items:
@@ -34,6 +41,18 @@ def pytest_collection_modifyitems(items):
             if family in seen:
                 item.add_marker("long")
             seen.add(family)
+    leave_out(items, config.getoption("every"))
+
+
+def leave_out(items, number):
+    """Leave the long cases of each family but every so many to a run without `--every`."""
+    counted = Counter()
+    for item in items:
+        if item.get_closest_marker("long"):
+            family = (item.path, item.originalname)
+            if counted[family] % number:
+                item.add_marker("hours")
+            counted[family] += 1
 
 
 @pytest.fixture(autouse=True)
