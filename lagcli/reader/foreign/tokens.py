@@ -51,7 +51,7 @@ _RATE_OF_VECTOR = regex(r"\\dot\s*\{?\s*\\(?:vec|mathbf)\s*\{?r\}?\s*\}?(?=\s*[\
 #: A remark behind a formula, a row of a matrix, the brackets of a mean, lines without a sign.
 _NO_FORMULA = regex(
     r"[\w)']\s*\n\s*[\w(]|"
-    r"\(\s*[^\W\d]{3,}(?:\s+[^\W\d]+)+\s*\)\s*$|\[\s*[\w'.]+(?:\s+[-\w'.]+)+\s*\]|<[^<>=]+>"
+    r"(?<!\w)\(\s*[^\W\d]{3,}(?:\s+[^\W\d]+)+\s*\)\s*$|\[\s*[\w'.]+(?:\s+[-\w'.]+)+\s*\]|<[^<>=]+>"
 )
 #: The length of a position: |r|, ||r||, |\\vec{r}|.
 _LENGTH = regex(
