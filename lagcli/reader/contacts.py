@@ -56,9 +56,6 @@ def declared(
         message = f"'{key.label}' is not a valid name for a {what}"
         if re.search("[=<>≤≥]", key.label):
             rule = f"write name: {key.label}"
-            if re.search("[<>≤≥]", key.label) and what == "constraint":
-                gap = re.sub("(?<=[<>])(?!=)", "=", key.label)
-                rule = f"a one-sided contact stands under contacts, as in floor: {gap}"
             file.error(message, key.span, rule)
             return None
         rule = "a name has letters, digits and underscores"

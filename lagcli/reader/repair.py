@@ -21,6 +21,7 @@ from lagcli.reader.positions import Excerpt
 from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
 from lagcli.reader.undeclared import UNDECLARED
+from lagcli.reader.velocity_quotients import multiplied_out
 from lagcli.record import replace
 
 if TYPE_CHECKING:
@@ -117,16 +118,8 @@ def with_whole(
         try:
             names = _vocabulary(scope, role)
             whole = translated(written, names._replace(related=read is read_equation))
-            if read is read_equation and len(re.findall("[<>]", whole)) == 1:
-                gap = re.sub(r"([<>])(?!=)", r"\1=", whole)
-                hint = f"a one-sided contact stands under contacts, as in floor: {gap}"
-                if between := re.fullmatch(r"abs\((\w+)\) <= (\w+)", gap):
-                    x, end = between.groups()
-                    hint = (
-                        f"contacts stand under contacts: lower: {x} >= -{end}, upper: {x} <= {end}"
-                    )
-                return [replace(found[0], hint=hint)]
-            whole = _multiplied_out(whole) if read is read_equation else whole
+            if read is read_equation:
+                whole = multiplied_out(whole, scope) or whole
             sides = sides_of(read(Excerpt.whole(Source("", whole))))
         except (UnclearText, Mistake):
             continue
@@ -192,15 +185,6 @@ def _is_of_accelerations(text: str, names: Vocabulary) -> bool:
     rest = {*re.findall(r"[^\W\d]\w*'*", re.sub(r"\w+''(?![\w'^])", "", text))}
     moving = {each.rstrip("'") for each in rest} & {*names.dependent, "t"}
     return " = " in text and "''" in text and not moving and "(" not in text
-
-
-def _multiplied_out(text: str) -> str:
-    """`y' = x'*tan(phi)` for `y'/x' = tan(phi)`: a constraint is linear in the velocities."""
-    found = re.fullmatch(r"([\w*]*\w')/(\w+') = ([^=]+)", text)
-    if found is None:
-        return text
-    factor = f"({found[3]})" if re.search(r"\s[-+]\s|/", found[3]) else found[3]
-    return f"{found[1]} = {found[2]}*{factor}" if factor != "0" else f"{found[1]} = 0"
 
 
 def _with_primes(text: str, names: Vocabulary) -> str:

@@ -10,12 +10,15 @@ from lagcli.expression import ZERO, Name
 from lagcli.problem_data import Constraint, Symmetry, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
 from lagcli.reader.habits import is_angle, name_meant
-from lagcli.reader.misshapen import as_list, pieces, texts_of
+from lagcli.reader.misshapen import as_list, is_sentence, pieces, source_of, texts_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import QUESTION, STATE
+from lagcli.reader.small_changes import moved, small_change
 from lagcli.reader.suggest import did_you_mean
+from lagcli.reader.velocity_quotients import multiplied_out
+from lagcli.record import replace
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
@@ -24,24 +27,16 @@ if TYPE_CHECKING:
 
 _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION,
                           "acts_as")  # fmt: skip
-#: `x -> x - eps*y`, and so on.
-_MOVED = regex(
-    r"(\w+)\s*(?:->|→|↦|=>|=)\s*\1\s*([-+])\s*(?:eps(?:ilon)?|ε|s|delta|a|alpha|const|c|C)\b\s*\*?\s*([^,;]*)"
-)
 #: `x -> -x`, and words for it.
 _REFLECTED = regex(
     r"(\w+)\s*(?:->|→|↦|=>|=)\s*[-−]\s*\1\s*$|^(?:mirror|parity|reflection|spiegelung)\b"
 )
-#: `eps*y`, a change with its small parameter, and `x - eps*y` behind x.
-_SCALED = regex(
-    r"\s*(?P<sign>[-+]?)\s*(?P<parameter>eps(?:ilon)?|ε|s|delta|lambda|lam|alpha|a)"
-    r"(?:\s*\*\s*(?P<change>\S.*?))?\s*"
-)
-#: `x*cos(alpha)`, of a finite rotation.
-_TURNED = regex(r"\b(?:cos|sin|cosh|sinh|exp)\(\s*-?([^\W\d]\w*)\s*\)")
 _FRICTION = regex("fric|drag|reib|frott|attrit|roz|brems|wrijv|тре", re.IGNORECASE)
 _WORDS = frozenset("yes no true false True False none None null auto".split())
 _ON_LOSS = ("stop", "release")
+_OF_CONTACT = ("multiplier", RESTITUTION)
+_INEQUALITY = regex(r"(?<!-)[<>]|[≤≥]")
+_A_CONTACT = "an inequality is a contact, not a constraint"
 _FORMULA = regex("[-+*/^=(]")
 _ROLLING = "equation, as in rolling: x' = R*theta'"
 _FORCES: dict[str, ForceKind] = {
@@ -59,6 +54,10 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     names = [f"c{place}" for place in range(1, len(given) + 1)] if given[1:] else ["name"]
     written = ", ".join(map("{}: {}".format, names, given))
     hint = f"write {{{written}}}" if given[1:] else f"write {written}"
+    if any(map(_INEQUALITY.search, texts)):
+        gaps = (f"{name}: {gap}" for each in given for name, gap in _gaps("floor", each))
+        file.error(_A_CONTACT, node.span, f"write contacts: {{{', '.join(gaps)}}}")
+        return []
     named = file.named(node, "constraints", _CONSTRAINT_ATTRIBUTES, hint)
     entries = file.of_section(named, "constraints", _CONSTRAINT_ATTRIBUTES)
     for (name, equation), (key, value) in pairwise(entries):
@@ -67,8 +66,56 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
             file.error("a comma ends the equation", key.span, f"write {name.label}: {inner}")
             file.scope.refused.append(key.label)
             entries = [entry for entry in entries if entry[0] is not key]
+    entries = [entry for entry in entries if not _is_refused(file, *entry)]
     found = (declared(file, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
     return [one for one in found if one is not None]
+
+
+def _is_refused(file: FileReader, key: Scalar, value: DocumentNode) -> bool:
+    """Whether an entry is no constraint but a contact, or several constraints: a mistake."""
+    parts = {k.label: v for k, v in getattr(value, "entries", ())}
+    node = parts.get("equation", value)
+    written = node.value.strip() if isinstance(node, Scalar) else ""
+    if re.search("[<>≤≥]", key.label):  # {x <= 1}
+        written = key.label
+    if _INEQUALITY.search(written) and not is_sentence(written, file.scope.kinds):
+        attributes = {name: source_of(parts[name]) for name in _OF_CONTACT if name in parts}
+        name = key.label if key.label.isidentifier() else "floor"
+        whole = ", ".join(
+            f"{each}: {_with_gap(gap, attributes)}" for each, gap in _gaps(name, written)
+        )
+        hint = f"write contacts: {{{whole}}}"
+        file.error(_A_CONTACT, key.span, hint)
+        file.scope.refused.append(attributes.get("multiplier", f"lambda_{key.label}"))
+        return True
+    equations = equations_in(written)
+    if equations[1:]:
+        named = (f"{key.label}_{place}: {each}" for place, each in enumerate(equations, start=1))
+        hint = f"each equation has its own name: {', '.join(named)}"
+        file.error(f"'{key.label}' has several equations", key.span, hint)
+        file.scope.refused.append("")
+    return bool(equations[1:])
+
+
+def _gaps(name: str, written: str) -> list[tuple[str, str]]:
+    """The gap of one contact, or the two of `0 <= x <= l` and `abs(x) <= l`."""
+    whole = re.sub(r"=*([<>])=*", r"\1=", written.replace("≤", "<").replace("≥", ">"))
+    found = re.fullmatch(r"([^<>]+)<=([^<>]+)<=([^<>]+)", whole)
+    around = re.fullmatch(r"(?:\|([^<>|]+)\||abs\(([^<>]+)\))\s*<=([^<>]+)", whole)
+    if around:
+        end = around[3].strip()
+        return [("lower", f"{(around[1] or around[2])} >= -{end}"),
+                ("upper", f"{(around[1] or around[2])} <= {end}")]  # fmt: skip
+    if found:
+        low, x, high = map(str.strip, found.groups())
+        return [("lower", f"{x} >= {low}"), ("upper", f"{x} <= {high}")]
+    return [(name, re.sub(r"\s*([<>]=)\s*", r" \1 ", whole))]
+
+
+def _with_gap(gap: str, attributes: dict[str, str]) -> str:
+    """The gap of a contact, in a map where it has attributes."""
+    rest = "".join(f", {name}: {value}" for name, value in attributes.items())
+    return f"{{gap: {gap}{rest}}}" if rest else gap
 
 
 def equations_in(text: str) -> list[str]:
@@ -98,6 +145,8 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
                 message = f"the constraint '{name}' contains no coordinate"
                 alone = isinstance(equation.left, Name) and equation.right == ZERO
                 file.error(message, node.span, _of_length(file, str(equation.left) * alone))
+            elif isinstance(node, Scalar) and (whole := multiplied_out(node.value, file.scope)):
+                file.error(f"'{name}' divides by velocities", node.span, f"write {whole}")
         holds_while = None
         if "holds_while" in one.attributes:
             holds_while = file.comparison(one.attributes["holds_while"], "'holds_while'", QUESTION)
@@ -206,31 +255,14 @@ def _usual_change(word: str, coordinates: list[str]) -> str:
     return "{{{0}: -{1}, {1}: {0}}}".format(*coordinates)
 
 
-def _is_finite(file: FileReader, node: DocumentNode) -> bool:
-    """Whether each change has the cosine or sine of a name that is not declared."""
-    entries = node.entries if isinstance(node, Mapping) else []
-    found = [_TURNED.findall(v.value) for _, v in entries if isinstance(v, Scalar)]
-    names = {name for each in found for name in each}
-    return (
-        len(found) > 1 and all(found) and not names & {*file.scope.kinds, "t"} and len(names) == 1
-    )
-
-
-def _without_parameter(file: FileReader, node: DocumentNode) -> str:
-    """`{x: -y, y: 1}` for `{x: x - s*y, y: s}` with a parameter s that is not declared."""
-    entries = node.entries if isinstance(node, Mapping) else []
-    changes, parameters = {}, set()
-    for key, value in entries:
-        written = value.value if isinstance(value, Scalar) else ""
-        alone = re.sub(rf"^\s*{re.escape(key.label)}\s*(?=[-+])", "", written)
-        found = _SCALED.fullmatch(alone)
-        if found is None:
-            return ""
-        changes[key.label] = found["sign"].replace("+", "") + (found["change"] or "1")
-        parameters.add(found["parameter"])
-    if len(parameters) != 1 or parameters & file.scope.kinds.keys():
-        return ""
-    return f"{{{', '.join(f'{name}: {change}' for name, change in changes.items())}}}"
+def _changes_meant(file: FileReader, given: Mapping | str) -> str:
+    """`{x: -y, y: x}` for a finite rotation and for `x -> x - eps*y, y -> y + eps*x`."""
+    finite = moved(given) if isinstance(given, str) else {}
+    if isinstance(given, Mapping):
+        parts = [(key.label, value) for key, value in given.entries]
+        finite = {x: value.value for x, value in parts if isinstance(value, Scalar)}
+    names = [*file.scope.of_kind("coordinate")]
+    return small_change(finite, names, {*file.scope.kinds}, declared=isinstance(given, str))
 
 
 def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...]:
@@ -243,13 +275,12 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
     named = named if as_list(", ".join(listed)) == f"[{', '.join(named)}]" else []
     shifts = [f"{x if named[1:] else 'shift'}: {change_of(x)}" for x in named or coordinates[:1]]
     hint = f"write {{{', '.join(shifts or ['shift: {x: 1}'])}}}"
-    if moved := _MOVED.findall(listed[0]) if listed else []:  # phi -> phi + const
-        moving = (f"{x}: {sign.strip('+')}{change.strip() or 1}" for x, sign, change in moved)
-        hint = f"write {{shift: {{{', '.join(moving)}}}}}"
+    if listed and (small := _changes_meant(file, listed[0])):  # phi -> phi + const
+        hint = f"write {{shift: {small}}}"
     elif listed and not named and (usual := _usual_change(listed[0], coordinates)):
         hint = f"write {{{name_meant(listed[0], one=True) or listed[0]}: {usual}}}"
     entries = [*file.entries(node, "symmetries", hint)]
-    moves = [key.label for key, value in entries if key.in_flow and _MOVED.search(key.label)]
+    moves = [key.label for key, value in entries if key.in_flow and moved(key.label)]
     for key, value in ((k, v) for k, v in entries if k.label not in moves):
         what = f"the symmetry '{key.label}'"
         before = len(file.diagnostics)
@@ -263,21 +294,16 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
             usual = _usual_change(key.label, coordinates) or usual
         here = f"write {key.label}: {usual}"
         said = ", ".join([value.value, *moves]) if isinstance(value, Scalar) else ""
-        if moved := _MOVED.findall(said):
-            pairs = [f"{name}: {'-' * (sign == '-')}{change or 1}" for name, sign, change in moved]
-            here = f"write {key.label}: {{{', '.join(pairs)}}}"
+        if small := _changes_meant(file, said):
+            here = f"write {key.label}: {small}"
         if isinstance(value, Scalar) and _REFLECTED.search(f"{key.label}: {value.value}"):
             hint = "leave it out: conserved quantities belong to continuous symmetries"
             file.error(f"{what} is a reflection", value.span, hint)
-            continue
-        if scaled := _without_parameter(file, value):
-            file.error(f"{what} contains its small parameter", value.span, f"write {scaled}")
-            continue
-        if _is_finite(file, value):
-            usual = _usual_change("rotation", coordinates)
-            hint = f"write the change per unit of a small parameter, as in {usual}"
-            file.error(f"{what} is a finite change", value.span, hint)
-            continue
+            value = Mapping(value.text, value.start, value.start, [])
+        elif isinstance(value, Mapping) and (small := _changes_meant(file, value)):
+            hint = f"write {small}: the change per unit of the parameter"
+            file.error(f"{what} contains its parameter", value.span, hint)
+            value = replace(value, entries=[])
         for name, change in file.entries(value, what, here):
             if name.label == "gauge" and isinstance(change, Scalar) and change.value in _WORDS:
                 file.error("'gauge' is a formula", change.span, "leave it out: it is found")

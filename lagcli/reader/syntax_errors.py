@@ -75,9 +75,7 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
         return Diagnostic("'->' has no meaning", _span(token, excerpt), "write '='")
     if token.type == "COMPARISON":
         message = f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once"
-        hint = _contact_advice(excerpt.value) if start == "equation" else CASE
-        if start == "comparison":
-            hint = _one_by_one(excerpt.value)
+        hint = _one_by_one(excerpt.value) if start == "comparison" else CASE
         if start == "expression" and re.search(r"<[^<>]+>", excerpt.value):
             hint = "group with parentheses ( ), without '<' and '>'"
         return Diagnostic(message, _span(token, excerpt), hint)
@@ -246,13 +244,6 @@ def _one_by_one(written: str) -> str:
         return "write each by itself, under its own name"
     low, name, high = (each.strip() for each in found.groups())
     return f"write each by itself, as in lower: {name} >= {low}, upper: {name} <= {high}"
-
-
-def _contact_advice(written: str) -> str:
-    gap = re.sub(r"=?([<>])=?", r"\1=", written.strip())
-    if len(written) > 40 or len(re.findall("[<>≤≥]", written)) > 1:
-        gap = "y >= 0"
-    return f"a one-sided contact stands under contacts, as in floor: {gap}"
 
 
 def _open_parenthesis(tokens: list[Token]) -> Token | None:

@@ -314,9 +314,11 @@ def test_a_velocity_among_the_coordinates_is_pointed_out_once(form, name):
 def test_a_change_without_its_small_parameter(parameter):
     plane = {"coordinates": "[x, y]", "T": "m*(x'^2 + y'^2)/2"}
     written = f"{{turn: {{x: {parameter}*(-y), y: {parameter} * x}}}}"
-    assert only_mistake(text(**plane, symmetries=written)).hint == "write {x: (-y), y: x}"
+    assert only_mistake(text(**plane, symmetries=written)).hint == (
+        "write {x: -y, y: x}: the change per unit of the parameter"
+    )
     alone = f"{{shift: {{x: {parameter}}}}}"
-    assert only_mistake(text(**plane, symmetries=alone)).hint == "write {x: 1}"
+    assert only_mistake(text(**plane, symmetries=alone)).hint.startswith("write {x: 1}: ")
     declared = text(**plane, parameters=f"[m, k, {parameter}]", symmetries=alone)
     assert messages(declared) == []
 
@@ -460,7 +462,7 @@ OTHERS = [
     (text(coordinates="[x_i]", T="m*x_i'^2", V="k*(x_{i+1} - x_i)^2"), "every name in full"),
     (text(T="KineticEnergy(m, x')"), "or write its formula"),
     (text(parameters="[m, k, μ]", V="µ*x"), "with the letter Greek small letter mu"),
-    (text(constraints="\n  two: x = k, x = m"), "write each by itself"),
+    (text(constraints="\n  two: x = k, x = m"), "own name: two_1: x = k, two_2: x = m"),
     (text(symmetries="{turn: {dx: 1}}"), "write x, whose change it is"),
     (text(functions="{U: [sqrt(x^2)]}", V="U(x)"), "write r, and U(sqrt(x^2)) where it is used"),
     (text(definitions="\n  - y: k*x", T="m*y'^2/2"), "leave out the '-' before each key"),
@@ -509,14 +511,28 @@ def test_words_that_are_names_are_no_remark():
     assert only_mistake(written).hint == "did you mean 2*mass*gravity*height?"
 
 
-@pytest.mark.parametrize("function", ["cos", "sin", "cosh", "exp"])
-@pytest.mark.parametrize("name", ["alpha", "s", "ε"])
-def test_a_finite_change_is_told_its_small_one(function, name):
+FINITE = [
+    ("x*cos({0}) - y*sin({0})", "x*sin({0}) + y*cos({0})", "-y", "x"),
+    ("x*cosh({0}) + y*sinh({0})", "x*sinh({0}) + y*cosh({0})", "y", "x"),
+    ("x*exp({0})", "y/exp({0})", "x", "-y"),
+    ("{0}*x", "{0}^(3/2)*y", "x", "3/2*y"),
+    ("x/(1 - {0}*x)", "y + 3*{0}*t*x", "x*x", "3*t*x"),
+    ("x - {0}*t", "y + {0}", "-t", "1"),
+]
+
+
+@pytest.mark.parametrize("name", ["alpha", "v", "ε"])
+@pytest.mark.parametrize(("one", "other", "x", "y"), FINITE)
+def test_a_finite_change_is_told_its_small_one(one, other, x, y, name):
     plane = {"coordinates": "[x, y]", "T": "m*(x'^2 + y'^2)/2"}
-    finite = f"{{turn: {{x: x*{function}({name}), y: y*{function}(-{name})}}}}"
-    assert "as in {x: -y, y: x}" in only_mistake(text(**plane, symmetries=finite)).hint
+    one, other = one.format(name), other.format(name)
+    finite = f"{{turn: {{x: '{one}', y: '{other}'}}}}"
+    whole = f"write {{x: {x}, y: {y}}}: the change per unit of the parameter"
+    assert only_mistake(text(**plane, symmetries=finite)).hint == whole
     known = text(**plane, parameters=f"[m, k, {name}]", symmetries=finite)
     assert messages(known) == []
+    moved = text(**plane, symmetries=f"{{turn: 'x -> {one}, y -> {other}'}}")
+    assert only_mistake(moved).hint == f"write turn: {{x: {x}, y: {y}}}"
 
 
 FURTHER = [

@@ -83,7 +83,7 @@ HINTS = [
     (text(coordinates="[x[1], x[2]]"), "write x_1"),
     (text(coordinates="[θ]", T="m*θ'^2", V="cosθ*theta"), "write cos(θ)"),
     (text(constraints="{a: x → 1}"), "write x = 1"),
-    (text(constraints="{a: 0 < x < 1}"), "as in floor: y >= 0"),
+    (text(constraints="{a: 0 < x < 1}"), "write contacts: {lower: x >= 0, upper: x <= 1}"),
     (text(forces="(-k*x)"), "write {x: "),
     (text(expect="{equations: m*x'' = -k*x}"), "write [m*x'' = -k*x]"),
     (text(D="m*x'^2"), "the key is dissipation"),

@@ -1,0 +1,58 @@
+"""What stands under constraints and is none, or none yet: the hint has what is meant."""
+
+import pytest
+
+from lagcli.reader import read_problem
+
+FILE = (
+    "coordinates: [x, y, phi]\nparameters: [m, a, l]\nT: m*(x'^2 + y'^2 + phi'^2)/2\n"
+    "constraints: {{c: {}}}\n"
+)
+
+
+def only_hint(constraint):
+    [only] = read_problem("p.yaml", FILE.format(constraint).encode()).diagnostics
+    return only.hint
+
+
+@pytest.mark.parametrize(
+    ("quotient", "whole"),
+    [
+        ("y'/x' = tan(phi)", "y' = x'*tan(phi)"),
+        ("tan(phi) - y'/x'", "x'*tan(phi) - y' = 0"),
+        ("y'/x' = a - tan(phi)", "y' = x'*a - x'*tan(phi)"),
+        ("(y' - a)/(x' + a) = phi", "(y' - a) = (x' + a)*phi"),
+        ("a*y'/x'*l = phi", "a*y'*l = x'*phi"),
+        ("y'/x' - l*phi'/x' = 2", "y' - l*phi' = x'*2"),
+        ("phi = atan(y'/x')", "y' = x'*tan(phi)"),
+        ("atan2(y', x') = phi + a", "y' = x'*tan(phi + a)"),
+        (r"\frac{dy}{dx} = \tan\phi", "y' = x'*tan(phi)"),
+    ],
+)
+def test_a_quotient_of_velocities_is_multiplied_out(quotient, whole):
+    assert only_hint(f"'{quotient.replace(chr(39), chr(39) * 2)}'") == f"write {whole}"
+
+
+@pytest.mark.parametrize(
+    ("written", "contacts"),
+    [
+        ("y >= 0", "{c: y >= 0}"),
+        ("y > a", "{c: y >= a}"),
+        ("{equation: y ≥ 0, restitution: 0.8}", "{c: {gap: y >= 0, restitution: 0.8}}"),
+        ("{equation: y >= 0, multiplier: N, holds_while: N >= 0}", "{c: {gap: y >= 0, multiplier: N}}"),
+        ("0 <= x <= l", "{lower: x >= 0, upper: x <= l}"),
+        ("'|x| < l'", "{lower: x >= -l, upper: x <= l}"),
+        ("abs(x - a) <= l", "{lower: x - a >= -l, upper: x - a <= l}"),
+    ],
+)  # fmt: skip
+def test_an_inequality_is_a_contact(written, contacts):
+    assert only_hint(written) == f"write contacts: {contacts}"
+    right = FILE.format("").replace("constraints: {c: }", f"contacts: {contacts}")
+    assert read_problem("p.yaml", right.encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize("between", [" and ", "; ", ";"])
+@pytest.mark.parametrize("form", ["'{}'", "{{equation: '{}'}}"])
+def test_equations_of_one_name_get_one_each(between, form):
+    hint = only_hint(form.format(f"x = a{between}y = 0"))
+    assert hint == "each equation has its own name: c_1: x = a, c_2: y = 0"
