@@ -22,6 +22,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
     folded,
+    terms_of,
     walk,
 )
 from lagcli.reader.constants import rational_value
@@ -33,7 +34,7 @@ from lagcli.reader.plain_sign import plain_sign
 from lagcli.reader.text import SourceText
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterable, Iterator, Mapping
 
     from lagcli.expression import Expression
     from lagcli.problem_data import Problem
@@ -60,6 +61,10 @@ def slips(problem: Problem) -> list[Diagnostic]:
     if lost is not None and _sign(lost, problem.definitions, signs) == -1:
         hint = f"it drives the motion; {FRICTION}"
         found.append(_warning("the dissipation is negative", lost.span, hint))
+    for term in terms_of(problem.potential or ZERO):
+        if _moves(term) and all(node.primes or node.name in signs for node in _names(term)):
+            message = "a term of V with velocities and constants alone has no effect on the motion"
+            found.append(_warning(message, term.span, FRICTION))
     found += friction_slips(problem.forces, tuple(x.name for x in problem.coordinates), signs)
     energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
     roots = (n for formula in energies if formula is not None for n in walk(formula))
@@ -164,6 +169,7 @@ def check_values(file: FileReader, problem: Problem) -> None:
     """Values that break an assumption, negative masses, restitution that is not in 0 to 1, runs."""
     _check_run(file, problem)
     _check_dissipation(file, problem)
+    _check_potential(file, problem)
     known = _known(problem)
     for parameter in problem.parameters:
         value = known.get(parameter.name)
@@ -237,6 +243,65 @@ def _check_dissipation(file: FileReader, problem: Problem) -> None:
         hint = f"a law of a force: write forces: {{{''.join(rates)}: {law}}}"
         hint = hint if len(rates) == 1 and not problem.forces else FRICTION
         file.error(message, formula.span, f"write {whole}: {FRICTION}" if whole else hint)
+
+
+def _check_potential(file: FileReader, problem: Problem) -> None:
+    """V is linear in velocities in a magnetic field, and has r'^2/r in Weber's electrodynamics.
+
+    Another term with velocities is meant as friction, and acts as a negative kinetic energy.
+    """
+    terms = terms_of(problem.potential or ZERO)
+    wrong = [each for each in terms if not isinstance(each, Negative) and _is_misplaced(file, each)]
+    if not wrong:
+        return
+    text = SourceText.of(problem.source)
+
+    def written(parts: Iterable[Expression]) -> str:
+        each = (problem.source.text[slice(*text.offsets(part.span))] for part in parts)
+        return " + ".join(each).replace("+ -", "- ")
+
+    rest, moved = written(term for term in terms if term not in wrong), written(wrong)
+    inner = [
+        map(_moves, node.terms) for term in wrong for node in walk(term) if isinstance(node, Sum)
+    ]
+    rates = {node.name for term in wrong for node in _names(term) if node.primes}
+    if any(len({*each}) > 1 for each in inner):
+        hint = FRICTION
+    elif len(rates) == 1 and any(_parity(term, problem.definitions) == -1 for term in wrong):
+        hint = f"a law of a force: write forces: {{{''.join(rates)}: -{moved}}}"
+    else:
+        given = f"{written([problem.dissipation])} + " if problem.dissipation else ""
+        hint = f"friction has no potential: write dissipation: {given}{moved}"
+        hint += f", and V: {rest}" if rest else " in place of V"
+    file.error("a term of V is not linear in the velocities", wrong[0].span, hint)
+
+
+def _moves(formula: Expression) -> bool:
+    return any(node.primes for node in _names(formula))
+
+
+def _is_misplaced(file: FileReader, term: Expression) -> bool:
+    """Whether a term is not linear in velocities, and has no function of coordinates."""
+
+    def degree(node: Expression, parts: list[float]) -> float:
+        match node:
+            case Name():
+                return float(derivative_order(node, file.scope) > 0)
+            case Sum():
+                return max(parts)
+            case Power(exponent=Number(value=power)):
+                return parts[0] * float(power)
+            case Call(function=function):
+                return 2 * max(parts) if function in _EVEN else max(parts)
+            case _:
+                return sum(parts)
+
+    inner = [part for node in walk(term) for part in (
+        (node.denominator,) if isinstance(node, Quotient)
+        else node.arguments if isinstance(node, Call) else ())]  # fmt: skip
+    if any(derivative_order(part, file.scope) == 0 for part in inner):
+        return False
+    return folded(term, degree) > 1
 
 
 def _parity(formula: Expression, definitions: Mapping[str, Expression]) -> int:

@@ -37,3 +37,51 @@ def test_frictions_of_exchanged_velocities_are_each_named(along_x, along_y):
     x, y = warned(along_x, along_y)
     assert x == "this force along x is against the velocity y'"
     assert y == "this force along y is against the velocity x'"
+
+
+IN_V = (
+    "coordinates: [x, y, r]\nparameters: [m, c, k, q, B, g]\nT: m*(x'^2 + y'^2 + r'^2)/2\nV: {}\n"
+)
+
+
+def told(potential):
+    found = read_problem("p.yaml", IN_V.format(potential).encode()).diagnostics
+    return [(each.severity, each.hint) for each in found]
+
+
+@pytest.mark.parametrize(
+    "potential",
+    [
+        "k*x^2/2",
+        "q*B*y*x'",
+        "q*B*(x*y' - y*x')/2 + m*g*x",
+        "k/r*(1 + r'^2/(2*c^2))",
+        "q*sin(k*t)*x'",
+    ],
+)
+def test_a_potential_may_have_velocities(potential):
+    assert told(potential) == []
+
+
+@pytest.mark.parametrize(
+    ("potential", "hint"),
+    [
+        ("k*x^2/2 + c*x'^2/2", "write dissipation: c*x'^2/2, and V: k*x^2/2"),
+        ("k*x + c*(x' - y')^2/2 + m*g*y", "dissipation: c*(x' - y')^2/2, and V: k*x + m*g*y"),
+        ("c*r^2*x'^2/2", "write dissipation: c*r^2*x'^2/2 in place of V"),
+        ("k*m*g*abs(x')", "write dissipation: k*m*g*abs(x') in place of V"),
+        ("k*x^2/2 + c*x'*abs(x')", "write forces: {x: -c*x'*abs(x')}"),
+        ("(k*x^2 + c*x'^2)/2", "is written dissipation: c*x'^2/2"),
+    ],
+)
+def test_friction_has_no_potential(potential, hint):
+    [(severity, given)] = told(potential)
+    assert severity == "error"
+    assert hint in given
+
+
+@pytest.mark.parametrize("potential", ["c*x'", "k*x^2 - c*(x' + y')", "c*m*y'/2"])
+def test_a_constant_rate_in_V_is_without_effect(potential):
+    [(severity, hint)] = told(potential)
+    assert severity == "warning"
+    assert "dissipation" in hint
