@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression, sides_of
+from lagcli.reader.friction_meant import friction_meant
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import (
     LISTS,
@@ -394,11 +395,12 @@ class FileReader:
     def _read(self, node: DocumentNode, what: str, read: Callable[[Excerpt], _T]) -> _T | None:
         if not isinstance(node, Scalar):
             hint = one_sum(node, what)
-            is_force = isinstance(node, Mapping) and source_of(node).count(": -")
-            if what == "dissipation" and is_force:
-                hint = f"these are forces: write forces: {{{entries_of(node)}}}"
-            elif what == "dissipation" and not re.search(r"\^2|\*\*2|²", hint):
-                hint = "one function for all coordinates, such as c*x'^2/2"
+            if what == "dissipation":
+                hint = friction_meant(what, node, [*self.scope.of_kind("coordinate")])
+                hint = hint.replace("dissipation: ", "").replace(
+                    "write f", "these are forces: write f"
+                )
+                hint = hint or "one function for all coordinates, such as c*x'^2/2"
             self.error(f"{what} must be an expression, not {kind(node)}", node.span, hint)
             return None
         if self.is_full or self.scalar(node, what) is None:

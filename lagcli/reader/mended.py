@@ -172,6 +172,9 @@ class _Mending:
     def span_in_file(self, state: _State, place: tuple[int, int]) -> Span:
         """The stretch of the file that a stretch of a later text is."""
         begin = self.begin_of(state, place[0])
+        written = state.owner(place)
+        if written is not None and begin >= len(self.file.source.text):  # in a new section
+            return self.followed[written].mistake.span
         inside = [each for each in state.origins[slice(*place)] if each >= begin]
         owner = state.owner(place)
         if not inside and owner is not None and owner < len(self.followed):

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple, get_args
 
 from lagcli.problem_data import Assumption
 from lagcli.reader.by_coordinate import state_meant
+from lagcli.reader.friction_meant import friction_meant
 from lagcli.reader.habits import (
     KEYS,
     MAPS,
@@ -25,7 +26,6 @@ from lagcli.reader.misplaced import names_in
 from lagcli.reader.misshapen import (
     ALREADY_FOUND,
     FOUND,
-    as_rayleigh,
     entries_of,
     key_by_shape,
     range_end,
@@ -44,8 +44,6 @@ _NEAR = 0.7
 _SLIP = 0.8
 _PROBLEM = "the problem"
 _WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
-_FRICTION = "friction"
-_FRICTIONS = frozenset({_FRICTION, "coulomb_friction", "dry_friction", "reibung", "frottement"})
 #: The number of a state.
 _STATE = regex(r"(?:[-+*/\d.() ]|pi|e(?=[-+\d]))+")
 _DEFINED = "a formula with a name stands under definitions"
@@ -95,8 +93,14 @@ def unknown_key(
         hint = f"write {broken[1]}: {broken[2]}: {source_of(value)}"
         return UnknownKey(f"a ':' is missing behind '{broken[1]}'", hint)
     along = _coordinates(around) if what == _PROBLEM else []
-    meant, hint = _meant(word, written, what, names, along)
-    if what == _PROBLEM:
+    meant, hint = _meant(word, written, what, names)
+    friction = friction_meant(word, value, along)
+    if friction and is_constant(word, written) and _is_named(key, value, around):
+        meant, hint = None, _of_constant(word, written)
+    elif friction:
+        is_key = friction == f"write dissipation: {written}"
+        meant, hint = ("dissipation", "the key is dissipation") if is_key else (None, friction)
+    elif what == _PROBLEM:
         meant, hint = _meant_of_problem(key, value, around, meant, hint, scope)
     elif not hint or hint.startswith("did you mean"):
         hint = _outer(key, value, names) or hint
@@ -127,37 +131,18 @@ def unknown_key(
     return UnknownKey(f"unknown key '{word}' in {what}", hint, meant)
 
 
-def _meant(
-    word: str, written: str, what: str, names: tuple[str, ...], along: list[str]
-) -> tuple[str | None, str]:
+def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[str | None, str]:
     """The key that a word stands for, and the hint; the advice for the word where it has none."""
     is_time = word == "t" and "'" not in written
     other = "" if is_time else word.casefold()  # the time is not T
     alike = [name for name in names if name.casefold() == other]
     meant = alike[0] if len(alike) == 1 else key_meant(word, names)
-    square = re.fullmatch(r"\s*-?\s*([\w*./]*?)\*?(\w+')\s*(?:\^|\*\*)\s*2\s*", written)
-    if square and "drag" in word.casefold():
-        law = f"-{square[1] or 1}*{square[2]}*abs({square[2]})"
-        return None, f"write forces: {{{square[2][:-1]}: {law}}}"
-    if meant == "dissipation" and re.search(r"\||abs\(", written) and len(along) == 1:
-        return None, f"a law of a force: write forces: {{{along[0]}: {written}}}"
-    if meant == "dissipation" and (whole := as_rayleigh(written)):
-        return None, f"write dissipation: {whole}"
-    if meant == "dissipation" and re.fullmatch(r"[\d.]+|[^\W\d]\w*", written) and len(along) == 1:
-        return (
-            None,
-            f"write dissipation: {written}*{along[0]}'^2/2: its force is -{written}*{along[0]}'",
-        )
-    if meant == "dissipation" and "'" not in written:  # a coefficient
-        return meant, _advice(_FRICTION, written, what, names)
     if meant:
         return meant, f"the key is {meant}"
     if advice := _advice(word, written, what, names):
         return None, advice
     stem = key_of_stem(word, names)
-    if stem == "dissipation" and not re.search(r"['’′\u0307]|dot|d\w+/dt|[ẋẏż]", written):
-        stem = None
-    if stem and stem != closest(word, names, _NEAR):
+    if stem not in {None, "dissipation", closest(word, names, _NEAR)}:
         return stem, f"the key is {stem}"
     return None, did_you_mean(word, names, _NEAR) or did_you_mean(
         word.removesuffix("s"), names, _NEAR
@@ -177,13 +162,6 @@ def _meant_of_problem(
         return None, f"forces stand by coordinate: write forces: {{{force}}}"
     if form := _quadratic_form(word, value, _coordinates(around)):
         return None, form
-    if (
-        word.casefold() in _FRICTIONS
-        and re.search(r"(?<!\w)(?:mu|μ)", written)
-        and "'" not in written
-    ):
-        along = next(iter(_coordinates(around)), "x")
-        return None, f"write forces: {{{along}: -{written.lstrip('-')}*sign({along}')}}"
     numbers = [v.value for _, v in getattr(value, "entries", ()) if isinstance(v, Scalar)]
     has_parameters = "parameters" in {each.label for each, _ in around.entries}
     all_numbers = numbers and all(is_constant("x", each) for each in numbers)
@@ -338,6 +316,13 @@ def _outer(key: Scalar, value: DocumentNode, names: tuple[str, ...]) -> str:
     return f"a key of the problem: write {outer}: {source_of(value)} on a line of its own"
 
 
+def _is_named(key: Scalar, value: DocumentNode, around: Mapping) -> bool:
+    """Whether the word for a key stands in other formulas of the file."""
+    text = around.text.source.text
+    elsewhere = text[: key.start] + text[value.end :]
+    return re.search(rf"[-+*/^(=:]\s*{re.escape(key.label)}(?!\w|\s*:)", elsewhere) is not None
+
+
 def _is_used(key: Scalar, value: DocumentNode, around: Mapping) -> bool:
     """Whether an entry is the formula of a name that stands in other formulas of the file."""
     if not re.fullmatch(r"[^\W\d]\w*", key.label) or not isinstance(value, Scalar):
@@ -358,8 +343,7 @@ def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
     if word in get_args(Assumption) and word != "real" and "assume" in known:
         return f"write assume: {word}"
     if advice := advice_in(section).get(word) or advice_in(section).get(word.replace(" ", "_")):
-        whole = as_rayleigh(value) if word == _FRICTION else ""
-        return f"write dissipation: {whole}" if whole else advice.replace("{word}", word)
+        return advice.replace("{word}", word)
     if section == "expect" and word.endswith("''"):
         return f"write accelerations: {{{word[:-2]}: {value.strip()}}}"
     return _advice_in_problem(word, value.strip()) if section == "problem" else ""
@@ -384,9 +368,13 @@ def _advice_in_problem(word: str, value: str) -> str:
     if part:
         return f"write {part}: {{{key}: {value or '…'}}}"
     if is_constant(word, value):
-        number, unit = number_and_unit(value)
-        given = f"{{value: {number}, unit: {unit}}}" if unit else number
-        return f"a constant stands under parameters: write parameters: {{{word}: {given}}}"
+        return _of_constant(word, value)
     if word.casefold() in {"gravity", "gravitation", "weight", "spring", "field"}:
         return "it has a potential energy: write V: m*g*y"
     return ""
+
+
+def _of_constant(word: str, value: str) -> str:
+    number, unit = number_and_unit(value)
+    given = f"{{value: {number}, unit: {unit}}}" if unit else number
+    return f"a constant stands under parameters: write parameters: {{{word}: {given}}}"

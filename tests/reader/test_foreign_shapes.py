@@ -245,12 +245,12 @@ def test_a_new_momentum_is_named_after_its_coordinate(shape):
 @pytest.mark.parametrize("name", ["omega", "w_0", "Ω"])
 @pytest.mark.parametrize("formula", ["sqrt(k/m)", "k*x", "x'/2"])
 def test_a_formula_with_a_name_that_others_use_stands_under_definitions(name, formula):
-    hint = only_mistake(text(V=f"m*{name}^2*x^2/2", **{name: formula})).hint
+    hint = only_mistake(text(V=f"m*{name}*x^2/2", **{name: formula})).hint
     assert (
         hint
         == f"a formula with a name stands under definitions: write definitions: {{{name}: {formula}}}"
     )
-    mended = text(V=f"m*{name}^2*x^2/2", definitions=f'{{{name}: "{formula}"}}')
+    mended = text(V=f"m*{name}*x^2/2", definitions=f'{{{name}: "{formula}"}}')
     assert messages(mended) == []
     unused = only_mistake(text(Zeta_1=formula))
     assert "definitions:" not in unused.hint

@@ -85,3 +85,33 @@ def test_a_constant_rate_in_V_is_without_effect(potential):
     [(severity, hint)] = told(potential)
     assert severity == "warning"
     assert "dissipation" in hint
+
+
+KEYS = [
+    ("friction: mu", "forces: {x: -mu*N*sign(x')}, with the normal force N written out"),
+    ("friction: 0.3", "forces: {x: -0.3*N*sign(x')}, with the normal force N written out"),
+    ("dry_friction: 0.3*m*g", "forces: {x: -0.3*m*g*sign(x')}"),
+    ("friction: {mu: 0.3}", "forces: {x: -0.3*N*sign(x')}"),
+    ("friction: {x: -c*x'}", "forces: {x: -c*x'}"),
+    ("friction: c", "dissipation: c*x'^2/2: its force is -c*x'"),
+    ("drag: -c*|v|*v", "forces: {x: -c*abs(x')*x'}"),
+    ("drag: c*x'^2", "forces: {x: -c*x'*abs(x')}"),
+    ("dampers: {shock: c*x'}", "dissipation: c*x'^2/2"),
+    ("dashpots: [c*x', -k*xdot]", "dissipation: c*x'^2/2 + k*x'^2/2"),
+    ("dampers:\n  one:\n    force: -c*x'", "dissipation: c*x'^2/2"),
+    ("damping: {c: 0.3}", "dissipation: 0.3*x'^2/2: its force is -0.3*x'"),
+    ("shock_absorber: {c1: c*x'^2/2}", "dissipation: c*x'^2/2"),
+]
+
+
+@pytest.mark.parametrize(("written", "hint"), KEYS)
+def test_friction_under_another_key_is_told_where_it_stands(written, hint):
+    text = f"coordinates: [x]\nparameters: [m, c, k, mu, g]\nT: m*x'^2/2\n{written}\n"
+    [only] = read_problem("p.yaml", text.encode()).diagnostics
+    assert only.hint.startswith(f"write {hint}")
+
+
+def test_a_word_for_friction_that_a_formula_uses_is_a_constant():
+    text = "coordinates: [x]\nT: x'^2/2\nforces: {x: -friction*x'}\nfriction: 0.3\n"
+    [only] = read_problem("p.yaml", text.encode()).diagnostics
+    assert only.hint == "a constant stands under parameters: write parameters: {friction: 0.3}"
