@@ -47,7 +47,13 @@ def blocks(section: HamiltonJacobiSection, _: Answers) -> Iterator[Block]:
     parts: list[str | Formula] = [_NAMED[section.separable]]
     if section.obstacle:
         first, second = section.obstacle
-        parts += [": Levi-Civita's condition fails for ", Name(first), " and ", Name(second)]
+        parts += [
+            " in general" if section.in_general else "",
+            ": Levi-Civita's condition fails for ",
+            Name(first),
+            " and ",
+            Name(second),
+        ]
     elif section.separable:
         parts += [" (Levi-Civita's condition holds)"]
     yield Paragraph((*parts, "."))
@@ -128,7 +134,14 @@ def json(section: HamiltonJacobiSection) -> Object:
     if section.time_rate is not None:
         names += " time_rate of_time integrals"
     after = fields_of(section, f"{names} reason")
-    return {"hamilton_jacobi": {**before, "obstacle": section.obstacle or None, **after}}
+    return {
+        "hamilton_jacobi": {
+            **before,
+            "obstacle": section.obstacle or None,
+            "in_general": section.in_general,
+            **after,
+        }
+    }
 
 
 _EXPECTED = with_constants(

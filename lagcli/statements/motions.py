@@ -211,7 +211,8 @@ class HamiltonJacobiSection:
     """H(q, dS/dq) = E with S = -E t + sum W_i(q_i), where it separates in the coordinates given.
 
     `hamiltonian` has p for dS/dq.  `separable` is the verdict of Levi-Civita's test, `obstacle`
-    the first pair of coordinates at which it fails.  `equations` are the separated ones (= 0),
+    the first pair of coordinates at which it fails, `in_general` where special values of the
+    parameters may make it hold.  `equations` are the separated ones (= 0),
     `derivatives` the W_i' with their positive roots, `functions` the W_i that are elementary
     and `cases` those that are so case by case; `constants` are E, the
     momenta of the cyclic coordinates, and those of separation.
@@ -225,6 +226,7 @@ class HamiltonJacobiSection:
     energy: str
     separable: bool | None
     obstacle: tuple[str, ...] = ()
+    in_general: bool = False
     constants: tuple[str, ...] = ()
     equations: Mapping[str, Expression] = field(default_factory=dict)
     derivatives: Mapping[str, Expression] | None = None

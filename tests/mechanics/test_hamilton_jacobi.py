@@ -71,6 +71,32 @@ def test_what_does_not_separate_has_its_obstacle(text):
     assert found.derivatives is None
 
 
+@pytest.mark.parametrize(
+    ("lagrangian", "special"),
+    [
+        ("(x'^2 + y'^2)/2 - (x^2 + y^2)^n", "1"),
+        ("(x'^2 + y'^2)/2 - x^2 - n*x*y", "0"),
+        ("(x'^2 + y'^2)/2 + n*(x*y' - y*x')/2 - x^2/2", "0"),
+        ("(x'^2 + y'^2)/2 + (n - 3)*x'*y'/4 - x^4 - y^4", "3"),
+        ("(x'^2 + y'^2)/2 - (x + y)^n", "0"),
+    ],
+)
+def test_what_fails_only_in_general_separates_for_a_special_value(lagrangian, special):
+    text = "{{coordinates: [x, y], {} L: {}}}"
+    general, _ = section(text.format("parameters: [n],", lagrangian))
+    assert (general.separable, general.in_general) == (False, True)
+    found, _ = section(text.format("", lagrangian.replace("n", special)))
+    assert found.separable is True
+
+
+def test_a_double_pendulum_separates_for_no_masses_and_lengths():
+    found, _ = section(
+        "{coordinates: [a, b], parameters: {m: POSITIVE, M: POSITIVE, l: POSITIVE, r: POSITIVE},"
+        " L: (m + M)*l^2*a'^2/2 + M*r^2*b'^2/2 + M*l*r*a'*b'*cos(a - b) + M*r*cos(b)}"
+    )
+    assert (found.separable, found.in_general) == (False, False)
+
+
 def test_rotated_by_an_eighth_of_a_turn_the_coupled_oscillators_separate():
     found, _ = section("{coordinates: [u, v], L: (u'^2 + v'^2)/2 - u^2/2 - 3*v^2/2 - v^4}")
     assert found.separable is True

@@ -162,7 +162,8 @@ def hamilton_jacobi(explainer: Explainer, section: Section) -> Iterator[Block]:
     yield shows(E, found.hamiltonian)
     if found.obstacle:
         yield says(W, " is a sum of functions of one coordinate each only where Levi-Civita's "
-                   "condition holds for every pair of coordinates. It fails for ",
+                   "condition holds for every pair of coordinates. ",
+                   "In general it" if found.in_general else "It", " fails for ",
                    names(found.obstacle), ": the equation does not separate in these.")  # fmt: skip
         return
     if found.derivatives is None:

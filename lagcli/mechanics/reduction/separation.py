@@ -25,10 +25,13 @@ from itertools import combinations
 
 import sympy
 from sympy import Add, Expr, S, Symbol
+from sympy.core.function import AppliedUndef
 
 from lagcli.algebra import Field, is_zero, simplify
 from lagcli.algebra.build import free_of, symbol
 from lagcli.algebra.factors import factors_of
+from lagcli.algebra.ring import Monomial
+from lagcli.algebra.signs import sign
 from lagcli.mechanics.constraints import Constraints
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.minimal import minimal
@@ -73,14 +76,43 @@ def levi_civita(
     """
     open_ = False
     for i, j in combinations(range(len(q)), 2):
-        di, dj, ui, uj = (H.diff(x) for x in (q[i], q[j], p[i], p[j]))
-        terms = (ui * uj * di.diff(q[j]), di * dj * ui.diff(p[j]),
-                 -di * uj * ui.diff(q[j]), -ui * dj * di.diff(p[j]))  # fmt: skip
-        holds = is_zero(Add(*terms))
+        holds = is_zero(_condition(H, (q[i], q[j]), (p[i], p[j])))
         if holds is False:
             return False, (i, j)
         open_ = open_ or holds is None
     return (None if open_ else True), None
+
+
+def _condition(H: Expr, q: Sequence[Symbol], p: Sequence[Symbol]) -> Expr:
+    """H^i H^j H_ij + H_i H_j H^ij - H_i H^j H^i_j - H^i H_j H_i^j of two coordinates."""
+    di, dj, ui, uj = (H.diff(x) for x in (*q, *p))
+    return Add(
+        ui * uj * di.diff(q[1]), di * dj * ui.diff(p[1]),
+        -di * uj * ui.diff(q[1]), -ui * dj * di.diff(p[1]),
+    )  # fmt: skip
+
+
+def nonzero_for_all_parameters(expression: Expr, state: Sequence[Symbol]) -> bool:
+    """Whether an expression is no 0 in the state, whatever values the parameters have.
+
+    So it is where a monomial in functions of the state alone has a coefficient of one sign;
+    of r^n + r^2 this is not known, nor of n (n - 2) r^n, nor with functions left open.
+    """
+    if expression.has(AppliedUndef):
+        return False
+    field = Field([expression])
+    numerator = field(expression).numerator
+    entered = [generator.expression for generator in field.generators]
+    of_state = {k for k, e in enumerate(entered) if not free_of(e, state)}
+    if any(not e.free_symbols <= {*state} for e in (entered[k] for k in of_state)):
+        return False
+    coefficients: dict[Monomial, list[tuple[Monomial, int]]] = {}
+    for monomial, number in field.ring.terms(numerator):
+        moving = tuple(pair for pair in monomial if pair[0] in of_state)
+        constant = tuple(pair for pair in monomial if pair[0] not in of_state)
+        coefficients.setdefault(moving, []).append((constant, number))
+    values = (field.polynomial(field.ring.build(terms)) for terms in coefficients.values())
+    return any(sign(field.to_sympy(value)) in {1, -1} for value in values)
 
 
 def _why_constrained(constraints: Constraints) -> str:
@@ -149,6 +181,16 @@ class Separation:
     def obstacle(self) -> tuple[int, int] | None:
         """The first pair of coordinates at which Levi-Civita's test fails."""
         return self._tested[1]
+
+    @cached_property
+    def in_general(self) -> bool:
+        """Whether it does not separate, but may for special values of the parameters."""
+        if self.hamiltonian is None or self.obstacle is None:
+            return False
+        q, p = ([x[j] for j in self.obstacle] for x in (self.system.q, self.system.momenta))
+        failing = _condition(self.hamiltonian, q, p)
+        state = (*self.system.q, *self.system.momenta)
+        return not nonzero_for_all_parameters(failing, state)
 
     @property
     def separable(self) -> bool | None:

@@ -64,6 +64,7 @@ def hamilton_jacobi(derivation: Derivation) -> tuple[HamiltonJacobiSection, Miss
             energy=separation.E.name,
             separable=separation.separable,
             obstacle=() if obstacle is None else tuple(system.names[j] for j in obstacle),
+            in_general=separation.in_general,
             constants=()
             if separated is None
             else tuple(constant.name for constant in separated.constants),
