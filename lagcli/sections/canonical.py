@@ -70,7 +70,7 @@ def blocks(section: TransformationsSection, _: Answers) -> Iterator[Block]:
         if each.hamiltonian is not None:
             how = each.hamiltonian_verified
             checked = "" if how is None else f", {_CHECKED[how]}"
-            yield Paragraph((f"The Hamiltonian in the new variables{checked}:",))
+            yield Paragraph((f"The Hamiltonian in the new variables{each.branch}{checked}:",))
             yield Equations((Row(Label("K"), each.hamiltonian),))
         elif each.reason:
             yield Paragraph((f"The new Hamiltonian was not found: {each.reason}.",))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Literal
 
-from lagcli.expression import Expression
+from lagcli.expression import Call, Expression, walk
 from lagcli.record import record
 
 
@@ -77,6 +77,14 @@ class ExaminedTransformation:
     hamiltonian: Expression | None = None
     hamiltonian_verified: Literal["exact", "50 digits"] | None = None
     reason: str = ""
+
+    @property
+    def branch(self) -> str:
+        """To which values of many-valued functions `hamiltonian` belongs, in words."""
+        tree = () if self.hamiltonian is None else walk(self.hamiltonian)
+        called = {node.function for node in tree if isinstance(node, Call)}
+        many = not called.isdisjoint(("asin", "acos", "atan", "atan2", "acosh"))
+        return " for the principal values of inverse functions" if many else ""
 
 
 @record(kw_only=True)

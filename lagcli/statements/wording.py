@@ -64,7 +64,7 @@ POTENTIALS: Mapping[str, Formula] = {
 #: Said of what was sought on a constraint surface with a cone's apex, a crossing or an edge.
 INDEPENDENT = " where the gradients of the constraints are independent"
 NOT_ZERO = " where the gradient of the constraint is not 0"
-FINITE_MASS = " where the kinetic energy is finite"
+FINITE_MASS = " where the coefficients of the kinetic energy are finite"
 #: The most operations of a value within a sentence.
 _SHORT = 6
 _MOST_TO_READ = 20

@@ -8,7 +8,7 @@ x^2 omega is an adiabatic invariant (Landau, Lifshitz, Mechanics, section 49).
 from __future__ import annotations
 
 import random
-from math import cos, sin
+from math import acos, asin, atan, cos, pi, sin
 
 import pytest
 import sympy
@@ -20,7 +20,7 @@ from lagcli.mechanics.oscillations.small_oscillations import equilibria, modes
 from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.rest.linearization import Linearization
 from lagcli.mechanics.steady.statement import steady_motions
-from lagcli.reader import read_problem
+from lagcli.reader import parse_text, read_problem
 
 _PLANE = """
 coordinates: [x, y]
@@ -333,3 +333,41 @@ def test_where_a_root_or_a_logarithm_in_L_is_not_real_there_is_no_equilibrium(se
     found = [place for _, place, *_ in states(text)]
     assert {"x": "pi/2", "y": "0"} in found
     assert {"x": "-pi/2", "y": "0"} not in found
+
+
+def sine(u: float) -> tuple[float, float]:
+    """Both angles with this sine."""
+    return asin(u), pi - asin(u)
+
+
+@pytest.mark.parametrize(
+    ("relation", "angles"),
+    [
+        ("r*sin(a) = l*sin(b)", lambda u, v: sine(u)),
+        ("r*cos(a) = l*sin(b)", lambda u, v: (acos(u), -acos(u))),
+        ("r*sin(a) = l*cos(b) + h", lambda u, v: sine(v)),
+        ("r*tan(a) = l*sin(b)", lambda u, v: (atan(u), pi + atan(u))),
+        ("r*sin(2*a) = l*sin(b)", lambda u, v: [a / 2 for a in sine(u)]),
+    ],
+)
+def test_a_linkage_at_rest_anywhere_moves_as_its_loop_demands_on_both_branches(relation, angles):
+    """Of f(a, b) = 0 the displacements obey f_a a' + f_b b' = 0."""
+    text = (
+        "coordinates: [a, b]\nparameters: {J: P, K: P, r: P, l: P, h: {}}\n"
+        f"T: (J*a'^2 + K*b'^2)/2\nconstraints: {{loop: {relation}}}\n"
+    ).replace("P", "{assume: positive}")
+    [mode] = modes(derivation(text).dynamics).modes or ()
+    left, right = (parse_text(side) for side in relation.split(" = "))
+    values = {"r": 1.1, "l": 0.6, "h": 0.2, "pi": pi}
+
+    def gap(a: float, b: float) -> float:
+        here = {**values, "a": a, "b": b}
+        return evaluated(left, here, FUNCTIONS) - evaluated(right, here, FUNCTIONS)
+
+    for a in angles(0.6 * sin(0.4) / 1.1, (0.6 * cos(0.4) + 0.2) / 1.1):
+        assert gap(a, 0.4) == pytest.approx(0, abs=1e-12)
+        shape = mode.shape or {}
+        u, v = (evaluated(shape[n], {**values, "a": a, "b": 0.4}, FUNCTIONS) for n in "ab")
+        step = 1e-5 / (abs(u) + abs(v))
+        change = gap(a + step * u, 0.4 + step * v) - gap(a - step * u, 0.4 - step * v)
+        assert change == pytest.approx(0, abs=1e-12)

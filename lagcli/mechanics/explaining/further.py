@@ -111,8 +111,8 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
     verdicts = [each.verdict for each in found or () if not each.verdict.neutral]
     named = any(each.potential == "V_eff" for each in verdicts)
     if named and still != 0 and not states.at_all_times:
-        yield says(Label("V", ("eff",)), " stands for the terms of ", explainer.letters.L,
-                   " without velocities, with the opposite sign:")  # fmt: skip
+        L = explainer.letters.L
+        yield says(Label("V", ("eff",)), " stands for minus ", L, " where the velocities are 0:")
         yield shows(Label("V", ("eff",)), without_momenta(explainer.derivation))
     if states.everywhere:
         yield says(f"Here {states.reason}.")

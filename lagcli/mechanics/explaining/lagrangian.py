@@ -112,3 +112,8 @@ def _without_potential(explainer: Explainer) -> Iterator[Block]:
         drag = Negative(Diff(letters.D, letters.velocity))
         along = " along " if len(system.q) == 1 else " along each coordinate "
         yield says("It adds the generalized force ", drag, along, letters.q, ".")
+    if any(force.has(sympy.sign) for force in system.applied_forces):
+        yield says(
+            "Where a force jumps, it takes any value between those on its two sides, as static "
+            "friction does: the equations below hold elsewhere."
+        )

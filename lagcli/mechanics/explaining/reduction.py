@@ -57,9 +57,7 @@ def reduction(explainer: Explainer, section: Section) -> Iterator[Block]:
         and (reduced.potential != "V" or reduced.eliminated)
     ):
         whole = explainer.letters.free("R") if reduced.momenta else explainer.letters.L
-        yield says("The terms of ", whole,
-                   " without velocities, with the opposite sign, are the effective "
-                   "potential:")  # fmt: skip
+        yield says("The effective potential is minus ", whole, " where its velocities are 0:")
         yield shows(POTENTIALS[reduced.potential], reduced.effective_potential)
     if reduced.equations and (reduced.momenta or reduced.eliminated):
         one = len(reduced.equations) == 1

@@ -52,6 +52,7 @@ _BALANCED = {
 
 
 _NO_MOMENTUM = "No coordinate can be eliminated by a constant momentum"
+_AT_EQUALITY = " At equality it is a state of rest; what follows is for the inequality."
 
 
 def steady(explainer: Explainer, section: Section) -> Iterator[Block]:
@@ -211,8 +212,8 @@ def _motion(
         these = "this velocity and momentum" if one else "these velocities and momenta"
         yield says(f"The same holds with the opposite signs of {these}.")
     if motion.where:
-        at_rest = " At equality it is a state of rest." if motion.rests else ""
-        yield says("It is possible for ", conditions(motion.where), f".{at_rest}")
+        yield says("It is possible for ", conditions(motion.where), ".",
+                   _AT_EQUALITY if motion.rests else "")  # fmt: skip
     if motion.mass:
         yield from _displaced(explainer, motion)
     yield says(steady_stability(motion))

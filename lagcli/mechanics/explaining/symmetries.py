@@ -18,9 +18,11 @@ from lagcli.mechanics.canonical.poisson import poisson
 from lagcli.mechanics.discovery.isometries import THEY_ARE
 from lagcli.mechanics.discovery.lie_algebra import MODULO_CONSTANTS
 from lagcli.mechanics.discovery.limits import TooMuchWork
+from lagcli.mechanics.discovery.reality import real_where
 from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, constraints_allow, listed, says
+from lagcli.notation.letters import names_in
 from lagcli.notation.ordering import positive_first
 from lagcli.statements.answers import (
     AlgebraSection,
@@ -167,6 +169,7 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
     if found.in_involution is None:
         yield says(*_no_brackets(explainer))
     yield from _brackets(explainer, found)
+    yield from _degenerate(explainer)
     yield from _dimension(found)
     number, n = found.independent, explainer.dynamics.degrees_of_freedom
     if found.number > 1 and number is not None:
@@ -177,6 +180,19 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
     if found.in_involution is not None:
         yield says(*_integrability(found, n))
     yield from _at_special_values(explainer, found)
+
+
+def _degenerate(explainer: Explainer) -> Iterator[Block]:
+    """Where roots of parameters vanish: sin(a t) is 0 at a = 0, and exp(a t) is exp(-a t)."""
+    discovery, system = explainer.derivation.discovery, explainer.system
+    bounds = [each for charge in discovery.charges for each in real_where(charge, system)]
+    where: list[Part] = []
+    for each in dict.fromkeys(bounds):
+        if "t" not in names_in(each):
+            where += [" or " if where else "", each.left, " = ", each.right]
+    if where:
+        yield says("Where ", *where, ", some of these vanish or coincide: the following is for "
+                   "other values.")  # fmt: skip
 
 
 def _at_special_values(explainer: Explainer, found: AlgebraSection) -> Iterator[Block]:

@@ -189,7 +189,7 @@ def _new_hamiltonian(test: CanonicalTest, each: ExaminedTransformation) -> Itera
     timed = any(f.has(test.system.t) for f in given)
     yield says("The transformation, solved for the old variables, is substituted into ", Label("H"),
                *scale, *(_explicit(each) if timed else ()),
-               ". That is the new Hamiltonian,")  # fmt: skip
+               f". That is the new Hamiltonian{each.branch},")  # fmt: skip
     yield shows(K, each.hamiltonian)
     left, new = _names(each.hamiltonian), (*test.Q, *test.P)
     if timed and "t" not in left and not left.isdisjoint(name.name for name in new):

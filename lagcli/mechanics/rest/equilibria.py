@@ -309,7 +309,8 @@ class RestPoints(RestConditions):
         free = tuple(s for s in q if s not in values)
         apart = tuple(self.independent_where(values, free))
         self.at_singular_constraints |= bool(apart)
-        positive = (*positive, *self.real_where(values), *apart)
+        known_apart = (each for each in apart if each is not None)
+        positive = (*positive, *self.real_where(values), *known_apart)
         return RestPoint(values, free, (*positive, *_signs_of_letters(positive)), known)
 
     def _may_be_real(self, solution: SystemSolution) -> bool:

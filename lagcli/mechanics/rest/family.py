@@ -2,7 +2,7 @@
 
 A relation g(q) = 0 is solved for one coordinate to expand the motion about it; what was found is
 then written in all coordinates again.  As the two signs of a root are conjugate, it holds on
-the other branch as well.
+the other branch as well: of x = sqrt(u), and of theta = asin(u) with sqrt(1 - u^2) for cos(theta).
 """
 
 from __future__ import annotations
@@ -17,6 +17,13 @@ from lagcli.algebra.equations import solve_for
 from lagcli.algebra.field import common_denominator
 from lagcli.algebra.signs import sign
 from lagcli.record import record
+
+#: What is squared in the other function of an inverse u, and that function of the unknown.
+_OF_INVERSE = {
+    sympy.asin: lambda u, x: (1 - u**2, sympy.cos(x)),
+    sympy.acos: lambda u, x: (1 - u**2, sympy.sin(x)),
+    sympy.atan: lambda u, x: (1 + u**2, 1 / sympy.cos(x)),
+}
 
 
 @record
@@ -40,8 +47,22 @@ class Family:
     @property
     def radicands(self) -> list[Expr]:
         """What is positive where the branch is real."""
-        power = _root_of(self.root)[0]
-        return [] if power is None else [power.base]
+        surd = self._surd
+        return [] if surd is None else [surd[0].base]
+
+    @property
+    def _surd(self) -> tuple[Expr, Expr] | None:
+        """The power of the branch, and what it is on the whole family."""
+        root, whole = self.root, self.unknown
+        inverse = root.atoms(*_OF_INVERSE)
+        if len(inverse) == 1:
+            [node] = inverse
+            start, end = (root.xreplace({node: value}) for value in (S.Zero, S.One))
+            angle = (self.unknown - start) / (end - start)
+            squared, whole = _OF_INVERSE[node.func](node.args[0], angle)
+            root = simplify(sympy.sqrt(simplify(squared)))
+        power, factor, shift = _root_of(root)
+        return None if power is None else (power, (whole - shift) / factor)
 
     def displacement(self, parts: Sequence[Expr]) -> tuple[Expr, ...] | None:
         """A displacement on the branch in all coordinates, without denominators."""
@@ -56,17 +77,17 @@ class Family:
 
     def written_back(self, expression: Expr) -> Expr | None:
         """The formula on the branch as one on the whole family; None where that was not found."""
-        power, factor, shift = _root_of(self.root)
-        if power is None:
+        surd = self._surd
+        if surd is None:
             return expression
-
+        power, whole = surd
         coordinates = power.free_symbols & {*self.coordinates}
 
         def plain(node: Expr) -> Expr:
             ratio = simplify(node.base / power.base)
             if ratio.free_symbols & coordinates:
                 return node
-            return ratio**node.exp * ((self.unknown - shift) / factor) ** (node.exp / power.exp)
+            return ratio**node.exp * whole ** (node.exp / power.exp)
 
         def is_root(node: Expr) -> bool:
             found = node.is_Pow and not node.exp.is_Integer

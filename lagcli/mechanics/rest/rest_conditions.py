@@ -413,8 +413,10 @@ class RestConditions:
 
     def independent_where(
         self, values: Mapping[Symbol, Expr], free: Sequence[Symbol]
-    ) -> Iterator[Expr]:
+    ) -> Iterator[Expr | None]:
         """What is positive at the members of a family that lie on one surface of the constraints.
+
+        None where it is not known whether surfaces meet.
 
         On z (z - x) = 0 the family z = 0 meets the other surface where x = 0: there det(A A^T) is
         0, and what holds beside it need not hold.  Constraints on velocities have no surfaces that
@@ -429,7 +431,9 @@ class RestConditions:
         for factor, power in factors_of(gram) if sympy.count_ops(gram) < _LONGEST_GRAM else ():
             if power > 0 and not free_of(factor, free) and sign(factor) not in (1, -1):
                 vanishing = solve_system([factor], free)
-                if not vanishing.complete or any(
+                if not vanishing.complete:
+                    yield None
+                elif any(
                     self.loses_rank({**values, **each.values}) for each in vanishing.solutions
                 ):
                     yield factor if weak_sign(factor) == 1 else factor**2

@@ -328,8 +328,16 @@ class RollingMotions:
         return True
 
     def _standing(self, motion: RollingMotion) -> RollingMotion | None:
-        """The motion where every one-sided contact holds; None where one does not."""
-        positive = pressed(self._pressing(motion.values), motion.positive)
+        """The motion where the chart is regular and all contacts hold; None where one does not."""
+        assert self.chart is not None
+        dependent = [at(velocity, motion.values) for velocity in self.chart[1].values()]
+        constant = [self.system.q[j] for j in self.coordinates] + list(self.system.parameters)
+        regular = [
+            d
+            for d in squares_divided_by(dependent)
+            if d.free_symbols <= {*constant} and sign(d) != 1 and d not in motion.known_positive
+        ]
+        positive = pressed(self._pressing(motion.values), (*motion.positive, *regular))
         return None if positive is None else replace(motion, positive=positive)
 
     def _pressing(self, values: Mapping[Symbol, Expr]) -> list[Demand]:
