@@ -52,6 +52,7 @@ def derive(statements: Statements) -> AlgebraSection | None:
             parameter=case.parameter.name,
             value=statements.as_written(case.value),
             number=case.number,
+            degree=case.degree,
             charges={c.name: statements.by_terms(c.charge) for c in case.charges},
             given={p.name: statements.as_written(value) for p, value in case.given},
             where=tuple(

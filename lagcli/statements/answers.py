@@ -189,12 +189,14 @@ class SpecialValue:
     """A parameter's value at which there are more charges: their number, and the new ones.
 
     Where they come only with values of other parameters, too, these are `given`.  All of the new
-    ones are real where each of `where` holds.
+    ones are real where each of `where` holds.  There they were sought up to a `degree` in the
+    velocities.
     """
 
     parameter: str
     value: Expression
     number: int
+    degree: int
     charges: Mapping[str, Expression]
     given: Mapping[str, Expression] = field(default_factory=dict)
     where: tuple[Above, ...] = ()

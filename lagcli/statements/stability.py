@@ -16,7 +16,9 @@ _LINEAR = ", since the equations of motion are linear and "
 _BOUNDED = "all their solutions are then bounded"
 _DRIFT = "apart from a slow drift along the family "
 _THEOREM = "(Kelvin, Tait and Chetaev)"
-_MOVING = "What is set in motion gains no kinetic energy, but need not stay near."
+_MOVING = (
+    "What is set in motion gains no kinetic energy; this does not decide whether it stays near."
+)
 
 
 def stability(
@@ -71,7 +73,8 @@ def _on_average(verdict: Verdict, frequency: Expression) -> list[Part]:
         parts += ["stable, since ", V, " has a minimum there "]
     else:
         parts += ["stable where ", *conditions(verdict.minimum), ", a minimum of ", V]
-        parts += ["; unstable where ", *joined(verdict.unstable, " or "), " "]
+        parts += ["; unstable where ", *joined(verdict.unstable, " or ")] * bool(verdict.unstable)
+        parts += [" "]
     return [*parts, "(Landau and Lifshitz, section 30)."]
 
 

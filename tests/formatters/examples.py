@@ -269,7 +269,9 @@ HOOP = Answers(
             in_involution=1,
             integrable=True,
             special=(
-                SpecialValue(parameter="M", value=half_r, number=7, charges={"L_z": square(R)}),
+                SpecialValue(
+                    parameter="M", value=half_r, number=7, degree=2, charges={"L_z": square(R)}
+                ),
             ),
         ),
         "find": FindSection(

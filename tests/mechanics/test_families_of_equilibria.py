@@ -343,11 +343,11 @@ def sine(u: float) -> tuple[float, float]:
 @pytest.mark.parametrize(
     ("relation", "angles"),
     [
-        ("r*sin(a) = l*sin(b)", lambda u, v: sine(u)),
-        ("r*cos(a) = l*sin(b)", lambda u, v: (acos(u), -acos(u))),
-        ("r*sin(a) = l*cos(b) + h", lambda u, v: sine(v)),
-        ("r*tan(a) = l*sin(b)", lambda u, v: (atan(u), pi + atan(u))),
-        ("r*sin(2*a) = l*sin(b)", lambda u, v: [a / 2 for a in sine(u)]),
+        ("r*sin(a) = l*sin(b)", lambda u, _v: sine(u)),
+        ("r*cos(a) = l*sin(b)", lambda u, _v: (acos(u), -acos(u))),
+        ("r*sin(a) = l*cos(b) + h", lambda _u, v: sine(v)),
+        ("r*tan(a) = l*sin(b)", lambda u, _v: (atan(u), pi + atan(u))),
+        ("r*sin(2*a) = l*sin(b)", lambda u, _v: [a / 2 for a in sine(u)]),
     ],
 )
 def test_a_linkage_at_rest_anywhere_moves_as_its_loop_demands_on_both_branches(relation, angles):

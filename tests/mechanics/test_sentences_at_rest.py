@@ -1069,7 +1069,7 @@ def test_a_circular_orbit_of_no_speed_is_a_state_of_rest(seed):
         ", a: {{assume: positive}}}}, T: m*({T})/2, V: '{V}'}}"
     )
     plane = orbit.format(T="r'^2 + r^2*u'^2", V=f"{b}*(r - a)^2")
-    assert "At equality it is a state of rest." in said(plane, "Steady motions", "steady_motions")
+    assert "At equality it is a state of rest;" in said(plane, "Steady motions", "steady_motions")
     sphere = orbit.format(T="r'^2 + sin(r)^2*u'^2", V=f"-{b}*cos(r)")
     told = said(sphere, "Steady motions", "steady_motions")
     assert "It is possible for" in told

@@ -10,7 +10,9 @@ def test_values_with_the_same_symmetries_are_read_at_once():
     """A pendulum without a turn of the Earth, or on the equator; w = 1 has another charge."""
     values = [("w", ZERO, "x"), ("b", ZERO, "x"), ("w", Name("pi"), "y")]
     special = tuple(
-        SpecialValue(parameter=name, value=value, number=10, charges={"energy_x": Name(charge)})
+        SpecialValue(
+            parameter=name, value=value, number=10, degree=2, charges={"energy_x": Name(charge)}
+        )
         for name, value, charge in values
     )
     section = AlgebraSection(

@@ -147,7 +147,11 @@ def test_a_special_value_is_examined(value, number, charge, kept):
     problem, answers, _ = sheet(f"{PLANE}V: k*x^2/2 + c*y^2/2\n", "energy")
     known = listed(a="m*x'^2/2 + k*x^2/2", b="m*y'^2/2 + c*y^2/2")
     special = SpecialValue(
-        parameter="c", value=parse_text(value), number=number, charges={"n": parse_text(charge)}
+        parameter="c",
+        value=parse_text(value),
+        degree=2,
+        number=number,
+        charges={"n": parse_text(charge)},
     )
     section = AlgebraSection(
         ansatz="", dimension=2, name="R^2", independent=2, in_involution=2, integrable=True,

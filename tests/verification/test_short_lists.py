@@ -63,6 +63,22 @@ def test_a_family_that_is_listed_twice_is_left_out() -> None:
     assert after_it.motions == found.motions
 
 
+def test_rolling_motions_of_other_velocities_are_not_the_same() -> None:
+    """A homogeneous ball on a level plane spins about the normal, or rolls about a fixed axis."""
+    spin = "phi' + psi'*cos(theta)"
+    wx, wy = (
+        f"theta'*{a} {s} psi'*sin(theta)*{b}"
+        for a, s, b in (("cos(phi)", "+", "sin(phi)"), ("sin(phi)", "-", "cos(phi)"))
+    )
+    _, _, section = derived(
+        "x, y, phi, theta, psi",
+        f"T: m*(x'^2 + y'^2)/2 + k*(({wx})^2 + ({wy})^2 + ({spin})^2)/5\n"
+        f"constraints: {{roll_x: x' = b*({wy}), roll_y: y' = -b*({wx})}}",
+        "steady_motions",
+    )
+    assert section.motions
+
+
 def test_places_half_a_turn_apart_are_two_also_where_the_laws_repeat() -> None:
     physics = "T: m*(x'^2 + x^2*y'^2 + x^2*sin(y)^2*z'^2)/2\nV: k*x^2/2"
     positive = "{x: {assume: positive}, y: {}, z: {}}"

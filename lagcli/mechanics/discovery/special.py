@@ -48,13 +48,15 @@ Value = tuple[Symbol, Expr]
 class SpecialCase:
     """A parameter's value, how many charges there are then, and those that come with it.
 
-    With it the others that are `given` have their values.
+    With it the others that are `given` have their values.  The search there was up to a `degree`
+    in the velocities.
     """
 
     parameter: Symbol
     value: Expr
     number: int
     charges: tuple[NoetherCharge, ...]
+    degree: int
     given: tuple[Value, ...] = ()
 
 

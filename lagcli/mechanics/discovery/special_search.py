@@ -99,7 +99,7 @@ def special_cases(
             charges = _named_apart(charges, discovery)
             if charges:
                 number, given = len(there.charges), tuple(choice[1:])
-                found.append(SpecialCase(*choice[0], number, charges, given))
+                found.append(SpecialCase(*choice[0], number, charges, there.degree, given))
     except TooMuchWork:
         discovery.words.append(_NOT_TRIED)
     if found and searched.degree > 2:  # the values come from the searches up to second degree

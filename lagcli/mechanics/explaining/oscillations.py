@@ -251,8 +251,7 @@ def _without_oscillation(explainer: Explainer, mode: ModesOfFrequency, place: Pl
     lead = "To first order this is not an oscillation"
     if staying == mode.multiplicity:
         kept = place.verdict.stable is True and Near(place.near).dimension == 0
-        turned = _no_more_roots(explainer, place) if _moving(place.matrices[1]) else []
-        only = [", where ", *turned, ","] if turned else []
+        only = [" in general"] * _moving(place.matrices[1])  # K, or the roots, may be less there
         return [f"{lead} but", *only, f" a uniform drift{_KEPT if kept else '.'}"]
     if staying == 2 * mode.multiplicity:
         where = _no_more_roots(explainer, place)

@@ -72,10 +72,9 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
         letters.L,
         *beside,
         " must vanish identically" + f" on the {constraints}" * bool(constraints) + ", "
-        "which holds "
-        "for total time derivatives and only for them. For a constant of the motion the time "
-        "derivative "
-        "on the motion must vanish. Both conditions are linear in the unknown coefficients and are "
+        "which holds for total time derivatives" + " and only for them" * (not constraints) + ". "
+        "For a constant of the motion the time derivative on the motion must vanish. Both "
+        "conditions are linear in the unknown coefficients and are "
         "solved exactly.",
     )
     if not found:
@@ -203,6 +202,7 @@ def _at_special_values(explainer: Explainer, found: AlgebraSection) -> Iterator[
         lead = "More symmetries" if found.number else "Symmetries"
         yield Heading(f"{lead} for special values of the parameters", 2)
     alike: dict[object, list[SpecialValue]] = {}
+    degree = explainer.derivation.discovery.degree
     for case in found.special:
         alike.setdefault((case.number, tuple(case.charges.items()), case.where), []).append(case)
     for case, *others in alike.values():
@@ -211,7 +211,8 @@ def _at_special_values(explainer: Explainer, found: AlgebraSection) -> Iterator[
         new = "this is no linear combination" if one else "these are no linear combinations"
         beside = f", of which {new} of those above" if found.number else ""
         at = [*values_of(case), *(part for each in others for part in (" or ", *values_of(each)))]
-        yield says("For ", *at, f" the same search finds {many}{beside}:")
+        less = f", up to degree {case.degree}," if case.degree < degree else ""
+        yield says("For ", *at, f" the same search{less} finds {many}{beside}:")
         free = explainer.letters.free
         yield equations_of((free(name), value) for name, value in case.charges.items())
         yield from where_real(case.where, several=not one)

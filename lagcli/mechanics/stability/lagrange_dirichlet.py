@@ -32,7 +32,7 @@ from lagcli.mechanics.stability.higher import (
     potential_derivatives,
 )
 from lagcli.mechanics.stability.lowest_form import by_lowest_form
-from lagcli.mechanics.stability.lyapunov import FALLING
+from lagcli.mechanics.stability.lyapunov import FALLS
 from lagcli.mechanics.stability.near import Hypotheses, Near
 from lagcli.mechanics.stability.roots import ALL_ROOTS, NEUTRAL, by_roots
 from lagcli.mechanics.stability.verdict import Stability, undecided, unstable
@@ -130,7 +130,7 @@ def by_separate_curvatures(near: Near) -> Stability | None:
     signs = near.signs(near.diagonal)
     if None in signs or 0 in signs or near.hypotheses.lacking:
         return None
-    return unstable(FALLING) if -1 in signs else at_strict_minimum(near) if signs else None
+    return unstable(FALLS) if -1 in signs else at_strict_minimum(near) if signs else None
 
 
 def by_higher_order(near: Near) -> Stability | None:
@@ -156,7 +156,7 @@ def by_derivatives(
     order, curvature = order_of_minimum(derivatives, positive), derivatives[0]
     if order is not None and order < 0:
         higher = DECREASES if order % 2 else f"{{V}} has a maximum of order {-order} there"
-        return unstable(FALLING if order == -2 else higher)
+        return unstable(FALLS if order == -2 else higher)
     if order is not None:
         return _stable(_STRICT + f" of order {order}" * (order > 2) + " there")
     if sign_of(curvature, positive) == 0 or weak_sign(curvature, positive) == -1:

@@ -23,7 +23,6 @@ from lagcli.mechanics.theorems import KELVIN_TAIT_CHETAEV
 
 #: The second variation of V is negative for some displacement.
 FALLS = "{V} decreases to second order in some direction"
-FALLING = f"{FALLS}, so a squared frequency is negative"
 _ROOT = "a root of the characteristic polynomial"
 GROWING = f"{_ROOT} has a positive real part"
 _NUMERIC = Float("1e-20")
@@ -76,4 +75,4 @@ def _by_potential(near: Near) -> str:
         return ""
     if near.linear.gyroscopic:
         return f"{FALLS}, and all motions are damped ({KELVIN_TAIT_CHETAEV.name})"
-    return f"{FALLS}, so {_ROOT} is positive" if near.linear.damped else FALLING
+    return f"{FALLS}, so {_ROOT} is positive" if near.linear.damped else FALLS

@@ -138,7 +138,8 @@ class _Model:
             if self.barrier:
                 why = self.barrier
             elif k in left and vanish([*left[k].row, left[k].drift], e.form):
-                why = "it follows from those that are solved"
+                yield declared.name, "kept with its multiplier, though it follows from the others"
+                continue
             elif e.constraints[k].position is None:
                 why = "it contains velocities"
             elif k in possible:

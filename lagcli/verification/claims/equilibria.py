@@ -194,7 +194,8 @@ def steady_motions(x: Examination, section: SteadySection) -> SteadySection:
             if verdict is None or not _with_momenta(x, what, place, each):
                 return replace(section, motions=None, reason=not_confirmed("a steady motion"))
             found.append(each if verdict is each.verdict else replace(each, verdict=verdict))
-        found = _once(x, "the steady motion", found, section.momenta)
+        turning = [name for each in found if each.rolling for name in each.rates or ()]
+        found = _once(x, "the steady motion", found, [*section.momenta, *dict.fromkeys(turning)])
         other = _another_motion(x, section, found) if section.complete else ""
     if other:
         x.refute("that there is no other steady motion", f"there is one with {other}")
