@@ -60,7 +60,8 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
     written = node.text.source.text[node.start : node.end].strip("[] \n")
     written = behind_words(written, scope.kinds)
     pairs_given = _GIVEN.findall(written) or _SIDE_BY_SIDE.findall(written)
-    stated = [(coordinate_meant(name, scope), value) for name, value in pairs_given]
+    stated = [(coordinate_meant(name.removesuffix("''"), scope), value)
+              for name, value in pairs_given]  # fmt: skip
     if stated and (stated[1:] or isinstance(node, Sequence) or stated[0][0] in names):
         return _pairs(stated, braces=len(stated) > 1 or isinstance(node, Sequence))
     values = [] if is_sentence(written, scope.kinds) else _values(node, scope)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from lagcli.problem_data import Constraint, Contact, Expect, Inequality, Problem
 from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
+from lagcli.reader.misshapen import pieces
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, size
 from lagcli.reader.scope import ANSWER, Role
 from lagcli.reader.suggest import did_you_mean
@@ -20,6 +21,19 @@ if TYPE_CHECKING:
 
 #: The fields of `Expect` that are no answers of one section.
 _FIELDS = frozenset(Expect.__annotations__) - {"others", "ranges", "spans"}
+
+
+#: Letters of conserved quantities.
+_LETTERS = {
+    **dict.fromkeys("EHhW", "energy"),
+    **dict.fromkeys(("L", "l", "L_z", "l_z", "Lz"), "rotation"),
+}
+
+
+def _known_as(name: str, known: list[str]) -> str:
+    """`energy` for E, where it is known; other names as they are."""
+    meant = _LETTERS.get(name, name)
+    return meant if meant in known else name
 
 
 class ExpectReader:
@@ -111,7 +125,11 @@ class ExpectReader:
         if len(known) > 1:
             hint = f"write {{name: {written}}}; known are {', '.join(known[:10])}"
         items = [each.value for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
-        if items and len(items) <= len(known):
+        told = [each.partition("=") for each in items or pieces(written, ",;")]
+        named = [(_known_as(name.strip(), known), value.strip()) for name, _, value in told]
+        if all(name in known and value for name, value in named):
+            hint = f"write {{{', '.join(map(': '.join, named))}}}"
+        elif items and len(items) <= len(known):
             pairs = ", ".join(f"{name}: {item}" for name, item in zip(known, items, strict=False))
             hint = f"write {{{pairs}}}"
         for key, value in self.file.entries(node, f"'{' of '.join(path)}'", hint):
@@ -120,10 +138,16 @@ class ExpectReader:
                 good.append((key, value))
                 continue
             names = ", ".join(known[:10])
-            hint = did_you_mean(key.label, known) or (
-                f"known are {names}"
-                if known
-                else f"the problem has no {what}: it is declared first"
+            meant = _known_as(key.label, known)
+            hint = (
+                f"write {meant}"
+                if meant in known
+                else did_you_mean(key.label, known)
+                or (
+                    f"known are {names}"
+                    if known
+                    else f"the problem has no {what}: it is declared first"
+                )
             )
             self.file.error(f"there is no {what} '{key.label}'", key.span, hint)
         return good

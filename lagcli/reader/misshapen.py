@@ -315,5 +315,10 @@ def entries_of(node: DocumentNode | None) -> str:
 
 
 def source_of(node: DocumentNode) -> str:
-    """What the file has there, in one line."""
-    return " ".join(node.text.source.text[node.start : node.end].split())
+    """What the file has there, in one line: a map in braces, a list in brackets."""
+    written = " ".join(node.text.source.text[node.start : node.end].split())
+    if isinstance(node, Mapping) and node.entries and written[0] != "{":
+        return f"{{{entries_of(node)}}}"
+    if isinstance(node, Sequence) and node.items and written[0] != "[":
+        return f"[{', '.join(map(source_of, node.items))}]"
+    return written

@@ -23,7 +23,6 @@ from lagcli.reader.file_reader import FileReader
 from lagcli.reader.habits import KEYS, colon_advice, key_meant
 from lagcli.reader.misfits import dimension_mistakes
 from lagcli.reader.misplaced import lifted
-from lagcli.reader.misshapen import source_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, kind
 from lagcli.reader.phase_space import (
@@ -179,8 +178,8 @@ def _declaring(root: DocumentNode) -> list[tuple[int, int]]:
 def _parameters(root: DocumentNode) -> str:
     """The parameters as the file writes them; nothing where it has none."""
     given = root.entries if isinstance(root, Mapping) else []
-    found = (source_of(v) for k, v in given if key_meant(k.label, KEYS) == "parameters")
-    return next(found, "")
+    found = (v for k, v in given if key_meant(k.label, KEYS) == "parameters")
+    return next((v.text.source.text[v.start : v.end] for v in found), "")
 
 
 def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | None:

@@ -419,7 +419,9 @@ def _pairs(node: DocumentNode, section: str) -> str:
 def _has_attributes(node: DocumentNode) -> bool:
     """Whether an item is a name with attributes on lines of their own."""
     inner = [value for _, value in node.entries] if isinstance(node, Mapping) else []
-    return any(isinstance(each, Mapping) and source_of(each)[:1] != "{" for each in inner)
+    return any(
+        isinstance(each, Mapping) and each.text.source.text[each.start] != "{" for each in inner
+    )
 
 
 def _attributes(

@@ -536,6 +536,12 @@ def test_a_finite_change_is_told_its_small_one(one, other, x, y, name):
 
 
 FURTHER = [
+    (text(accelerations="\n  x: -k*x/m"), "write expect: {accelerations: {x: -k*x/m}}"),
+    (text(modes="\n  - sqrt(k/m)"), "write expect: {modes: [sqrt(k/m)]}"),
+    (text(expect="{accelerations: x'' = -k*x/m}"), "write {x: -k*x/m}"),
+    (text(expect="{charges: E = m*x'^2/2 + k*x^2/2}"), "write {energy: m*x'^2/2 + k*x^2/2}"),
+    (text(expect="{charges: [H = m*x'^2/2, p_x = m*x']}"), "write {energy: m*x'^2/2, p_x: m*x'}"),
+    (text(expect="{charges: {E: m*x'^2/2}}"), "write energy"),
     (text(T="p²/2m"), "write m*x'^2/2, or give H: p_x^2/(2*m) + V"),
     (text(V="|\n  k*x\n  k*x^2"), "begin the second line with its sign"),
     (text(initial="[[0, 1], [0, 2]]"), "write {x: …, x': …}"),
