@@ -481,7 +481,7 @@ def the_equilibria(section: SteadySection, stated: Mapping[str, Section]) -> Ite
     states, places = ([(x.at, x.on, x.free) for x in each] for each in (motions, regular))
     if all(x in places for x in states) and all(x in states for x in places):
         lead = "No coordinate can be eliminated by a constant momentum"
-        yield Paragraph((f"{lead}: the steady motions are the equilibria.",))
+        yield Paragraph((f"{lead}: in these coordinates the steady motions are the equilibria.",))
 
 
 def none_found(

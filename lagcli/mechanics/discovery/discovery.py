@@ -129,7 +129,7 @@ class Discovery(Setting):
                     f"{what}: a formula has no value there, so the search is incomplete"
                 )
         if len(self.system.q) > 1 and not self.dynamics.constraints.equations:
-            what = "those" if self.degree > 1 else "first integrals"
+            what = "those" if self.degree > 1 else "other first integrals"
             self.words.append(f"{what} of degree {self.degree + 1} or higher were not sought")
 
     def _of_unconstrained(self) -> bool:

@@ -24,6 +24,7 @@ from lagcli.mechanics.explaining.words import (
 from lagcli.mechanics.reduction.effective_potential import without_momenta
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.mechanics.statements import Statements
+from lagcli.mechanics.system import System
 from lagcli.statements.answers import EquilibriaSection, Section
 from lagcli.statements.explanation import ExplanationStep
 from lagcli.statements.plus_minus import once, unlike
@@ -58,6 +59,13 @@ def further(explainer: Explainer, also: Sequence[str]) -> tuple[list[Explanation
 # -- equilibria ------------------------------------------------------------------------------------
 
 
+def _drifting(system: System) -> bool:
+    """Whether a momentum depends on t explicitly at rest."""
+    still = dict.fromkeys(system.qdot, S.Zero)
+    rates = (system.L.diff(v, system.t).xreplace(still) for v in system.qdot)
+    return any(is_zero(rate) is not True for rate in rates)
+
+
 def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
     """The conditions of rest, then each equilibrium with its stability."""
     from lagcli.mechanics.rest.equilibria import RestPoints
@@ -85,6 +93,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
     yield says(
         "At an equilibrium all velocities and accelerations are 0. "
         f"{lead}Lagrange's equations then require that the generalized forces",
+        ", less the explicit rates of the momenta," * _drifting(explainer.system),
         *((", divided by ", explainer.readable.as_written(rest.growth), ",") if timed else ()),
         " vanish"
         + f" along every displacement that {constraints_allow(constraints)}" * bool(constraints)

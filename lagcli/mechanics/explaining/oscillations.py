@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
+from itertools import combinations
 from typing import TYPE_CHECKING, cast
 
 import sympy
@@ -11,6 +12,7 @@ from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, nullspace, shape, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.signs import sign
 from lagcli.algebra.vanishing_factors import squares_divided_by
@@ -245,13 +247,23 @@ def _no_more_roots(explainer: Explainer, place: Place) -> list[Part]:
     return _not_zero(explainer, weak, place)
 
 
+def _keeps_rank(K: Sequence[Sequence[Expr]]) -> bool:
+    """Whether a principal minor of the order of the rank has one sign for all parameters."""
+    n = len(K)
+    blocks = combinations(range(n), n - len(nullspace(K)))
+    minors = (determinant([[K[i][j] for j in block] for i in block]) for block in blocks)
+    return any(minor is not None and sign(minor) in (1, -1) for minor in minors)
+
+
 def _without_oscillation(explainer: Explainer, mode: ModesOfFrequency, place: Place) -> list[Part]:
     """What a root 0 is: each is two roots s = 0, and a null vector of K stays displaced."""
     staying = len(nullspace(place.near.K))
     lead = "To first order this is not an oscillation"
     if staying == mode.multiplicity:
         kept = place.verdict.stable is True and Near(place.near).dimension == 0
-        only = [" in general"] * _moving(place.matrices[1])  # K, or the roots, may be less there
+        moving, K = _moving(place.matrices[1]), place.near.K
+        varies = moving and (_no_more_roots(explainer, place) or not _keeps_rank(K))
+        only = [" in general"] * bool(varies)
         return [f"{lead} but", *only, f" a uniform drift{_KEPT if kept else '.'}"]
     if staying == 2 * mode.multiplicity:
         where = _no_more_roots(explainer, place)

@@ -236,8 +236,8 @@ def _rolling(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
         yield says("It is possible for ", *conditions(motion.where), ".")
     if motion.frequencies_squared:
         family = (
-            "The linearised equations have the root 0 once for each dimension of the family of "
-            "steady motions; the other roots have the squared frequency below."
+            "The linearised equations have the root 0 once for each dimension of the set of "
+            "steady motions near it; the other roots have the squared frequency below."
         )
         yield says(family if motion.free else "The roots of the linearised equations have the "
                    "squared frequency below.")  # fmt: skip
