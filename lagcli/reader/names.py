@@ -17,7 +17,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.notation.greek import BY_NAME as GREEK
-from lagcli.reader.foreign.words import Vocabulary, rate_meant
+from lagcli.reader.foreign.words import VELOCITIES, Vocabulary, rate_meant
 from lagcli.reader.habits import foreign_function, habits, instead, is_angle, meanings
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import alike, closest, did_you_mean
@@ -52,6 +52,8 @@ def name_mistakes(
     before : int, optional
         In a definition, its rank: only earlier ones can be used.
     """
+    times = (isinstance(node, Name) and node.name == "t" for node in walk(expression))
+    role = role._replace(driven=any(times))
     covered: set[int] = set()  # by the message on what is around them
     for node in walk(expression):
         match node:
@@ -244,7 +246,8 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     if not role.parameters and not role.definitions and role.order < 0:
         return role.why
     words = Vocabulary(tuple(coordinates), frozenset(), moving=scope.moving)
-    rate = role.order > 0 and rate_meant(name, words)
+    of_drive = role.driven and name in VELOCITIES
+    rate = role.order > 0 and not of_drive and rate_meant(name, words)
     if role.order > 0 and (speed := _speed_along(name, coordinates)):
         return speed
     known = [*coordinates, *scope.definitions] if primes else scope.usable(role)
@@ -258,7 +261,7 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return UNDECLARED  # x0 beside x is another quantity
     if hint:
         return hint
-    if name in {"v", "velocity", "speed", "d"} and role.order > 0 and coordinates:
+    if name in {"v", "velocity", "speed", "d"} and role.order > 0 and coordinates and not of_drive:
         return "the velocities are " + "' and ".join(coordinates) + "'"
     if primes and role.order > 0:
         return COORDINATE

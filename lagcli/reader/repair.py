@@ -108,7 +108,13 @@ def with_whole(
         return [matrices]
     too_large = "the limit is" in found[0].hint
     in_lines = any(each.message.startswith("two lines without") for each in found)
-    if too_large or in_lines or all(each.hint.startswith("did you mean '") for each in found):
+    by_name = read is read_expression and "is not a derivative" in found[0].message
+    if (
+        too_large
+        or in_lines
+        or by_name
+        or all(each.hint.startswith("did you mean '") for each in found)
+    ):
         return found
     if is_sentence(node.value, scope.kinds):
         hint = "write a formula" if role.order > 0 else "write a number or a parameter"
@@ -335,8 +341,8 @@ def _is_undeclared(mistake: Diagnostic, role: Role, words: set[str]) -> bool:
 
 
 def _named_in(mistake: Diagnostic) -> set[str]:
-    """The names that a message quotes."""
-    return set(re.findall(r"'(\w+)'", mistake.message))
+    """The name that a message is about; those behind it are of its place."""
+    return set(re.findall(r"'([^ ]+)'", mistake.message)[:1])
 
 
 def _vocabulary(scope: Scope, role: Role) -> Vocabulary:

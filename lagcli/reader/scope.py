@@ -41,6 +41,7 @@ class Role(NamedTuple):
     contact_forces: bool = False
     observables: bool = False
     integrals: bool = False  # integral(f, x, a, b), as it may stand in an answer
+    driven: bool = False  # t stands in the formula: an unknown omega is a constant
 
 
 #: Terms of the Lagrangian, forces, definitions, constraints, transformations.

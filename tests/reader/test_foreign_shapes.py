@@ -710,3 +710,19 @@ def test_a_constant_that_a_formula_uses_is_no_state():
 def test_coordinates_that_are_not_declared_are_named_by_their_velocities(kinetic, names):
     found = messages(f"title: Kepler's problem\nparameters: [m]\nT: {kinetic}\n")
     assert found[0] == f"the problem has no coordinates; write coordinates: [{names}]"
+
+
+DRIVEN = [
+    (text(forces="{x: k cos(w t)}"), "did you mean k*cos(w*t)?", "w"),
+    (text(V="k*(x - v t)^2/2"), "did you mean k*(x - v*t)^2/2?", "v"),
+    (text(constraints="{c: x = v t}"), "did you mean x = v*t?", "v"),
+    (text(**PENDULUM | {"V": "m*g*l*theta*heaviside(t)*sin(omega*t)"}),
+     "write m*g*l*theta*((1 + sign(t))/2)*sin(omega*t)", "omega"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("written", "hint", "name"), DRIVEN)
+def test_a_rate_beside_the_time_is_a_constant(written, hint, name):
+    found = {each.hint for each in read_problem("p.yaml", written.encode()).diagnostics}
+    assert hint in found
+    assert any(each.startswith("declare it: ") and each.count(name) for each in found - {hint})

@@ -473,7 +473,7 @@ HABITS = [
     (text(constraints="{rod: x = k and x = m}"), "own name: rod_1: x = k, rod_2: x = m"),
     (text(constraints="{rod: |x| = k}"), "write abs(x)"),
     (text(forces="{bob: [0, -m*g]}"), "or as 'force' of a point"),
-    (text(forces="{x: k*cos(ωt)}"), "did you mean ω*t?"),
+    (text(forces="{x: k*cos(ωt)}"), "did you mean k*cos(ω*t)?"),
     (text(plot="true"), "lagcli plot FILE"),
     (text(T=None, V=None, H="p_x^2/(2*m)", momenta="[p]"), "momenta are named p_x"),
     (text(find="{omega: }"), "write {value: …, in_terms_of: [x]}"),

@@ -148,6 +148,8 @@ class _Translation(Functions):
         primes += self.primes()
         self.refuse_unknown_call(word)
         name, more = meant(word, self.names)
+        if word in VELOCITIES and more and self.has_time:
+            name, more = word, 0  # cos(omega*t), x - v*t
         primes += more
         if word in VELOCITIES and more and not (word == "v" and self.sign() == "^"):
             self.by_letter.add(name)
@@ -178,6 +180,13 @@ class _Translation(Functions):
             return ""
         self.at += 3
         return place if numbered else f"_{place}"
+
+    @property
+    def has_time(self) -> bool:
+        """Whether t stands in the formula, and not only as x(t)."""
+        texts = ["", *(each.text for each in self.tokens), ""]
+        return any(texts[k] == "t" and (texts[k - 1], texts[k + 1]) not in {("(", ")"), ("[", "]")}
+                   for k in range(1, len(texts) - 1))  # fmt: skip
 
     @property
     def from_zero(self) -> bool:
