@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Container
+from collections.abc import Set as AbstractSet
 from typing import TYPE_CHECKING
 
 from lagcli.reader.foreign.vector_products import along_z, vector_product
@@ -50,13 +51,10 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
         return _pairs(listed)
     known = scope.kinds.keys()
     law = re.sub(r"^\s*[FQ]\w*\s*=\s*", "", node.value) if isinstance(node, Scalar) else ""
-    products = vector_product(law, (*names,), known) if law else []
-    if isinstance(node, Scalar) and products and len(products) == len(names):
+    if axes := of_vectors(law, names, known):
         alone = along_z(law, known)
         condition = f": {alone} is taken along z" if alone and names[2:] else ""
-        return _pairs([*zip(names, products, strict=True)]) + condition
-    if isinstance(node, Scalar) and (along := _along_velocity(node.value, names, known)):
-        return _pairs(along)
+        return _pairs([*zip(names, axes, strict=True)]) + condition
     written = node.text.source.text[node.start : node.end].strip("[] \n")
     written = behind_words(written, scope.kinds)
     pairs_given = _GIVEN.findall(written) or _SIDE_BY_SIDE.findall(written)
@@ -79,8 +77,13 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
     return _pairs([*zip(names, values if fits else ["…"] * len(names), strict=False)], braces=False)
 
 
-def _along_velocity(text: str, names: list[str], known: Container[str]) -> list[tuple[str, str]]:
-    """`-c*x'` along x and so on for `-c*v` and `-c*|v|*v`, in Cartesian coordinates."""
+def of_vectors(text: str, names: list[str], known: AbstractSet[str]) -> list[str]:
+    """The Cartesian components of `q*(v × B)`, `-c*v` and `-c*|v|*v`; empty for others."""
+    found = vector_product(text, (*names,), known) or _along_velocity(text, names, known)
+    return found if len(found) == len(names) else []
+
+
+def _along_velocity(text: str, names: list[str], known: Container[str]) -> list[str]:
     from lagcli.reader.foreign.translation import translated
     from lagcli.reader.foreign.words import UnclearText
 
@@ -95,7 +98,7 @@ def _along_velocity(text: str, names: list[str], known: Container[str]) -> list[
     for x in names:
         one = re.sub(r"(?<![\w.|(])(?:\\vec\s*)?\{?v\}?(?![\w'|)])", f"{x}'", text)
         try:
-            found.append((x, translated(one, Vocabulary((*names,), words))))
+            found.append(translated(one, Vocabulary((*names,), words)))
         except UnclearText:
             return []
     return found

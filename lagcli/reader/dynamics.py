@@ -6,7 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Point, Problem
-from lagcli.reader.by_coordinate import by_name, coordinate_meant
+from lagcli.reader.by_coordinate import by_name, coordinate_meant, of_vectors
 from lagcli.reader.file_reader import Required
 from lagcli.reader.foreign.tokens import polar_speed
 from lagcli.reader.growth import growth
@@ -304,6 +304,15 @@ def _position(file: FileReader, node: DocumentNode, name: str) -> tuple[Expressi
 def _force(file: FileReader, node: DocumentNode, name: str, length: int) -> tuple[Expression, ...]:
     what = f"the force on '{name}'"
     before = len(file.diagnostics)
+    axes = [file.scope.components.get(f"{name}.{axis}", "") for axis in "xyz"[:length]]
+    law = (
+        node.value
+        if axes == [*file.scope.of_kind("coordinate")] and isinstance(node, Scalar)
+        else ""
+    )
+    if written := of_vectors(law, axes, file.scope.kinds.keys()):
+        file.error(f"{what} must be a list, not a text", node.span, _listed(written))
+        return ()
     items = read_components(file, node, what, "one component for each of the position's", length)
     if isinstance(node, Sequence) and 0 < length != len(items) and len(file.diagnostics) == before:
         message = f"{what} has {len(items)} components, its position has {length}"

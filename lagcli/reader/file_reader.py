@@ -146,7 +146,7 @@ class FileReader:
             if is_word and not what.startswith("the symmetry"):
                 hint = "leave out the key"
             if isinstance(node, Sequence) and (named := by_its_name(node)):
-                hint = f"write {named}, without '-'"
+                hint = f"write {{{named}}}"
             elif (
                 isinstance(node, Sequence)
                 and all(isinstance(x, Mapping) for x in node.items)

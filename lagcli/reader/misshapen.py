@@ -296,16 +296,14 @@ def _attribute(word: str) -> str:
 
 
 def by_its_name(node: Sequence) -> str:
-    """`bob: {mass: m}` for the first of a list of maps that have their names inside."""
-    first = node.items[0] if node.items else None
-    is_named = isinstance(first, Mapping) and {"name", "id"} & {
-        key.label for key, _ in first.entries
-    }
-    return (
-        as_text(first).removeprefix("write ").removesuffix(", without '-'")
-        if is_named and first
-        else ""
-    )
+    """`bob: {mass: m}, rod: {mass: M}` for a list of maps that have their names inside."""
+    each = [item.entries for item in node.items if isinstance(item, Mapping)]
+    if len(each) < len(node.items) or not all(
+        {"name", "id"} & {k.label for k, _ in e} for e in each
+    ):
+        return ""
+    whole = map(as_text, node.items)
+    return ", ".join(one.removeprefix("write ").removesuffix(", without '-'") for one in whole)
 
 
 def entries_of(node: DocumentNode | None) -> str:

@@ -12,7 +12,7 @@ _VECTOR = (
     r"(?:\\?(?:vec|mathbf|boldsymbol|bm)?\s*\{?\s*(?P<letter_N>[^\W\d]\w*)\s*\}?(?![\w'(])"
     r"|(?P<list_N>\[[^\[\]]*,[^\[\]]*\]|\([^()]*,[^()]*\)))"
 )
-_TIMES = r"\s*(?:×|⨯|\\times(?!\w))\s*"
+_TIMES = r"(?:\s*(?:×|⨯|\\times(?!\w))\s*|\s+x\s+)"
 
 
 def _vector(number: int) -> str:
@@ -46,7 +46,7 @@ def vector_product(text: str, coordinates: tuple[str, ...], known: AbstractSet[s
     list of str
         Empty where the text is not such a product, or a vector has no known components.
     """
-    has_product = re.search(r"[×⨯]|\\times|[cC]ross", text[:_LONGEST])
+    has_product = re.search(r"[×⨯]|\\times|[cC]ross|\sx\s", text[:_LONGEST])
     found = _CROSS.fullmatch(text.strip()) if has_product and not text[_LONGEST:] else None
     if found is None or len(coordinates) < 2 or not {*coordinates} <= {*_AXES_OF}:
         return []
