@@ -57,7 +57,9 @@ _TOTAL_RATE = regex(
 _RATE_OF_BODY = regex(r"(?:omega|Omega|ω|Ω|w|v|u)_?(?:[1-9]|[xyz])")
 #: A product of two vectors within a formula.
 _CROSS = regex(r"(?<!\w)([^\W\d]\w*)\s*(?:[×⨯]|\\times)\s*([^\W\d]\w*)")
-_SUM_IN_WORDS = regex(r"\b[sS]um(?:me)?\s+(?:over|of|from|all|over all|über|sur)\b")
+_SUM_IN_WORDS = regex(
+    r"\\sum(?![a-z])|∑|\b[sS]um(?:me)?\s+(?:over|of|from|all|over all|über|sur)\b"
+)
 _CROSS_IN_WORDS = regex(r"(?<!\w)([^\W\d]\w*)\s+x\s+([rvBEpL])(?!\w)")
 #: A force in the place of an energy.
 _FORCE = regex(r"\s*[FQ](?:_?\w+)?\s*:?=([^=]+)")

@@ -60,12 +60,12 @@ def closest(name: str, known: Iterable[str], cutoff: float = 0.6) -> str:
 
 def spelled_out(name: str) -> str:
     """Greek letters by their names: `theta` for θ, and `theta_1` for θ_1."""
-    return "".join(BY_LETTER.get(letter, letter) for letter in name)
+    return "".join(BY_LETTER.get(letter, letter) for letter in name).replace("ħ", "hbar")
 
 
 def _folded(name: str) -> str:
     """Look-alikes in one form: µ and μ, X and x, ϕ and φ and phi, w and ω, a Cyrillic х and x."""
     latin = str.maketrans(_CYRILLIC)
     folded = spelled_out(unicodedata.normalize("NFKC", name).casefold().translate(latin))
-    folded = re.sub("^epsilon", "eps", folded)
+    folded = re.sub(r"^ell(?![a-z])", "l", re.sub("^epsilon", "eps", folded))
     return "omega" if folded == "w" else folded

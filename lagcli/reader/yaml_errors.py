@@ -111,7 +111,9 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
     if sign := re.match(r"([<>]=?)\s*0", after):
         return Diagnostic("this is no value", span, f"write {{assume: {SIGNS[sign[1]]}}}")
     if after.startswith("|"):
-        return Diagnostic("'|' has no meaning in an expression", span, "write abs(x)")
+        return Diagnostic(
+            "'|' has no meaning in an expression", span, "a modulus is written abs(x)"
+        )
     if bars := re.match(r"[^|]*:\s+(\|[^|]+\|)", line):
         at = text.line_starts[number] + bars.start(1)
         message = "'|' has no meaning in an expression"

@@ -76,7 +76,7 @@ def test_what_sympy_prints_for_another_language_is_translated_back(language):
     assert unclear <= 1
 
 
-NAMES = Vocabulary(("x", "theta"), frozenset({"m", "k", "g", "l", "a", "t", "pi"}))
+NAMES = Vocabulary(("x", "theta"), frozenset({"m", "k", "g", "l", "a", "t", "pi", "ħ"}))
 
 
 @pytest.mark.parametrize(
@@ -106,6 +106,11 @@ NAMES = Vocabulary(("x", "theta"), frozenset({"m", "k", "g", "l", "a", "t", "pi"
         ("mu_k x'", "mu_k*x'"),
         ("1/2 m*'x^2 + F_n x", "1/2*m*x'^2 + F_n*x"),
         ("(k*x).simplify()", "(k*x)"),
+        ("1/2 m x'2", "1/2*m*x'^2"),
+        ("m*x'_1^2", "m*x_1'^2"),
+        (r"\dot{x}_1^2 + \dot x_{1}^2", "x_1'^2 + x_1'^2"),
+        ("k ln|x/l| + 2|x - l|", "k*log(abs(x/l)) + 2*abs(x - l)"),
+        (r"\hbar x", "ħ*x"),
     ],
 )
 def test_a_formula_is_read_as_its_author_reads_it(text, meant):
@@ -115,7 +120,7 @@ def test_a_formula_is_read_as_its_author_reads_it(text, meant):
 @pytest.mark.parametrize(
     "text",
     ["a/l x", "cos a x", "sin x^2", "sin x/2", "e^2x", "1,000*x", "U(x)", "x(t - 1)", "k*(x", "x y)",
-     "a(t)", "x^2^2", "k*x if x > 0 else 0", "m*g*x [J]", "x'2"],
+     "a(t)", "x^2^2", "k*x if x > 0 else 0", "m*g*x [J]", "x' 2"],
 )  # fmt: skip
 def test_what_may_mean_two_things_is_not_translated(text):
     with pytest.raises(UnclearText):

@@ -35,7 +35,10 @@ class Functions(Sums):
             function, power = f"a{function}", ""
             if function not in FUNCTIONS:
                 raise UnclearText
-        part = self.applied(function) if self.sign() == "(" else self.without_brackets(function)
+        if self.sign() == "|":  # ln|x|
+            part = Part(f"{function}({self.atom().text})", 3, is_call=True)
+        else:
+            part = self.applied(function) if self.sign() == "(" else self.without_brackets(function)
         return Part(f"{part.text}^{power}", 2) if power else part
 
     def applied(self, function: str) -> Part:

@@ -112,7 +112,7 @@ def _terms(term: str, limits: re.Match[str], names: Vocabulary) -> str:
     """`(m_1*x_1'^2 + m_2*x_2'^2)` for `m_i*x_i'^2`."""
     index = limits["index"]
     used = re.compile(
-        rf"(?P<stem>[^\W\d_](?:\w*[^\W_])??[\u0307\u0308]?)(?:_\{{?|\[)\s*{index}\s*(?P<step>[-+]\s*\d+)?\s*[\]}}]?(?!\w)"
+        rf"(?P<stem>[^\W\d_](?:\w*[^\W_])??[\u0307\u0308]?)(?:_{index}|(?:_\{{|\[)\s*{index}\s*(?P<step>[-+]\s*\d+)?\s*[\]}}])(?!\w)"
         rf"|(?<![\w.]){index}(?!\w)"
     )
     stems = {found["stem"] for found in used.finditer(term) if found["stem"]}

@@ -43,6 +43,7 @@ class Sums(ABC):
         self.at = 0
         self.depth = 0
         self.calls = 0  # around the place, whose commas are between arguments
+        self.bars = 0  # |, that are open
         self.by_letter: set[str] = set()  # the coordinates whose velocity was called v or ω
 
     def whole(self) -> str:
@@ -124,7 +125,7 @@ class Sums(ABC):
                     or (token.apart and (self.sign() == "(" or "*" not in text.partition("/")[0]))
                 )
                 if token.kind == "number":
-                    raise UnclearText  # x'2
+                    raise UnclearText  # x 2
                 part = self.power()
                 factor = part.text if _is_names(part.text) else part.within(2)
                 if not over or tells or (last.text[:1] == factor[:1] == "("):
@@ -142,7 +143,7 @@ class Sums(ABC):
     def begins(self, token: Token) -> bool:
         """Whether a factor begins here, with no sign before it."""
         if token.kind == "sign" or token.text in SIGNS:
-            return SIGNS.get(token.text, token.text) in {"(", "√"}
+            return SIGNS.get(token.text, token.text) in {"(", "√", "" if self.bars else "|"}
         return token.kind != "primes"
 
     def power(self) -> Part:
@@ -160,6 +161,14 @@ class Sums(ABC):
             elif token is not None and token.text == "!" and re.fullmatch(r"1?\d", base.text):
                 self.at += 1
                 base = Part(str(factorial(int(base.text))), 3)
+            elif (
+                token is not None
+                and not token.apart
+                and base.text[-1:] == "'"
+                and token.text in {*"234"}
+            ):
+                self.at += 1
+                base = _raise(base, f"^{token.text}")  # x'2
             elif token is not None and token.text in _WORDS and token.text not in self.names.known:
                 self.at += 1
                 base = _raise(self.with_primes(base), f"^{_WORDS[token.text]}")

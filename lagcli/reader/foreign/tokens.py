@@ -120,6 +120,12 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = re.sub(r"(\w)\u20d7", r"\\vec{\1}", text)
     text = re.sub(r"\\(?:begin|end)\s*\{\w+\*?\}|\\[()\[\]]", " ", text)
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
+    text = re.sub(r"(?<![\\\w])([^\W\d_]+)(['’′]+)_(?:\{(\w+)\}|(\w+))", r"\1_\3\4\2", text)  # x'_1
+    text = re.sub(
+        r"\\(d?dot)\s*(?:\{\s*(\\?[^\W\d_]+)\s*\}|(\w))\s*_(?:\{(\w+)\}|(\w))",
+        r"\\\1{\2\3_\4\5}",
+        text,
+    )  # \dot{x}_i
     along_z = vector_product(text, names.coordinates, {*names.known})
     text = along_z[0] if len(along_z) == 1 else text
     text = _products_of_vectors(written_out(text, names), names)

@@ -59,8 +59,10 @@ class _Translation(Functions):
             self.closed(")")
             return self.with_primes(inner) if inner.level == 3 else Part(f"({inner.text})", 3)
         if sign == "|":
+            self.bars += 1
             inner = self.sum()
             self.closed("|")
+            self.bars -= 1
             return Part(f"abs({inner.text})", 3, is_call=True)
         if sign == "√":
             return Part(f"sqrt({bare(self.atom())})", 3, is_call=True)
