@@ -111,7 +111,9 @@ def check_momenta(file: FileReader) -> None:
         if coordinate is not None:
             related = ((file.scope.spans[coordinate], "the coordinate"),)
             message = f"'{name}' is the momentum of the coordinate '{coordinate}'"
-            file.error(message, span, "choose another name", related)
+            is_coordinate = file.scope.kinds[name] == "coordinate"
+            hint = "leave it out: momenta are known" if is_coordinate else "choose another name"
+            file.error(message, span, hint, related)
 
 
 def declare_definitions(file: FileReader, node: DocumentNode) -> list[tuple[Scalar, DocumentNode]]:

@@ -188,14 +188,16 @@ def _without(start: int, end: int, text: SourceText, root: DocumentNode) -> Edit
     """Without the entry, or the item of a list, that stands there."""
     written = text.source.text
     entry = entry_at(root, start, end)
-    if entry is not None:
+    items = (x for node in nodes_in(root) for x in getattr(node, "items", ()))
+    item = next((x for x in items if x.start == start and x.end >= end), None)
+    if item is not None:
+        end = _end(item, written)
+    elif entry is not None:
         start, end = entry[0].start, _end(entry[1], written)
         around = [key for key, value in entries_in(root)
                   if getattr(value, "entries", ()) == [entry] and key.label in KEYS]  # fmt: skip
         start = around[0].start if around else start  # the only one of its section
         end += written[start:end].count("{") - written[start:end].count("}")
-    elif item := next((x for x in nodes_in(root) if x.start == start and x.end >= end), None):
-        start, end = item.start, _end(item, written)
     if comma := re.match(r"\s*,\s*", written[end:]):
         return Edit(start, end + comma.end(), "")
     if comma := re.search(r",\s*$", written[:start]):

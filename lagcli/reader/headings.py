@@ -96,17 +96,20 @@ def _is_heading(node: DocumentNode, attributes: tuple[str, ...]) -> bool:
         are_names = bool(labels) and all(map(str.isidentifier, labels))
         of_others = labels & {*attributes, *SECTIONS}
         return are_names and not of_others and not _mean(labels, inner)
-    items = node.items if isinstance(node, Sequence) else []
-    names = [each.value for each in items if isinstance(each, Scalar)]
-    are_names = len(names) == len(items) and all(map(str.isidentifier, names))
-    return bool(names) and are_names and not all(unit_behind(f"1 {name}") for name in names)
+    names = [each.value for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
+    return _are_names(node) and not all(unit_behind(f"1 {name}") for name in names)
 
 
 def _mean(labels: set[str], inner: list[DocumentNode]) -> bool:
     """Whether keys may be attributes in other words, not names: units, min, default."""
     words = [each for each in labels if len(each) > 2 and each.isalpha() and each.islower()]
     words = [each for each in words if each not in GREEK]
-    return bool(words) and all(isinstance(each, Scalar) for each in inner)
+    return bool(words) and not any(isinstance(each, Mapping) or _are_names(each) for each in inner)
+
+
+def _are_names(node: DocumentNode) -> bool:
+    items = node.items if isinstance(node, Sequence) else []
+    return bool(items) and all(isinstance(x, Scalar) and x.value.isidentifier() for x in items)
 
 
 def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:

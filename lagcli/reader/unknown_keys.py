@@ -47,6 +47,7 @@ _WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
 #: The number of a state.
 _STATE = regex(r"(?:[-+*/\d.() ]|pi|e(?=[-+\d]))+")
 _GRAVITY = frozenset({"gravity", "gravitation", "weight", "gravitational_acceleration"})
+_RANGES = frozenset({"range", "domain", "bounds", "interval", "limits"})
 _DEFINED = "a formula with a name stands under definitions"
 _MANUAL = "leave it out, or see lagcli help problem-format"
 
@@ -105,6 +106,8 @@ def unknown_key(
         meant, hint = _meant_of_problem(key, value, around, meant, hint, scope)
     elif not hint or hint.startswith("did you mean"):
         hint = _outer(key, value, names) or hint
+    if "assume" in names and "integer" not in names and word in _RANGES:
+        meant, hint = None, _of_range(source_of(value))
     given = {each.label for each, _ in around.entries}
     if meant in given and hint == f"the key is {meant}":
         hint = f"the key is {meant}, which is given already: its entries stand there"
@@ -323,6 +326,20 @@ def _weight(value: DocumentNode, around: Mapping) -> str:
     whole = " + ".join(before + (heights or [f"m*g*{y}"])).replace("+ -", "- ")
     of_g = f", with g: {numbers[-1]} under parameters" if numbers else ""
     return f"it has a potential energy: write V: {whole}{of_g}"
+
+
+def _of_range(written: str) -> str:
+    """`write assume: positive` for `r > 0` and `[0, inf]`; a coordinate has no other range."""
+    written = written.strip("'\"")
+    if written in get_args(Assumption):
+        return f"write assume: {written}"
+    sign = re.fullmatch(
+        r"\s*\w*\s*(>=?|≥)\s*0\s*|[\[(\]]\s*0\s*,\s*\+?(?:\.?inf\w*|oo|∞)\s*[\])\[]", written
+    )
+    if sign:
+        strict = sign[1] == ">" or (not sign[1] and written[0] != "[")
+        return f"write assume: {'positive' if strict else 'nonnegative'}"
+    return "leave it out: a coordinate has no range"
 
 
 def _letter_used(word: str, around: Mapping) -> str:

@@ -26,7 +26,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.reader.constants import rational_value
-from lagcli.reader.foreign.words import Vocabulary, rate_meant
+from lagcli.reader.foreign.words import Vocabulary, momentum_meant, rate_meant
 from lagcli.reader.friction_slips import friction_slips
 from lagcli.reader.misshapen import FRICTION, as_rayleigh
 from lagcli.reader.names import derivative_order
@@ -170,6 +170,7 @@ def check_values(file: FileReader, problem: Problem) -> None:
     _check_run(file, problem)
     _check_dissipation(file, problem)
     _check_potential(file, problem)
+    _check_momenta(file, problem)
     known = _known(problem)
     for parameter in problem.parameters:
         value = known.get(parameter.name)
@@ -243,6 +244,19 @@ def _check_dissipation(file: FileReader, problem: Problem) -> None:
         hint = f"a law of a force: write forces: {{{''.join(rates)}: {law}}}"
         hint = hint if len(rates) == 1 and not problem.forces else FRICTION
         file.error(message, formula.span, f"write {whole}: {FRICTION}" if whole else hint)
+
+
+def _check_momenta(file: FileReader, problem: Problem) -> None:
+    """H has momenta p_q: a coordinate p beside q is another one, with a momentum p_p."""
+    names = [one.name for one in problem.coordinates]
+    used = (
+        set() if problem.hamiltonian is None else {one.name for one in _names(problem.hamiltonian)}
+    )
+    for one in problem.coordinates:
+        moved = momentum_meant(one.name, [name for name in names if name != one.name])
+        if moved and one.name in used and f"p_{moved}" not in used:
+            message = f"'{one.name}' is a coordinate of its own here, not the momentum of {moved}"
+            file.error(message, one.span, f"leave it out: the momentum of {moved} is p_{moved}")
 
 
 def _check_potential(file: FileReader, problem: Problem) -> None:

@@ -56,3 +56,20 @@ def test_the_momenta_in_the_hint_are_those_of_the_energy(seed):
 def test_other_energies_have_no_such_hint(kinetic, potential):
     found = read_problem("p.yaml", file_with(kinetic, "m*x'", potential).encode()).diagnostics
     assert "write" not in found[0].hint
+
+
+@pytest.mark.parametrize(
+    ("coordinates", "energy", "momenta"),
+    [
+        ("[q, p]", "p^2/(2*m) + k*q^2/2", ["p"]),
+        ("[x, px]", "px^2/(2*m) + k*x^2/2", ["px"]),
+        ("[q1, q2, p1, p2]", "(p1^2 + p2^2)/(2*m) + k*q1*q2", ["p1", "p2"]),
+        ("[theta, p_theta]", "p_theta^2/(2*m) + k*cos(theta)", ["p_theta"]),
+        ("[q, p]", "p_q^2/(2*m) + k*p^2", []),
+    ],
+)
+def test_a_momentum_is_no_coordinate(coordinates, energy, momenta):
+    text = f"coordinates: {coordinates}\nparameters: [m, k]\nH: {energy}\n"
+    found = read_problem("p.yaml", text.encode()).diagnostics
+    left_out = [each for each in found if each.hint.startswith("leave it out: ")]
+    assert [each.message.split("'")[1] for each in left_out] == momenta
