@@ -206,8 +206,8 @@ def turning_contacts(motion: OneFreedom) -> Iterator[Paragraph]:
         return
     if len(different) == 1 and different != {()}:
         where = motion.turning_where[0]
-        lead = with_capital(demands)
-        yield Paragraph((*lead, f"{hold} there for ", *conditions(where), "."))
+        lead, end = with_capital(demands), "." if motion.signed else " or at equality."
+        yield Paragraph((*lead, f"{hold} there for ", *conditions(where), end))
     if len(different) < 2:
         return
     for root, where in zip(motion.turning_points or (), motion.turning_where, strict=True):

@@ -265,7 +265,7 @@ def _candidate(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
             "derivative equals the change."
         )
     elif is_zero(gauge) is True and same:
-        yield says("Under it the action does not change: it is a symmetry of ", letters.L, ".")
+        yield says("Under it the action does not change: it is a symmetry.")
     elif is_zero(gauge) is True and charge.conserved:
         yield says("Under it the action does not change on the motion.")
     elif is_zero(gauge) is True:

@@ -102,7 +102,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
     if sticking:
         yield says(
             "Dry friction takes at rest whatever is needed to hold the body, up to its largest "
-            "value, in either direction: what it acts on is at rest in a whole range of places."
+            "value, in either direction: what it acts on may be at rest in a whole range of places."
         )
     elif conditions:
         yield vanishing(conditions)

@@ -17,12 +17,16 @@ from sympy import Dummy
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.positivity import weak_sign
+from lagcli.algebra.signs import sign
 from lagcli.document import Block
 from lagcli.expression import Name
+from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import says
 from lagcli.statements.motions import SteadyMotion
+from lagcli.statements.wording import conditions as inequalities
 
 
 def two_rates(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
@@ -49,6 +53,8 @@ def two_rates(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
         sines = {s: Dummy(positive=True) for s in bound.atoms(sympy.sin)}  # of polar angles
         if weak_sign(bound.xreplace(sines), ()) == -1:
             continue  # it holds for every momentum
-        rate = Name(rates[0], 1)
-        yield says("For a given ", Name(p.name), " this is a quadratic equation for ", rate,
+        rate, order = Name(rates[0], 1), system.order
+        squares = [f**2 for f, _ in factors_of(a) if not f.is_number and sign(f**2) != 1]
+        where = [" and " if squares else "", *inequalities(conditions(squares, order))]
+        yield says("For a given ", Name(p.name), *where, " this is a quadratic equation for ", rate,
                    ", with real roots for ", write(square), " ≥ ", write(bound), ".")  # fmt: skip

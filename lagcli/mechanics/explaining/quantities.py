@@ -22,8 +22,10 @@ def model(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says("There is no such model.")
         return
     yield says(
-        "A numerical run leaves out coordinates where that saves work. A constraint that can be "
-        "solved for a coordinate then eliminates it."
+        "A numerical run leaves out coordinates where that saves work. ",
+        "A constraint that can be solved for a coordinate then eliminates it."
+        if explainer.problem.constraints
+        else "",
     )
     if found.eliminated:
         yield says("Eliminated:")

@@ -42,7 +42,7 @@ from lagcli.mechanics.rest.singular import singular
 
 _UNSOLVED = "no closed solution of the conditions of a steady motion was found"
 _STEADY_EVERYWHERE = "no force acts then, so every position that the constraints allow is steady"
-_ONLY_AT_REST = "under velocity constraints only states of rest were sought, and there is none"
+_ONLY_AT_REST = "under velocity constraints only states of rest were sought, and {} is none"
 
 
 class SteadyMotions:
@@ -94,7 +94,8 @@ class SteadyMotions:
             return None
         if not found and (self._singular or not self.complete):
             unsolved = not_specified(self.system, self.rest.equations) or _UNSOLVED
-            unsolved = _ONLY_AT_REST if self._solved and self.only_rest_is_sought else unsolved
+            if self._solved and self.only_rest_is_sought:
+                unsolved = _ONLY_AT_REST.format("in general there" if self.unless else "there")
             where = f"the conditions hold only where {singular(self.dynamics)} singular"
             self.reason = where if self._singular else unsolved
             return None

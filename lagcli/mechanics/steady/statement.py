@@ -8,11 +8,12 @@ from fractions import Fraction
 from functools import cached_property
 
 import sympy
-from sympy import Expr
+from sympy import Expr, S
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.decimals import rounded, written
+from lagcli.algebra.determinants import determinant
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import deciding, vanishing_part, without_moduli
@@ -215,7 +216,7 @@ class _SteadyStatement:
             if rates is None
             else {names[j]: self._shape(self._whole(rate, motion)) for j, rate in rates.items()},
             momenta={name: self._shape(value) for name, value in momenta.items()},
-            where=self._where(motion),
+            where=(*self._where(motion), *self._regular_where(motion)),
             mirrored=motion.mirrored,
             rests=self._rests_at_equality(motion),
             verdict=self._verdict(judged, motion, potential, turning=turning),
@@ -276,6 +277,23 @@ class _SteadyStatement:
     def _where(self, motion: Steady) -> tuple[Above, ...]:
         shortest = sorted(motion.known_positive, key=lambda e: int(e.count_ops()))
         return conditions(shortest, self.order)
+
+    def _regular_where(self, motion: Steady) -> tuple[Above, ...]:
+        """Where the free coordinates are regular: not at a pole, where det M = 0."""
+        full = self.steady.full
+        free = [q for q in full.q if q not in motion.values]
+        moving = motion.rates is not None and any(not free_of(self._determinant, [q]) for q in free)
+        if not moving or motion.family is not None:
+            return ()
+        factors = factors_of(simplify(at(self._determinant, motion.values)))
+        poles = [f**2 for f, k in factors if k > 0 and not free_of(f, free) and sign(f**2) != 1]
+        return conditions(poles, self.order, motion.known_positive)
+
+    @cached_property
+    def _determinant(self) -> Expr:
+        """det M of all coordinates at rest; 1 where it was not found."""
+        found = determinant(self.routh.full.dynamics.lagrange.mass_matrix_at_rest)
+        return S.One if found is None else found
 
     def _rests_at_equality(self, motion: Steady) -> bool:
         """Whether all rates and momenta are a root of what must be positive at a place."""
