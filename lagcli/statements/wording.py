@@ -206,7 +206,9 @@ def turning_contacts(motion: OneFreedom) -> Iterator[Paragraph]:
         return
     if len(different) == 1 and different != {()}:
         where = motion.turning_where[0]
-        lead, end = with_capital(demands), "." if motion.signed else " or at equality."
+        with_energy = all(motion.constant in names_in(each) for each in where)
+        end = " or at equality." if with_energy and not motion.signed else "."
+        lead = with_capital(demands)
         yield Paragraph((*lead, f"{hold} there for ", *conditions(where), end))
     if len(different) < 2:
         return

@@ -195,7 +195,7 @@ def test_an_h_without_a_lagrangian_is_explained_by_its_canonical_equations(seed)
     assert "homogeneous of first degree" in told
     assert ("So it is conserved." in told) is not timed
     assert told.count("is constant.") == 1
-    assert any("needs a Lagrangian" in warning for warning in account.warnings)
+    assert any("from a Lagrangian" in warning for warning in account.warnings)
 
 
 def test_an_h_of_another_degree_is_not_called_homogeneous():

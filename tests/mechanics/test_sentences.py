@@ -156,7 +156,7 @@ def test_contacts_are_named_and_what_follows_is_limited_to_between_impacts():
         "contacts:\n  floor: {gap: y >= 0, restitution: e}\n"
     )
     system = said(text, "The system")
-    assert "No constraint acts: the system has two degrees of freedom." in system
+    assert "No constraint is stated: the system has two degrees of freedom." in system
     assert "One contact acts only while its gap is 0" in system
     assert "What follows holds between impacts, while the gap is open." in system
     assert "h is conserved between impacts." in said(text, "The energy")
@@ -779,3 +779,17 @@ def test_without_a_law_none_is_announced(force):
     )
     assert "0 on the motion:." not in (told := said(text, "Questions", "find"))
     assert "no conserved quantity is known" in told
+
+
+@pytest.mark.parametrize(("w", "may_vanish"), [("", True), ("{assume: positive}", False)])
+def test_charges_that_coincide_where_a_rate_vanishes_are_counted_for_other_values(w, may_vanish):
+    """m r' exp(w t) - m w r exp(w t) and its twin: at w = 0 both are m r'."""
+    text = f"{{coordinates: [r], parameters: {{w: {w}}}, L: r'^2/2 + w^2*r^2/2}}"
+    told = said(text, "The algebra of the symmetries", "algebra")
+    assert ("some of these vanish or coincide" in told) == may_vanish
+
+
+@pytest.mark.parametrize(("force", "jumps"), [("-c*sign(x')", True), ("-c*x'", False)])
+def test_static_friction_is_told_where_a_force_jumps(force, jumps):
+    text = f"{{coordinates: [x], parameters: [c], T: x'^2/2, forces: {{x: {force}}}}}"
+    assert ("Where a force jumps" in said(text, "The Lagrangian")) == jumps

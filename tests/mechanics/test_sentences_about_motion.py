@@ -299,7 +299,7 @@ def test_what_reaches_a_zero_of_the_inertia_is_not_said_to_go_on(n, mass):
     """On a cycloid a bead with more energy than the cusp has reaches it, at a finite speed."""
     text = f"coordinates: [x]\n{_POSITIVE}\nT: {n}*m*({mass})*x'^2\nV: -k*({mass})\n"
     told = words(explain(derive(text), ["reduction"]), "The reduction")
-    assert "They exist for" in told
+    assert "They are real for" in told
     assert "there is none." in told
     assert "does not turn back" not in told
 

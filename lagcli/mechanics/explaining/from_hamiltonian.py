@@ -42,7 +42,7 @@ def explanation_from_hamiltonian(derivation: Derivation, also: Sequence[str] = (
             continue
         title = section.explained.title
         if statements.maker(section) is None:
-            missing.append(f"'{title}' needs a Lagrangian, and this H gives none")
+            missing.append(f"'{title}' is derived here from a Lagrangian, and this H gives none")
             continue
         answers = statements.answers([name])
         steps.append(ExplanationStep(title, tuple(section.blocks(answers.sections[name], answers))))

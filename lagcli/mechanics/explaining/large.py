@@ -49,7 +49,7 @@ def _system(form: MatrixForm) -> Iterator[Block]:
     free, rank = form.degrees_of_freedom, len(form.independent)
     freedom = f"the system has {counted(free, 'degree')} of freedom."
     if not form.constraints:
-        yield says(f"No constraint acts: {freedom}")
+        yield says(f"No constraint is stated: {freedom}")
         return
     yield says(
         f"{counted(len(form.constraints), 'constraint').capitalize()} "

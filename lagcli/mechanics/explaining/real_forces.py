@@ -28,7 +28,8 @@ def real_forces(explainer: Explainer, section: Section) -> Iterator[Block]:
     if not equations:
         closed = f"only from {constraints_named('the contact', contacts)}, while closed"
         yield says(f"Forces of constraint come {closed}." if contacts
-                   else "There are no constraints and no forces of constraint.")  # fmt: skip
+                   else "The file states no constraints. The forces that hold the system to its "
+                        "coordinates do not occur in their equations.")  # fmt: skip
         return
     yield says(
         "For every displacement a constraint does the same virtual work as a force on its "

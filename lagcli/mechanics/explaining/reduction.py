@@ -162,7 +162,7 @@ def _one_freedom(motion: OneFreedom, potential: Part) -> Iterator[Block]:
         if motion.turning_finite:
             yield says("for ", *conditions(motion.turning_finite), ".")
         for lower, upper in motion.turning_energies:
-            yield says("They exist for ", lower, " ≤ ", E, " ≤ ", upper, ".")
+            yield says("They are real for ", lower, " ≤ ", E, " ≤ ", upper, ".")
             onwards = (", ", q, " does not turn back.") if motion.regular else (" there is none.",)
             yield says("For larger ", E, *onwards)
         yield from turning_contacts(motion)

@@ -28,7 +28,9 @@ def scene(explainer: Explainer) -> Iterator[Block]:
     equations = dynamics.constraints.equations
     if not equations:
         count = len(coordinates)
-        yield says(f"No constraint acts: the system has {counted(count, 'degree')} of freedom.")
+        yield says(
+            f"No constraint is stated: the system has {counted(count, 'degree')} of freedom."
+        )
         yield from _gaps(explainer)
         return
     what = counted(len(equations), "constraint").capitalize()

@@ -7,14 +7,17 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import cast
 
-from sympy import Expr, Matrix, N, Poly, Rational, S, Symbol
+from sympy import Expr, Matrix, N, Poly, Rational, S, Symbol, cos, cosh, exp, sin, sinh
 
 from lagcli.algebra import dot, is_zero, shape, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.place import NO_VALUE
+from lagcli.algebra.signs import sign
 from lagcli.document import Block, Bracket, Equations, Heading, Label, Row, equations_of
-from lagcli.expression import ZERO, Expression, Name, sum_of, walk
+from lagcli.expression import ZERO, Expression, Name, Power, sum_of, walk
 from lagcli.mechanics.canonical.poisson import poisson
+from lagcli.mechanics.conditions import conditions as conditions_of
 from lagcli.mechanics.discovery.isometries import THEY_ARE
 from lagcli.mechanics.discovery.lie_algebra import MODULO_CONSTANTS
 from lagcli.mechanics.discovery.limits import TooMuchWork
@@ -182,16 +185,26 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
 
 
 def _degenerate(explainer: Explainer) -> Iterator[Block]:
-    """Where roots of parameters vanish: sin(a t) is 0 at a = 0, and exp(a t) is exp(-a t)."""
-    discovery, system = explainer.derivation.discovery, explainer.system
-    bounds = [each for charge in discovery.charges for each in real_where(charge, system)]
+    """Where rates or roots of parameters vanish: sin(a t) is 0 at a = 0, exp(a t) is exp(-a t)."""
+    charges, system = explainer.derivation.discovery.charges, explainer.system
+    bounds = [each for charge in charges for each in real_where(charge, system)]
+    rates = {f**2 for charge in charges for f in _rates(charge.charge, system.t)}
+    bounds += conditions_of(sorted(rates, key=str), system.order)
+    sides = {(each.left, each.right): each for each in bounds if "t" not in names_in(each)}
     where: list[Part] = []
-    for each in dict.fromkeys(bounds):
-        if "t" not in names_in(each):
-            where += [" or " if where else "", each.left, " = ", each.right]
+    for left, right in sides:
+        left = left.base if isinstance(left, Power) and right == ZERO else left
+        where += [" or " if where else "", left, " = ", right]
     if where:
         yield says("Where ", *where, ", some of these vanish or coincide: the following is for "
                    "other values.")  # fmt: skip
+
+
+def _rates(formula: Expr, t: Symbol) -> Iterator[Expr]:
+    """Factors of w in functions of w t that may vanish."""
+    for node in formula.atoms(exp, sin, cos, sinh, cosh):
+        factors = factors_of(node.args[0].diff(t))
+        yield from (f for f, k in factors if k > 0 and f.free_symbols and sign(f**2) != 1)
 
 
 def _at_special_values(explainer: Explainer, found: AlgebraSection) -> Iterator[Block]:

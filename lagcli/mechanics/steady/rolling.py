@@ -133,6 +133,14 @@ class RollingMotions:
                 found = zip(gone, solution.values, strict=True)
                 yield kept, {system.qdot[j]: x for j, x in found if x is not None}
 
+    @cached_property
+    def _chart_determinant(self) -> Expr:
+        """det of the constraints in the velocities that they give: not 0 where they do."""
+        constraints, kept = self.dynamics.constraints, self.chart[0] if self.chart else ()
+        rows = [constraints.equations[k].row for k in self.dynamics.independent_constraints]
+        gone = [j for j in range(len(self.system.q)) if j not in kept]
+        return simplify(determinant([[row[j] for j in gone] for row in rows]) or S.One)
+
     def _turns(self, columns: Sequence[int]) -> bool:
         """Whether the factors of these velocities in the constraints change on the motion."""
         moving, equations = (*self.system.q, self.system.t), self.dynamics.constraints.equations
@@ -330,13 +338,10 @@ class RollingMotions:
     def _standing(self, motion: RollingMotion) -> RollingMotion | None:
         """The motion where the chart is regular and all contacts hold; None where one does not."""
         assert self.chart is not None
-        dependent = [at(velocity, motion.values) for velocity in self.chart[1].values()]
-        constant = [self.system.q[j] for j in self.coordinates] + list(self.system.parameters)
-        regular = [
-            d
-            for d in squares_divided_by(dependent)
-            if d.free_symbols <= {*constant} and sign(d) != 1 and d not in motion.known_positive
-        ]
+        constant = {self.system.q[j] for j in self.coordinates} | {*self.system.parameters}
+        factors = (f for f, _ in factors_of(at(self._chart_determinant, motion.values)))
+        squares = [f**2 for f in factors if f.free_symbols <= constant and not f.is_number]
+        regular = [f for f in squares if sign(f) != 1 and f not in motion.known_positive]
         positive = pressed(self._pressing(motion.values), (*motion.positive, *regular))
         return None if positive is None else replace(motion, positive=positive)
 
