@@ -295,7 +295,7 @@ def _moves(formula: Expression) -> bool:
 
 
 def _is_misplaced(file: FileReader, term: Expression) -> bool:
-    """Whether a term is not linear in velocities, and has no function of coordinates."""
+    """Whether a term is not linear in velocities, and contains no coordinate."""
 
     def degree(node: Expression, parts: list[float]) -> float:
         match node:
@@ -310,12 +310,8 @@ def _is_misplaced(file: FileReader, term: Expression) -> bool:
             case _:
                 return sum(parts)
 
-    inner = [part for node in walk(term) for part in (
-        (node.denominator,) if isinstance(node, Quotient)
-        else node.arguments if isinstance(node, Call) else ())]  # fmt: skip
-    if any(derivative_order(part, file.scope) == 0 for part in inner):
-        return False
-    return folded(term, degree) > 1
+    at_a_place = any(derivative_order(name, file.scope) == 0 for name in _names(term))
+    return not at_a_place and folded(term, degree) > 1
 
 
 def _parity(formula: Expression, definitions: Mapping[str, Expression]) -> int:
