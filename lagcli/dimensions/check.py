@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import chain, combinations, islice
+from math import prod
 
 from lagcli.diagnostics import Diagnostic, Severity, Span
 from lagcli.dimensions.demands import LAGRANGIAN
 from lagcli.dimensions.forms import ENERGY, TIME, Form, minus, plus, times, unknowns
 from lagcli.dimensions.inference import Inference, gives_units, quantities
 from lagcli.dimensions.kinds import kind
-from lagcli.dimensions.system import Incoherent, dimension_of
+from lagcli.dimensions.system import Incoherent, dimension_of, meaning_of
 from lagcli.dimensions.terms import Group, Reader, Term, representative
 from lagcli.dimensions.usual import is_usual
-from lagcli.expression import Expression, Name, Negative, walk
+from lagcli.expression import Expression, Name, Negative, Number, walk
 from lagcli.problem_data import JACOBI_FUNCTION, Problem, Quantity
 from lagcli.record import replace
 from lagcli.units import read_unit
@@ -292,11 +294,42 @@ class _Checker:
         if found.other is not None:
             other = found.other.name
             what = f"'{name}' together with '{other}': numbers would be off by a factor of {factor}"
-            return what, f"give all of them in {other}, or all in {name}"
+            hint = self._converted(found, other) or f"give all of them in {other}, or all in {name}"
+            return what, hint
         dimension = dimension_of(read_unit(name))
         base = str(self.inference.system.unit(dimension)) if dimension else "rad"
         what = f"'{name}' is {factor} {base}: numbers would be off by that factor"
-        return what, f"write {base}"
+        return what, self._converted(found, base) or f"write {base}"
+
+    def _converted(self, found: Incoherent, better: str) -> str:
+        """`write unit: m, value: 0.8` for 80 cm; nothing where it has no number."""
+        name = found.named.name
+        quantity = next(q for q in quantities(self.problem) if q.unit_span == found.named.span)
+        given = {"value": getattr(quantity, "value", None)} | {
+            f"initial {each}": value for each, value in self.problem.initial.items()
+            if each.name == quantity.name
+        }  # fmt: skip
+        numbers = {key: _bare(node) for key, node in given.items() if node is not None}
+        system, written = self.inference.system, quantity.unit or ""
+        unit = read_unit(written)
+        only = [each.named.span for each in system.incoherent].count(quantity.unit_span) == 1
+        if only and better.isalpha():
+            factor = found.factor ** float(dict(unit.factors)[name])
+            better = re.sub(rf"(?<!\w){re.escape(name)}(?!\w)", better, written)
+        else:
+            form = dimension_of(unit)
+            factor = prod(meaning_of(n).factor ** float(power) for n, power in unit.factors)
+            factor /= system.factor({str(base): power for base, power in form.items()})
+            better = str(system.unit(form))
+        if not numbers or better == written:
+            return ""
+        whole = [f"unit: {better}"]
+        for key, number in numbers.items():
+            if not isinstance(number, Number):
+                return ""
+            sign = "-" * isinstance(given[key], Negative)
+            whole.append(f"{key}: {sign}{float(number.value) * factor:.10g}")
+        return f"write {', '.join(whole)}"
 
 
 def _bare(node: Expression) -> Expression:

@@ -45,11 +45,12 @@ def dimension_of(unit: Unit) -> Form:
     """The dimension of a unit."""
     total: Form = {}
     for name, exponent in unit.factors:
-        total = plus(total, dict(_known(name).powers), exponent)
+        total = plus(total, dict(meaning_of(name).powers), exponent)
     return total
 
 
-def _known(name: str) -> Meaning:
+def meaning_of(name: str) -> Meaning:
+    """What a unit's name that was read from a file means."""
     found = meaning(name)
     if found is None:
         raise LookupError(f"the unit {name!r} was not read from a file")
@@ -77,7 +78,7 @@ class UnitSystem:
 
     def _take_base(self, named: Named) -> bool:
         """Whether the name is that of a base unit, which then is the file's."""
-        factor, powers = _known(named.name)
+        factor, powers = meaning_of(named.name)
         if len(powers) != 1 or powers[0][1] != 1:
             return False
         base = powers[0][0]
@@ -88,7 +89,7 @@ class UnitSystem:
         return True
 
     def _take_derived(self, named: Named) -> None:
-        factor, powers = _known(named.name)
+        factor, powers = meaning_of(named.name)
         free = [(base, power) for base, power in powers if base not in self.factors]
         for base, _ in free[1:]:
             self.factors[base] = 1.0

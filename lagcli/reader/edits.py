@@ -24,8 +24,8 @@ _RENAMED = regex(
     r"(?:(?:the key is|the velocity of \w+ is) (\w+'*)|did you mean (?:'(\S+)'|(\w+'*))\?)"
 )
 #: An example, or a change of more places.
-_NOT_TO_TYPE = regex(r" under '|without '-'|, as in |^it is one sum")
-_NO_NAME = regex(r"'(.*)' is not a name")
+_NOT_TO_TYPE = regex(r" under '|without '-'|, as in |^it is one sum|left = right$")
+NO_NAME = regex(r"'(.*)' is not a name")
 _SECTION = regex(r"(\w+): (.*)", re.DOTALL)
 _BLANKS = "  "
 #: What a comma has cut off a value in braces.
@@ -68,7 +68,7 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
     parts = dict.fromkeys((whole, *_without_reason(whole)))
     found = [edits for part in parts for edits in _placed(part, start, end, text, root)]
     written = text.source.text
-    if name := _NO_NAME.match(mistake.message):
+    if name := NO_NAME.match(mistake.message):
         found = [edits + _elsewhere(name[1], edits[0], written) for edits in found]
     is_own = is_node(start, end, root, written) and not _SECTION.fullmatch(whole)
     return sorted(found, key=lambda edits: (
@@ -109,11 +109,11 @@ def _placed(
     section = _SECTION.fullmatch(part)
     entry = entry_at(root, start, end)
     if section and section[1] in KEYS:
-        if start < end and entry is not None and entry[0].label == section[1]:
-            yield [Edit(entry[0].start, _end(entry[1], written), part)]
-            return
-        if start < end and entry is not None and entry[0].label in KEYS:
-            return  # a part of it goes there
+        of_problem = (pair for pair in getattr(root, "entries", ()) if pair[0].label in KEYS)
+        if start < end and entry is not None and entry in of_problem:
+            if entry[0].label == section[1]:
+                yield [Edit(entry[0].start, _end(entry[1], written), part)]
+            return  # else a part of it goes there
         gone = [_without(start, end, text, root)] if start < end else []
         edits = [*_into_section(section[1], section[2], text, root), *gone]
         if edits:  # none where its section is no map

@@ -33,6 +33,7 @@ from lagcli.reader.misshapen import (
     one_sum,
     source_of,
     texts_of,
+    with_state,
 )
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
@@ -223,7 +224,7 @@ class FileReader:
             for key, value in inner
         )
         if {key.label for key, _ in entries} == {"where"}:
-            given += f", for: {next(iter(self.scope.of_kind('coordinate')), 'x')}"
+            given += f", for: {next(iter(self.scope.free), 'x')}"
         message = f"'{beside[0].label}' stands inside the braces of one entry of {what}"
         whole = f"write {own[0].label if own else 'name'}: {{{given}}}"
         several = len(own) > 1 or any(isinstance(value, Mapping) for _, value in entries)
@@ -285,10 +286,10 @@ class FileReader:
         found = {}
         names = tuple(known)
         is_map = isinstance(node, Mapping)
-        as_one = "" if is_map else as_map(node, names, self.scope.of_kind("coordinate"))
+        as_one = "" if is_map else as_map(node, names, self.scope.free)
         if what.startswith("the question") and what.split("'")[1] in FOUND:
             as_one = ALREADY_FOUND
-        entries = list(self.entries(node, what, as_one))
+        entries = list(self.entries(node, what, with_state(as_one, what, node, is_key=False)))
         given = {key.label for key, _ in entries}
         if required is not None and isinstance(node, Mapping):
             near = {key_meant(label, names) or closest(label, names) for label in given}
@@ -309,7 +310,7 @@ class FileReader:
             else:
                 assert isinstance(node, Mapping)
                 wrong = unknown_key(key, value, what, names, node, self.scope)
-                self.error(wrong.message, key.span, wrong.hint)
+                self.error(wrong.message, key.span, with_state(wrong.hint, what, value))
                 if wrong.meant and wrong.meant not in given:
                     found[wrong.meant] = (key, value)  # what is in it is read on
         return found

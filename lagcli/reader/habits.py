@@ -101,14 +101,15 @@ def key_meant(word: str, known: tuple[str, ...]) -> str | None:
         for key in known:
             if written in keys.get(key, ()):
                 return key
-    plain = _without_accents(spelled)
-    alike = (key for key in known if plain in map(_without_accents, keys.get(key, ())))
+    plain = _letters(spelled)
+    alike = (key for key in known if plain in map(_letters, keys.get(key, ())))
     return next(alike, None) if len(plain) > 3 else None
 
 
-def _without_accents(word: str) -> str:
-    """`parametros` for parámetros."""
-    return "".join(e for e in unicodedata.normalize("NFD", word) if not unicodedata.combining(e))
+def _letters(word: str) -> str:
+    """`parametros` for parámetros, `stoptime` for stop_time."""
+    plain = unicodedata.normalize("NFD", word.replace("_", ""))
+    return "".join(each for each in plain if not unicodedata.combining(each))
 
 
 def key_of_stem(word: str, known: tuple[str, ...]) -> str | None:

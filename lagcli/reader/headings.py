@@ -29,6 +29,10 @@ SYSTEMS = {
 }
 
 
+_SPEED = regex("(?i:(?:initial_|launch_)?(?:speed|velocity)|v_?0?)")
+_SLOPE = regex(
+    "(?i:(?:initial_|launch_)?(?:angle|direction|elevation|inclination)|alpha|theta)_?0?"
+)
 #: The section that an attribute belongs to.
 SECTIONS = {
     **dict.fromkeys(("value", "integer"), "parameters"),
@@ -139,6 +143,20 @@ def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:
                 parts.append(f"{name}{prime}: {source_of(each)}")
     names = {part.partition(":")[0].rstrip("'") for part in parts}
     return f"write {{{', '.join(parts)}}}" if names and names <= {*coordinates} else ""
+
+
+def state_of_launch(node: DocumentNode, coordinates: list[str]) -> str:
+    """`{x': v*cos(a), y': v*sin(a)}` for `{speed: v, angle: a}` in a plane; nothing for others."""
+    given = {key.label: source_of(value) for key, value in getattr(node, "entries", ())}
+    speed, angle = ([each for each in given if word.fullmatch(each)] for word in (_SPEED, _SLOPE))
+    axes = [x for x in coordinates if x in {"x", "y", "z"}]
+    if {*speed, *angle} & {*coordinates} or (len(speed), len(angle), len(axes)) != (1, 1, 2):
+        return ""
+    size, slope = given.pop(speed[0]), given.pop(angle[0])
+    size = f"({size})" if re.search(r"\S\s*[-+]", size) else size
+    slope = re.sub(r"([\d.]+)\s*(?:°|deg\w*)", r"\1*pi/180", slope)
+    given |= {f"{axes[0]}'": f"{size}*cos({slope})", f"{axes[1]}'": f"{size}*sin({slope})"}
+    return f"write {{{', '.join(map('{0[0]}: {0[1]}'.format, given.items()))}}}"
 
 
 def _number_of(node: DocumentNode) -> str:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 
 from lagcli.diagnostics import Diagnostic, Source, Span
 from lagcli.problem_data import Problem
-from lagcli.reader.edits import PROPOSED, Edit, edits_of, is_node
+from lagcli.reader.edits import NO_NAME, PROPOSED, Edit, edits_of, is_node
 from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
@@ -120,7 +120,12 @@ class _Mending:
         _, number, after, edits = best
         if number == len(self.followed):
             begin = self.begin_of(state, edits[0].start)
-            here = replace(mistake, span=self.span_in_file(state, place))
+            also = tuple(
+                (self.span_in_file(state, (edit.start, edit.end)), "it is written here too")
+                for edit in edits[1:] if NO_NAME.match(mistake.message)
+            )  # fmt: skip
+            span = self.span_in_file(state, place)
+            here = replace(mistake, span=span, related=mistake.related + also)
             self.followed.append(_Followed(here, edits[0].written.lstrip("\n"), begin))
         return after
 

@@ -37,6 +37,7 @@ WITHOUT_HYPHENS = "leave out the '-' before each key"
 
 #: `x = l*sin(a)`, several of them.
 _ASSIGNED_PARTS = regex(r"(\w+)\s*=\s*(.*?)(?=[\s,;]+\w+\s*=|\s*$)")
+_EQUATION = regex(r"\s*(?:\w+\.)?(?:Eq|Equality|Equal)\s*[(\[](.*)[)\]]\s*")
 #: A velocity, or a difference of some.
 _LINEAR = regex(r"\w+'|\(\s*-?\w+'(?:\s*[-+]\s*\w+')*\s*\)")
 #: At least two words.
@@ -63,11 +64,18 @@ def behind_words(text: str, known: Container[str]) -> str:
     return text[found.end() :] if found and is_sentence(found[1], known) else text
 
 
+def as_equation(text: str) -> str:
+    """`a = b` for `Eq(a, b)`; other texts as they are."""
+    found = _EQUATION.fullmatch(text)
+    sides = pieces(found[1], ",") if found else []
+    return " = ".join(map(str.strip, sides)) if len(sides) == 2 else text
+
+
 def as_list(written: str) -> str:
-    """`[x, y]` for `x, y` and for `(x, y)`."""
+    """`[x, y]` for `x, y`, for `(x, y)` and for `{x, y}`."""
     if re.fullmatch(r"\[[^\[\]]*\]", written.strip()):
         return written.strip()
-    within = re.fullmatch(r"\s*\((.*)\)\s*", written, re.DOTALL)
+    within = re.fullmatch(r"\s*[({](.*)[)}]\s*", written, re.DOTALL)
     outer = within[1] if within else ""
     while (inner := re.sub(r"\([^()]*\)", "", outer)) != outer:
         outer = inner
@@ -177,7 +185,7 @@ def range_end(written: str) -> str:
 
 def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str] = ()) -> str:
     """How a text or a list is written as the map that it should be."""
-    written = node.text.source.text[node.start : node.end].strip()
+    written = as_equation(node.text.source.text[node.start : node.end]).strip()
     known = [*coordinates]
     present = [x for x in known if x in re.findall(r"\w+", written)]
     unknown = next(iter([*present, *known]), "x")
@@ -210,6 +218,22 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
     if isinstance(node, Sequence) and all(isinstance(each, Mapping) for each in node.items):
         return WITHOUT_HYPHENS
     return f"it has the keys {', '.join(names)}"
+
+
+def with_state(hint: str, what: str, value: DocumentNode, *, is_key: bool = True) -> str:
+    """The hint of a value that belongs to the initial state of a coordinate, with that state."""
+    is_rate = hint.startswith("leave it out: the velocity of x is")
+    if not is_rate and not hint.startswith("a state stands under initial"):
+        return hint
+    parts = [value] if isinstance(value, Scalar) else getattr(value, "items", [])
+    numbers = [source_of(each) for each in parts]
+    if not what.startswith("the coordinate") or not all(is_constant("x", n) for n in numbers):
+        return hint
+    name = what.split("'")[1]
+    rates = [name, f"{name}'"][is_rate:]
+    state = ", ".join(map("{}: {}".format, rates, numbers))
+    written = ": write" if is_key else ", as in"
+    return f"a state stands under initial{written} initial: {{{state}}}" if state else hint
 
 
 def _as_attributes(node: DocumentNode, written: str, names: tuple[str, ...]) -> str:

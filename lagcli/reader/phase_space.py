@@ -11,6 +11,7 @@ from lagcli.expression import Name, walk
 from lagcli.problem_data import BracketQuestion, CanonicalTransformation
 from lagcli.reader.misshapen import FOUND, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.regex import regex
 from lagcli.reader.scope import PHASE_SPACE, name_mistake
 from lagcli.record import replace
 
@@ -30,6 +31,11 @@ _KINDS = {
 _FOUND = "leave it out: momenta, energy and charges are found"
 _WRITE = "write name: {Q: p_x, p_Q: -x}"
 
+#: `{A, B}`, also with its index and its value: `\\{A, B\\}_{PB} = C`.
+_PAIR = regex(
+    r"\s*(?:\\?\{|[(\[])?\s*([^,{}]+?)\s*,\s*([^,{}]+?)\s*"
+    r"(?:(?:\\?\}|[)\]])(?:_\{?\w+\}?)?)?\s*(?:=.*)?"
+)
 #: What a bracket calls the Hamiltonian, where the file has no such name.
 HAMILTONIAN = "H"
 
@@ -114,8 +120,10 @@ def read_brackets(
     with file.scope.also(names, "observable"):
         for key, value in file.entries(node, "brackets", hint):
             what = f"the bracket '{key.label}'"
-            pair = _pair(value)
-            items = file.items(value, what, f"write [{', '.join(pair)}]" if pair else hint)
+            if (pair := _pair(value)) and not isinstance(value, Sequence):
+                file.error(f"{what} is a list", value.span, f"write [{', '.join(pair)}]")
+                continue
+            items = file.items(value, what, hint)
             if isinstance(value, Sequence) and len(items) != 2:
                 file.error(f"{what} has {len(items)} functions, not 2", value.span, hint)
             read = [file.expression(item, what, BRACKETED) for item in items]
@@ -133,7 +141,7 @@ def _pair(node: DocumentNode) -> list[str]:
     elif isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
         given = [key for key, _ in node.entries]
     elif isinstance(node, Scalar):
-        within = re.fullmatch(r"\s*[{(\[]?\s*([^,{}]+?)\s*,\s*([^,{}]+?)\s*[})\]]?\s*", node.value)
+        within = _PAIR.fullmatch(node.value)
         return [*within.groups()] if within else []
     names = [each.value for each in given if isinstance(each, Scalar)]
     return names if len(names) == len(given) == 2 else []

@@ -62,6 +62,9 @@ _DECLARATION = regex(
     r"(\w+)(?:\([^()]*\))?\s*(?:=\s*([^;\"]+))?"
 )
 _WITH_ITS_UNIT = regex(r"\s*([^\W\d]\w*)(?:\s*[(\[](rad|deg|k?m|cm|mm|s|kg|g|N|J)[)\]])?\s*")
+#: `G M` and `G*M` before a value, the name GM.
+_PRODUCT = regex(r"^[^\W\d](?:[ *][^\W\d])+(?=\s*[=:])")
+_CALLED = regex(r"(\w+)\(\s*([^\W\d][\w, ]*?)\s*\)")
 _OF_TIME = regex(r"(\w+)\(t\)")
 _ONE_NAME = regex(r"write (\w+)(?:, without .*)?")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
@@ -193,27 +196,22 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
     if not isinstance(node, Mapping):
         file.scope.refused.append("")
     items = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
-    called = re.match(r"(\w+)\(([\w, ]+)\)", items[0]) if items else None
+    called = [found.groups() for each in items for found in _CALLED.finditer(each)]
     first = next(iter(file.scope.of_kind("coordinate")), "r")
-    alone = items[0] if items and items[0].isidentifier() else ""
-    usual = (alone, first) if alone else ("U", "r")
-    hint = "write {}: [{}]".format(*(called.groups() if called else usual))
-    for key, value in file.entries(node, "functions", hint):
-        called = re.fullmatch(r"(\w+)\(\s*\w[\w, ]*\)", key.label)
-        if called and isinstance(value, Scalar) and re.search(r"[-+*/^(]|^\d", value.value):
-            hint = f"a formula stands under definitions: {called[1]}: {value.value}"
-            file.error(f"'{called[1]}' has a formula", key.span, hint)
-            file.scope.refused.append(key.label)
+    alone = [(each, first) for each in items if each.isidentifier()]
+    named = ", ".join(map("{0[0]}: [{0[1]}]".format, called or alone or [("U", "r")]))
+    for key, value in file.entries(node, "functions", f"write {named}"):
+        call = _CALLED.fullmatch(key.label)
+        name = call[1] if call else key.label
+        if not file.declare(name, "function", key.span):
             continue
-        if not file.declare(key.label, "function", key.span):
-            continue
-        what = f"the arguments of '{key.label}'"
-        if isinstance(value, Scalar) and not value.is_empty:
-            hint = f"write [{value.value}]"
-            if not re.fullmatch(r"[\w\s,]+", value.value):
-                hint = f"a formula stands under definitions: {key.label}: {value.value}"
-            file.error(f"{what} must be a list", value.span, hint)
-            file.scope.arity[key.label] = 1
+        what, given = f"the arguments of '{name}'", getattr(value, "value", "")
+        if call or given:
+            hint = f"write {name}: [{call[2]}]" if call else f"write [{given}]"
+            if not re.fullmatch(r"(?!\d)[\w\s,]*", given):
+                hint = f"a formula stands under definitions: {name}: {given}"
+            file.error(f"{what} must be a list", (key if call else value).span, hint)
+            file.scope.arity[name] = call[2].count(",") + 1 if call else 1
             continue
         arguments = [file.scalar(item, f"an argument of '{key.label}'")
                      for item in file.items(value, what)]  # fmt: skip
@@ -403,6 +401,7 @@ def _pairs(node: DocumentNode, section: str) -> str:
     elif isinstance(node, Sequence) and not any(map(_has_attributes, node.items)):
         source = [item.text.source.text[item.start : item.end] for item in node.items]
         source = [re.sub(r"^\[(\w+),\s*([^,\]]+)\]$", r"\1: \2", text) for text in source]
+        source = [_PRODUCT.sub(lambda m: re.sub("[ *]", "", m[0]), text) for text in source]
         given = [re.fullmatch(r"(\w+)\s*[=:]\s*(\S.*?)\s*", text) for text in source]
         given = [] if any(each and re.search(r"\(['\"]", each[2]) for each in given) else given
         if any(given) and not all(given) and section == "parameters":  # [m, g = 9.81]

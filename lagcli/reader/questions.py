@@ -17,8 +17,8 @@ from lagcli.problem_data import (
 )
 from lagcli.reader.by_coordinate import by_name, state_meant
 from lagcli.reader.foreign.words import momentum_meant
-from lagcli.reader.habits import advised, is_angle, key_meant, name_meant
-from lagcli.reader.headings import PLACE, RATE, state_without_headings
+from lagcli.reader.habits import advised, is_angle, key_meant, meanings, name_meant
+from lagcli.reader.headings import PLACE, RATE, state_of_launch, state_without_headings
 from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end, source_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar
@@ -67,6 +67,9 @@ def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]
         message = f"'{headings[0].label}' in initial has no number"
         file.error(message, headings[0].span, whole)
         return {}
+    if whole := state_of_launch(node, coordinates):
+        file.error("a state has velocities, no speed with an angle", node.span, whole)
+        return {}
     for key, value in entries:
         what = f"the initial '{key.label}'"
         name = _state_name(file, key, value, coordinates)
@@ -96,7 +99,8 @@ def _state_name(
             turns = re.search(r"ang|áng|wink|угл|угол", key.label, re.IGNORECASE) is not None
             along = [x for x in coordinates if is_angle(x) == turns] or coordinates
             number = source_of(value) if len(along) == 1 else "…"
-            hint = f"write {along[0]}{chr(39) * bool(rate)}: {number or '…'}"
+            if not turns or along[0] not in {*"xyzrs"}:
+                hint = f"write {along[0]}{chr(39) * bool(rate)}: {number or '…'}"
         if re.search(r"[=→>]", key.label):
             hint = f"write {name_meant(key.label)}"
         if momentum := momentum_meant(letters, coordinates):
@@ -128,7 +132,7 @@ _FOUND_LAW = regex(r"\s*(?:omega|ω|f|nu|ν|T|period|frequency)(?:_?\w)?\s*=[^=]
 def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
     """The questions."""
     questions: list[Question] = []
-    unknown = next(iter(file.scope.of_kind("coordinate")), "x")
+    unknown = next(iter(file.scope.free), "x")
     hint = f"write {{name: {{where: {unknown}' = 0, for: {unknown}}}}}"
     words = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
     if words and all(word in FOUND or _FOUND_LAW.fullmatch(word) for word in words):
@@ -241,7 +245,9 @@ def read_simulation(file: FileReader, node: DocumentNode) -> SimulationDefaults:
         text = file.scalar(found["method"][1], "'method'")
         method = text.value.strip() if text else None
         if method is not None and method not in METHODS:
-            hint = did_you_mean(method, METHODS) or f"there are {', '.join(METHODS)}"
+            like = meanings("methods").get(method.casefold())
+            hint = f"write {like}" if like else did_you_mean(method, METHODS)
+            hint = hint or f"there are {', '.join(METHODS)}"
             file.error(f"unknown method '{method}'", found["method"][1].span, hint)
     return SimulationDefaults(until=until, accuracy=accuracy, method=method)
 

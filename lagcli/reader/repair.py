@@ -14,7 +14,7 @@ from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary
 from lagcli.reader.habits import name_meant
-from lagcli.reader.misshapen import FRICTION, as_rayleigh, behind_words, is_sentence
+from lagcli.reader.misshapen import FRICTION, as_equation, as_rayleigh, behind_words, is_sentence
 from lagcli.reader.momenta_meant import with_momenta, with_velocities
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.positions import Excerpt
@@ -332,7 +332,7 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
         left = both["left"].strip()
         left = left if re.fullmatch(r"\w+'*", left) else f"({left})"
         value = f"{left}^2 = {both['inner']}"
-    value = behind_words(without_cases(value), scope.kinds)
+    value = as_equation(behind_words(without_cases(value), scope.kinds))
     return [value] if equation else [value, _LEFT_SIDE.sub("", value)]
 
 

@@ -6,11 +6,11 @@ import re
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from lagcli.expression import ZERO, Name
+from lagcli.expression import ZERO, Name, walk
 from lagcli.problem_data import Constraint, Symmetry, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
 from lagcli.reader.habits import is_angle, name_meant
-from lagcli.reader.misshapen import as_list, is_sentence, pieces, source_of, texts_of
+from lagcli.reader.misshapen import as_equation, as_list, is_sentence, pieces, source_of, texts_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.regex import regex
@@ -48,7 +48,7 @@ _FORCES: dict[str, ForceKind] = {
 
 def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     """Enter the multipliers into the scope."""
-    texts = [re.sub("={2,}", "=", each) for each in texts_of(node)]
+    texts = [re.sub("={2,}", "=", as_equation(each)) for each in texts_of(node)]
     given = [part.strip() for each in texts for part in equations_in(each)]
     given = [each for each in given if _FORMULA.search(each)] or [_ROLLING]
     names = [f"c{place}" for place in range(1, len(given) + 1)] if given[1:] else ["name"]
@@ -139,8 +139,13 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
             continue
         mistakes = len(file.diagnostics)
         equation = file.equation(node, f"the constraint '{name}'", STATE)
-        if len(file.diagnostics) == mistakes and not file.scope.refused:
+        is_read = len(file.diagnostics) == mistakes and not getattr(node, "broken", False)
+        if is_read and not file.scope.refused:
             sides = (equation.left, equation.right)
+            names = {n for side in sides for n in walk(side) if isinstance(n, Name)}
+            moving = {n for n in names if derivative_order(n, file.scope) >= 0}
+            if len(moving) == 1:  # r = R
+                file.scope.held |= {n.name for n in moving if not n.primes}
             if max(derivative_order(side, file.scope) for side in sides) < 0:
                 message = f"the constraint '{name}' contains no coordinate"
                 alone = isinstance(equation.left, Name) and equation.right == ZERO
@@ -320,7 +325,7 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
                 continue
             file.expression(change, what, STATE)
             hint = did_you_mean(name.label, [*coordinates, "t", "gauge"])
-            bare = re.sub(r"^(?:delta_?|Delta_?|d|δ|Δ)(?=.)", "", name.label)
+            bare = re.sub(r"^(?:\\?[dD]elta[_ ]?|d|δ|Δ) ?(?=.)", "", name.label)
             if bare in {*coordinates, "t"}:
                 hint = f"write {bare}, whose change it is"
             known = f"known are {', '.join(coordinates)}, t and gauge"

@@ -106,12 +106,21 @@ class Scope:
     #: names that could not be declared: what is unknown afterwards may be one of them
     refused: list[str] = field(default_factory=list)
 
+    #: coordinates to which a constraint gives a value
+    held: set[str] = field(default_factory=set)
+
     #: what is written for a component of a point, `bob.x`, which has no name
     components: dict[str, str] = field(default_factory=dict)
 
     def of_kind(self, kind: Kind) -> Iterator[str]:
         """The names of one kind, in the order of their declaration."""
         return (name for name, other in self.kinds.items() if other == kind)
+
+    @property
+    def free(self) -> list[str]:
+        """The coordinates to which no constraint gives a value; all where each has one."""
+        coordinates = [*self.of_kind("coordinate")]
+        return [x for x in coordinates if x not in self.held] or coordinates
 
     @contextmanager
     def also(self, names: Iterable[str], kind: Kind) -> Iterator[None]:

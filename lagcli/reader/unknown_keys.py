@@ -231,6 +231,8 @@ def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
     known = (*SECTIONS, *_SAID, "restitution")
     attribute = key_meant(word, known) or key_meant(word.removesuffix("s"), known)
     attribute = "mass" if word == "masses" else attribute or ""
+    if attribute == "multiplier" and not all(map(str.isidentifier, given.values())):
+        return ""  # its formula
     named = (
         ("coordinates", "parameters")
         if attribute in _SAID

@@ -468,7 +468,7 @@ HABITS = [
     (text(simulation="{until: 10, samples: 100}"), "--samples 100"),
     (text(simulation="until: 10"), "write simulation: {until: 10}"),
     (text(simulation="until 10"), "write {until: 10}"),
-    (text(simulation="{until: 10, method: rk4}"), "there are auto, dop853"),
+    (text(simulation="{until: 10, method: rk4}"), "write dop853"),
     (text(constraints="none"), "leave out the key"),
     (text(constraints="{rod: x = k and x = m}"), "own name: rod_1: x = k, rod_2: x = m"),
     (text(constraints="{rod: |x| = k}"), "is written abs(x)"),

@@ -132,7 +132,7 @@ def test_a_comment_of_another_language_is_named(mark, above):
         (text(T="m*x'[t]^2/2"), "write m*x'^2/2"),
         (text(T="m*der(x)^2/2"), "write m*x'^2/2"),
         (text(V="std::pow(x, 2)"), "write x^2"),
-        (text(constraints='{a: "Eq(x, 1)"}'), "write left = right"),
+        (text(constraints='{a: "Eq(x, 1)"}'), "write x = 1"),
         (text(parameters="\n  m: 1\n  k: N/m"), "write {unit: N/m}"),
         (text(coordinates="{x: {unit: °}}"), "did you mean 'deg'"),
         (text(V="m*g*„x“"), "leave them out"),

@@ -215,7 +215,13 @@ def _is_names(text: str) -> bool:
 
 
 def _raise(base: Part, power: str) -> Part:
-    """A power; of the last letter where a name means a product, as in mx^2."""
+    """A power; of the last letter where a name means a product, as in mx^2.
+
+    A modulus has none in an even power: |x'|^2.
+    """
+    if base.is_call and base.text.startswith("abs(") and power in {"^2", "^4"}:
+        inner = base.text[4:-1]
+        base = Part(inner, 3 if re.fullmatch(r"\w+'*", inner) else 0)
     if base.level == 1 and _is_names(base.text):
         return Part(base.text + power, 1)
     return Part(base.within(3) + power, 2)

@@ -1,0 +1,99 @@
+"""Hints with the file's own names and numbers, which lead to the problem that was meant."""
+
+from __future__ import annotations
+
+import pytest
+
+from lagcli.reader import read_problem
+from tests.reader.test_foreign_shapes import mistakes_of, only_mistake
+from tests.reader.test_habits import text
+
+PLANE = {"coordinates": "[x, y]", "T": "m*(x'^2 + y'^2)/2"}
+OF_TIME = {"V": "U(x, t)*W(t)"}
+UNITS = {"coordinates": "{x: {unit: m}}", "V": "m*g*x", "initial": "{x: 1}"}
+PAIR = {"observables": "{A_x: x*p_x, B: p_x}"}
+
+HINTS = [
+    (text(**PLANE, constraints="{at: x = k}", find="{turn: y' = 0}"), "{where: y' = 0, for: y}"),
+    (text(**PLANE, constraints="{at: x - k = 0}", find="{a: {where: m*g = 0}}"), "for: y}"),
+    (text(**PLANE, constraints="{at: x = y}", find="{a: {where: m*g = 0}}"), "for: x}"),
+    (text(constraints="\n  rod: Eq(x^2, atan2(k, m))"), "write x^2 = atan2(k, m)"),
+    (text(constraints="\n  rod: sp.Eq(x - k, 0)"), "write x - k = 0"),
+    (text(constraints="\n  rod: Equal[x, k]"), "write x = k"),
+    (text(constraints="\n  - Eq(x, k)"), "write {name: x = k}"),
+    (text(constraints="\n  rod: Eq(x)"), "write left = right"),
+    (text(constraints="{rod: f(x, k)}"), 'put it in quotes: "f(x, k)"'),
+    (text(find="\n  turn: Eq(x', 0)"), "write {where: x' = 0, for: x}"),
+    (text(T="Eq(T, m*x'^2/2)"), "write m*x'^2/2"),
+    (text(coordinates="{x: {unit: m, start: 0.05}}"), "write initial: {x: 0.05}"),
+    (text(coordinates="{x: {initial: [1, 0]}}"), "write initial: {x: 1, x': 0}"),
+    (text(coordinates="{x: {velocity: 2}}"), "write initial: {x': 2}"),
+    (text(coordinates="{x: {value: 0.5}}"), "write initial: {x: 0.5}"),
+    (text(coordinates="{x: 0.5}"), "as in initial: {x: 0.5}"),
+    (text(functions="\n  U(x, t):\n  W: [t]", **OF_TIME), "write U: [x, t]"),
+    (text(functions="\n  - U(x, t)\n  - W(t)", **OF_TIME), "write {U: [x, t], W: [t]}"),
+    (text(functions="U(x, t); W(t)", **OF_TIME), "write {U: [x, t], W: [t]}"),
+    (text(functions="\n  U(x): 5", V="U(x)"), "under definitions: U: 5"),
+    *[(text(**PAIR, brackets=f"\n  b: {pair}"), "write [A_x, B]")
+      for pair in ("'{A_x, B}'", "{A_x, B}", "A_x, B", "(A_x, B)", r"\{A_x, B\}",
+                   "'{A_x, B}_{PB} = 1'")],
+    (text(symmetries=r"{s: {\delta x: 1}}"), "write x, whose change it is"),
+    (text(symmetries="{s: {Delta x: 1}}"), "write x, whose change it is"),
+    (text(simulation="{stopTime: 5}"), "the key is until"),
+    (text(simulation="{startTime: 0}"), "leave it out"),
+    (text(initialConditions="{x: 1}"), "the key is initial"),
+    (text(simulation="{until: 5, method: ode45}"), "write dop853"),
+    (text(simulation="{until: 5, method: ode15s}"), "write radau5"),
+    (text(simulation="{until: 5, method: Verlet}"), "write gauss8"),
+    (text(parameters="\n  - m\n  - k\n  - G M = 4"), "write {m, k, GM: 4}"),
+    (text(parameters="\n  - m = 1\n  - G*M = 4\n  - k = 2"), "write {m: 1, GM: 4, k: 2}"),
+    (text(**PLANE, initial="{x: 1, speed: 3, angle: 30°}"),
+     "write {x: 1, x': 3*cos(30*pi/180), y': 3*sin(30*pi/180)}"),
+    (text(initial="{angle: 0.5}"), "known are x and velocities: x'"),
+    (text(T="m*|x'|^2/2"), "write m*x'^2/2"),
+    (text(T="m*|x' - k|²/2 + k*|x'|^3"), "write m*(x' - k)^2/2 + k*abs(x')^3"),
+    (text(multipliers="{c: m*g}", constraints="{c: x = 1}"),
+     "write expect: {multipliers: {c: m*g}}"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("written", "hint"), HINTS)
+def test_a_hint_has_the_names_and_numbers_of_the_file(written, hint):
+    assert only_mistake(written).hint.endswith(hint)
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "converted"),
+    [("981", "cm/s^2", ("m/s^2", 9.81)), ("-2", "km/s^2", ("m/s^2", -2000)),
+     ("5", "mm/s^2", ("m/s^2", 0.005))],
+)  # fmt: skip
+def test_a_value_is_converted_with_its_unit(value, unit, converted):
+    given = f"{{m: {{unit: kg, value: 1}}, g: {{unit: {unit}, value: {value}}}}}"
+    mistake = only_mistake(text(**UNITS, parameters=given))
+    assert mistake.hint == "write unit: {}, value: {:g}".format(*converted)
+
+
+def test_a_value_is_converted_once_where_its_unit_has_several_mistakes():
+    given = "{m: {unit: g, value: 3}, k: {unit: N/cm, value: 5}}"
+    hints = {each.hint for each in mistakes_of(text(**UNITS | {"V": "k*x^2"}, parameters=given))}
+    assert hints == {"write unit: g/s^2, value: 500000"}  # 500 N/m = 500 kg/s^2
+
+
+def test_a_value_without_a_number_has_no_converted_one():
+    given = "{m: {unit: kg, value: 1}, g: {unit: cm/s^2, value: 9*2}}"
+    assert "value" not in only_mistake(text(**UNITS, parameters=given)).hint
+
+
+@pytest.mark.parametrize("name", [r"\varphi", "x-cart", "x.1"])
+def test_a_name_that_is_none_is_shown_where_it_is_used_too(name):
+    written = f"coordinates:\n  - {name}\nparameters: [m]\nT: m*{name}'^2/2\nV: m*{name}\n"
+    mistakes = mistakes_of(written)
+    assert [each.span.line for each in mistakes] == [2]
+    assert [span.line for span, _ in mistakes[0].related] == [4, 5]
+
+
+def test_a_state_in_a_coordinate_is_that_of_the_file_where_it_is_put():
+    written = text(coordinates="\n  x: {unit: m, start: 0.05}")
+    mended = written.replace(", start: 0.05", "") + "initial: {x: 0.05}\n"
+    assert only_mistake(written).hint.endswith("initial: {x: 0.05}")
+    assert read_problem("p", mended.encode()).diagnostics == ()
