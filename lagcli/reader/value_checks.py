@@ -310,8 +310,13 @@ def _is_misplaced(file: FileReader, term: Expression) -> bool:
             case _:
                 return sum(parts)
 
-    at_a_place = any(derivative_order(name, file.scope) == 0 for name in _names(term))
-    return not at_a_place and folded(term, degree) > 1
+    above = term.numerator if isinstance(term, Quotient) else term
+    factors = above.factors if isinstance(above, Product) else (above,)
+    inner = [part for factor in factors if isinstance(factor, Sum) for part in factor.terms]
+    outer = [name for factor in factors if not isinstance(factor, Sum) for name in _names(factor)]
+    at_a_place = any(derivative_order(name, file.scope) == 0 for name in outer)
+    of_a_sum = any(_is_misplaced(file, part) for part in inner)
+    return not at_a_place and (of_a_sum or (not inner and folded(term, degree) > 1))
 
 
 def _parity(formula: Expression, definitions: Mapping[str, Expression]) -> int:
