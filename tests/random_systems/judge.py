@@ -201,7 +201,8 @@ class Judge(Charges):
                 self.say("missing", "accelerations", "they are determined")
             return
         if free:
-            self.say("wrong", "accelerations", f"{printed}: they are not determined")
+            if self._have_values(solved):
+                self.say("wrong", "accelerations", f"{printed}: they are not determined")
             return
         for name, a in zip(self.motion.coordinates, state.a, strict=True):
             self.same("accelerations", printed[name], a, names, f"{name}'' =")
