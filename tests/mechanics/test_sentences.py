@@ -511,7 +511,7 @@ def test_regular_precession_needs_a_large_enough_spin():
         and any("quadratic equation" in str(part) for part in block.parts)
     ]  # fmt: skip
     shown = [to_grammar(part) for part in parts if not isinstance(part, str)]
-    assert shown == ["p_psi", "phi'", "p_psi^2", "4*A*k*cos(theta)"]
+    assert shown == ["p_psi", "cos(theta)", "phi'", "p_psi^2", "4*A*k*cos(theta)"]
 
 
 @pytest.mark.long
