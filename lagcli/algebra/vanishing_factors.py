@@ -93,6 +93,12 @@ def in_sines(value: Expr) -> Expr:
     )
 
 
+def may_vanish(expression: Expr) -> list[Expr]:
+    """The factors that are 0 for some values of their symbols, as far as is known."""
+    factors = (f for f, power in factors_of(expression) if power > 0 and f.free_symbols)
+    return [f for f in factors if sign(f**2) != 1]
+
+
 def squares_divided_by(values: Iterable[Expr]) -> list[Expr]:
     """The squares of all that anything in the values is divided by: positive where they are."""
     powers = {power for value in values for power in in_sines(value).atoms(sympy.Pow)}

@@ -17,9 +17,8 @@ from sympy import Dummy
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
-from lagcli.algebra.factors import factors_of
 from lagcli.algebra.positivity import weak_sign
-from lagcli.algebra.signs import sign
+from lagcli.algebra.vanishing_factors import may_vanish
 from lagcli.document import Block
 from lagcli.expression import Name
 from lagcli.mechanics.conditions import conditions
@@ -54,7 +53,7 @@ def two_rates(explainer: Explainer, motion: SteadyMotion) -> Iterator[Block]:
         if weak_sign(bound.xreplace(sines), ()) == -1:
             continue  # it holds for every momentum
         rate, order = Name(rates[0], 1), system.order
-        squares = [f**2 for f, _ in factors_of(a) if not f.is_number and sign(f**2) != 1]
+        squares = [f**2 for f in may_vanish(a)]
         where = [" and " if squares else "", *inequalities(conditions(squares, order))]
         yield says("For a given ", Name(p.name), *where, " this is a quadratic equation for ", rate,
                    ", with real roots for ", write(square), " ≥ ", write(bound), ".")  # fmt: skip

@@ -11,9 +11,8 @@ from sympy import Expr, Matrix, N, Poly, Rational, S, Symbol, cos, cosh, exp, si
 
 from lagcli.algebra import dot, is_zero, shape, simplify
 from lagcli.algebra.build import free_of
-from lagcli.algebra.factors import factors_of
 from lagcli.algebra.place import NO_VALUE
-from lagcli.algebra.signs import sign
+from lagcli.algebra.vanishing_factors import may_vanish
 from lagcli.document import Block, Bracket, Equations, Heading, Label, Row, equations_of
 from lagcli.expression import ZERO, Expression, Name, Power, sum_of, walk
 from lagcli.mechanics.canonical.poisson import poisson
@@ -203,8 +202,7 @@ def _degenerate(explainer: Explainer) -> Iterator[Block]:
 def _rates(formula: Expr, t: Symbol) -> Iterator[Expr]:
     """Factors of w in functions of w t that may vanish."""
     for node in formula.atoms(exp, sin, cos, sinh, cosh):
-        factors = factors_of(node.args[0].diff(t))
-        yield from (f for f, k in factors if k > 0 and f.free_symbols and sign(f**2) != 1)
+        yield from may_vanish(node.args[0].diff(t))
 
 
 def _at_special_values(explainer: Explainer, found: AlgebraSection) -> Iterator[Block]:

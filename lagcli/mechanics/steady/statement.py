@@ -18,7 +18,7 @@ from lagcli.algebra.factors import factors_of
 from lagcli.algebra.place import at
 from lagcli.algebra.positivity import deciding, vanishing_part, without_moduli
 from lagcli.algebra.signs import sign, sign_beside_zero
-from lagcli.algebra.vanishing_factors import squares_divided_by
+from lagcli.algebra.vanishing_factors import may_vanish, squares_divided_by
 from lagcli.expression import Expression, Number, Power, operation_count
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.derivation import Derivation
@@ -285,8 +285,8 @@ class _SteadyStatement:
         moving = motion.rates is not None and any(not free_of(self._determinant, [q]) for q in free)
         if not moving or motion.family is not None:
             return ()
-        factors = factors_of(simplify(at(self._determinant, motion.values)))
-        poles = [f**2 for f, k in factors if k > 0 and not free_of(f, free) and sign(f**2) != 1]
+        factors = may_vanish(simplify(at(self._determinant, motion.values)))
+        poles = [f**2 for f in factors if not free_of(f, free)]
         return conditions(poles, self.order, motion.known_positive)
 
     @cached_property
