@@ -107,13 +107,18 @@ class Judge(Charges):
         return self.found
 
     def _have_values(self, solved):
-        """Whether the accelerations are finite there: 1/sin(a - b) claims nothing at a = b."""
+        """Whether the accelerations are finite there: 1/sin(a - b) claims nothing at a = b.
+
+        Nor does 0/0, which rounding makes a number: a value beside it is then another one.
+        """
         names = self.names(solved)
+        beside = names | {q: names[q] + 1e-8 for q in self.motion.coordinates}
         try:
-            found = [read(text)(names) for text in self.sheet["accelerations"].values() if text]
+            formulas = [read(text) for text in self.sheet["accelerations"].values() if text]
+            found = [(formula(names), formula(beside)) for formula in formulas]
         except Undefined:
             return False
-        return all(abs(value) < 1e12 for value in found)
+        return all(abs(a) < 1e12 and abs(a - b) < 1e-3 * (1 + abs(a)) for a, b in found)
 
     def _at(self, solved, sections):
         names = self.names(solved)
