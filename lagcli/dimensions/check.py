@@ -312,8 +312,7 @@ class _Checker:
         numbers = {key: _bare(node) for key, node in given.items() if node is not None}
         system, written = self.inference.system, quantity.unit or ""
         unit = read_unit(written)
-        only = [each.named.span for each in system.incoherent].count(quantity.unit_span) == 1
-        if only and better.isalpha():
+        if better.isalpha() and name in dict(unit.factors):
             factor = found.factor ** float(dict(unit.factors)[name])
             better = re.sub(rf"(?<!\w){re.escape(name)}(?!\w)", better, written)
         else:

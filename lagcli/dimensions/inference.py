@@ -10,9 +10,9 @@ from lagcli.diagnostics import Span
 from lagcli.dimensions.demands import LAGRANGIAN, Demands
 from lagcli.dimensions.forms import ENERGY, NUMBER, Form, minus, unknown, unknowns
 from lagcli.dimensions.relations import FormRelations
-from lagcli.dimensions.system import Named, UnitSystem
+from lagcli.dimensions.system import UnitSystem
 from lagcli.problem_data import Problem, Quantity
-from lagcli.units import Unit, read_unit
+from lagcli.units import Unit
 
 
 def quantities(problem: Problem) -> tuple[Quantity, ...]:
@@ -38,10 +38,9 @@ class Inference:
     def system(self) -> UnitSystem:
         """The file's system of units."""
         return UnitSystem(
-            Named(name, quantity.unit_span)
+            (quantity.unit, quantity.unit_span)
             for quantity in quantities(self.problem)
             if quantity.unit is not None
-            for name, _ in read_unit(quantity.unit).factors
         )
 
     def form(self, form: Form) -> Form:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache
-from math import isclose
+from math import isclose, prod
 
 from lagcli.diagnostics import Span
 from lagcli.dimensions.forms import Form, plus
@@ -37,7 +37,6 @@ class Incoherent:
 
     named: Named
     factor: float
-    base: str
     other: Named | None
 
 
@@ -62,43 +61,52 @@ class UnitSystem:
 
     Parameters
     ----------
-    names
-        Every unit's name in the file, in order.
+    units
+        Every unit of the file with its place, in order.
     """
 
-    def __init__(self, names: Iterable[Named]) -> None:
+    def __init__(self, units: Iterable[tuple[str, Span]]) -> None:
         self.factors: dict[str, float] = {}
         self.symbols: dict[str, Named] = {}
-        self.incoherent: list[Incoherent] = []
-        used = list(names)
-        derived = [named for named in used if not self._take_base(named)]
+        used = [(read_unit(text), text, span) for text, span in units]
+        derived = [each for each in used if not all(_base(name) for name, _ in each[0].factors)]
+        for unit, _, span in (*(each for each in used if each not in derived), *derived):
+            for name, _ in unit.factors:
+                if base := _base(name):
+                    self.symbols.setdefault(base, Named(name, span))
+                    self.factors.setdefault(base, meaning_of(name).factor)
         self.factors.setdefault("s", 1.0)
-        for named in derived:
-            self._take_derived(named)
+        for unit, *_ in derived:
+            self._take_free(unit)
+        found = (self._incoherence(*each) for each in used)
+        self.incoherent = [each for each in found if each is not None]
 
-    def _take_base(self, named: Named) -> bool:
-        """Whether the name is that of a base unit, which then is the file's."""
-        factor, powers = meaning_of(named.name)
-        if len(powers) != 1 or powers[0][1] != 1:
-            return False
-        base = powers[0][0]
-        known = self.symbols.setdefault(base, named)
-        if not isclose(self.factors.setdefault(base, factor), factor, rel_tol=_TOLERANCE):
-            ratio = factor / self.factors[base]
-            self.incoherent.append(Incoherent(named, ratio, base, known))
-        return True
-
-    def _take_derived(self, named: Named) -> None:
-        factor, powers = meaning_of(named.name)
-        free = [(base, power) for base, power in powers if base not in self.factors]
+    def _take_free(self, unit: Unit) -> None:
+        """Of base units that the file does not name, those with which the unit has no factor."""
+        powers = _powers(unit)
+        free = [(base, power) for base, power in powers.items() if base not in self.factors]
         for base, _ in free[1:]:
             self.factors[base] = 1.0
-        rest = factor / self.factor(dict(powers))
         if free:
             base, power = free[0]
-            self.factors[base] = rest ** (1 / float(power))
-        elif not isclose(rest, 1, rel_tol=_TOLERANCE):
-            self.incoherent.append(Incoherent(named, rest, "", None))
+            self.factors[base] = self._ratio(unit) ** (1 / float(power))
+
+    def _ratio(self, unit: Unit) -> float:
+        """How many products of the file's base units a unit is: 1 for N/m beside kg and cm."""
+        sizes = (meaning_of(name).factor ** float(power) for name, power in unit.factors)
+        return float(prod(sizes)) / self.factor(_powers(unit))
+
+    def _incoherence(self, unit: Unit, text: str, span: Span) -> Incoherent | None:
+        """What is wrong with a unit: one of its names, or the whole; None where nothing is."""
+        factor = self._ratio(unit)
+        if isclose(factor, 1, rel_tol=_TOLERANCE):
+            return None
+        ratios = ((name, self._ratio(Unit(((name, Fraction(1)),)))) for name, _ in unit.factors)
+        wrong = [each for each in ratios if not isclose(each[1], 1, rel_tol=_TOLERANCE)]
+        if len(wrong) != 1:
+            return Incoherent(Named(text, span), factor, None)
+        [(name, ratio)] = wrong
+        return Incoherent(Named(name, span), ratio, self.symbols.get(_base(name)))
 
     def factor(self, powers: Mapping[str, Fraction]) -> float:
         """How many SI units one unit of this dimension has here."""
@@ -118,6 +126,16 @@ class UnitSystem:
                             if base not in self.symbols})  # fmt: skip
         names = ((self.symbols[b].name if b in self.symbols else b, p) for b, p in powers.items())
         return Unit(tuple(names), 1 if isclose(rest, 1, rel_tol=_TOLERANCE) else rest)
+
+
+def _powers(unit: Unit) -> dict[str, Fraction]:
+    return {str(base): power for base, power in dimension_of(unit).items()}
+
+
+def _base(name: str) -> str:
+    """The base that a name is a unit of, as m for cm; nothing for N."""
+    powers = meaning_of(name).powers
+    return powers[0][0] if len(powers) == 1 and powers[0][1] == 1 else ""
 
 
 @cache

@@ -5,7 +5,8 @@ from fractions import Fraction
 import pint
 import pytest
 
-from lagcli.dimensions.system import dimension_of
+from lagcli.diagnostics import NOWHERE
+from lagcli.dimensions.system import UnitSystem, dimension_of
 from lagcli.units import Unit, UnitMistake, read_unit
 from lagcli.units.make import CHOSEN
 from lagcli.units.table import known_names, meaning
@@ -35,6 +36,16 @@ def test_prefixes_are_those_of_pint(name):
     factor, powers = meaning(name)
     assert dict(powers) == by_pint(name)
     assert factor == pytest.approx(PINT.Quantity(1, name).to_base_units().magnitude, rel=1e-9)
+
+
+@pytest.mark.parametrize("mass", ["kg", "g"])
+@pytest.mark.parametrize("length", ["m", "cm", "mm"])
+@pytest.mark.parametrize("given", ["N/m", "N/cm", "mN/m", "J/m^2", "N/mm", "dyn/cm", "kg/s^2"])
+def test_a_unit_fits_a_file_where_its_whole_is_a_product_of_the_base_units(mass, length, given):
+    """N/m is kg/s^2, which has no length: it stands beside cm."""
+    units = [("s", NOWHERE), (length, NOWHERE), (mass, NOWHERE), (given, NOWHERE)]
+    factor = PINT.Quantity(1, given.replace("^", "**")).to(f"{mass}/s**2").magnitude
+    assert len(UnitSystem(units).incoherent) == (factor != pytest.approx(1, rel=1e-9))
 
 
 def test_no_name_is_a_prefix_and_another_name():
