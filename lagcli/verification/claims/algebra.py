@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import islice, pairwise
+from typing import NamedTuple
 
 from flint import arb, arb_mat
 
@@ -25,18 +26,29 @@ _SMALL = 1e-12
 _NO_COEFFICIENT = 1e-25  # measured: zeros are below 2e-35
 #: Choices of the parameters at which the name is tried.
 _PARAMETERS = 12
-#: Dimension, how many positive and negative eigenvalues the Killing form has, the dimension of the
-#: derived algebra with the constants in it; how many more eigenvalues and dimensions of the derived
-#: algebra there may be: a name does not say whether R turns or stretches h(d), nor how much of it.
-Signature = tuple[int, int, int, int, int, int]
-_KNOWN: dict[str, Signature] = {
-    "so(3)": (3, 0, 3, 3, 0, 0), "sl(2,R)": (3, 2, 1, 3, 0, 0), "so(4)": (6, 0, 6, 6, 0, 0),
-    "so(3,1)": (6, 3, 3, 6, 0, 0), "so(2,2)": (6, 4, 2, 6, 0, 0), "su(3)": (8, 0, 8, 8, 0, 0),
-    "so(5)": (10, 0, 10, 10, 0, 0), "so(4,1)": (10, 4, 6, 10, 0, 0),
-    "so(3,2)": (10, 6, 4, 10, 0, 0),
-    "e(2)": (3, 0, 1, 2, 0, 0), "R": (1, 0, 0, 0, 0, 0), "so(2)": (1, 0, 1, 0, 0, 0),
-    "so(1,1)": (1, 1, 0, 0, 0, 0), "Poincaré iso(1,1)": (3, 1, 0, 2, 0, 0),
-    "oscillator algebra": (4, 0, 1, 3, 0, 0), "oscillator algebra (hyperbolic)": (4, 1, 0, 3, 0, 0),
+
+
+class Signature(NamedTuple):
+    """What a basis does not change: dimensions, signs of the eigenvalues of the Killing form."""
+
+    dimension: int
+    positive: int
+    negative: int
+    derived: int  # its dimension, with the constants in it
+    #: What a name leaves open: whether R turns or stretches h(d), and how much of it.
+    more_eigenvalues: int = 0
+    more_derived: int = 0
+
+
+_KNOWN = {
+    "so(3)": Signature(3, 0, 3, 3), "sl(2,R)": Signature(3, 2, 1, 3),
+    "so(4)": Signature(6, 0, 6, 6), "so(3,1)": Signature(6, 3, 3, 6),
+    "so(2,2)": Signature(6, 4, 2, 6), "su(3)": Signature(8, 0, 8, 8),
+    "so(5)": Signature(10, 0, 10, 10), "so(4,1)": Signature(10, 4, 6, 10),
+    "so(3,2)": Signature(10, 6, 4, 10), "e(2)": Signature(3, 0, 1, 2),
+    "R": Signature(1, 0, 0, 0), "so(2)": Signature(1, 0, 1, 0), "so(1,1)": Signature(1, 1, 0, 0),
+    "Poincaré iso(1,1)": Signature(3, 1, 0, 2), "oscillator algebra": Signature(4, 0, 1, 3),
+    "oscillator algebra (hyperbolic)": Signature(4, 1, 0, 3),
 }  # fmt: skip
 _MODULO_CONSTANTS = ", modulo constants"
 #: Energies for which a name says that it is that of the algebra.
@@ -197,14 +209,14 @@ def _has(
 def _has_signature(brackets: Sequence[Sequence[Sequence[arb]]], expected: Signature) -> bool:
     constants = [[row[:-1] for row in rows] for rows in brackets]
     plus, minus = signs([[_trace(one, other) for other in constants] for one in constants])
-    size_, least_plus, least_minus, derived, more, outside = expected
-    beyond = (plus - least_plus, minus - least_minus)
+    beyond = (plus - expected.positive, minus - expected.negative)
+    highest = expected.derived + expected.more_derived
     products = [row for number, rows in enumerate(brackets) for row in rows[:number]]
     return (
-        len(constants) == size_
+        len(constants) == expected.dimension
         and min(beyond) >= 0
-        and sum(beyond) <= more
-        and _rank(products, size_ + 1) in {-1, *range(derived, derived + outside + 1)}
+        and sum(beyond) <= expected.more_eigenvalues
+        and _rank(products, expected.dimension + 1) in {-1, *range(expected.derived, highest + 1)}
     )
 
 
@@ -289,7 +301,8 @@ def signatures_of(name: str) -> dict[int | None, Signature]:
         signature = signature_of(f"{algebra_} + R" if name.startswith(_OVER_ENERGY) else algebra_)
         if signature is None:
             return {}
-        found[_AT.get(where)] = (signature[0] - name.endswith(_MODULO_CONSTANTS), *signature[1:])
+        dimension = signature.dimension - name.endswith(_MODULO_CONSTANTS)
+        found[_AT.get(where)] = signature._replace(dimension=dimension)
     return found
 
 
@@ -303,15 +316,17 @@ def signature_of(name: str) -> Signature | None:
     if acting:
         d, all_of_it = int(acting[2]), name.startswith("Schrödinger")
         derived = (1 + 2 * d, 0, 0) if all_of_it else (1, 0, 2 * d)
-        known += [(2 * d + 1, 0, 0, *derived), *map(_acting, acting[1].split(" + "))]
+        known += [Signature(2 * d + 1, 0, 0, *derived), *map(_acting, acting[1].split(" + "))]
     if None in known:
         return None
-    return tuple(map(sum, zip(*known, strict=True)))  # type: ignore[return-value]
+    return Signature(*map(sum, zip(*known, strict=True)))
 
 
 def _acting(name: str) -> Signature | None:
     found = _one(name)
-    return (*found[:4], found[0], 0) if found and name.startswith("R") else found
+    if found is None or not name.startswith("R"):
+        return found
+    return found._replace(more_eigenvalues=found.dimension)
 
 
 def _one(name: str) -> Signature | None:
@@ -321,14 +336,14 @@ def _one(name: str) -> Signature | None:
     if found is None:
         return None
     if found[3]:
-        return (int(found[3]), 0, 0, 0, 0, 0)
+        return Signature(int(found[3]), 0, 0, 0)
     d = int(found[2])
     turns = d * (d - 1) // 2
     turned = turns if d > 2 else 0  # so(2) is no bracket
     boosted = d if d > 1 else 0  # rotations give boosts
     return {
-        "Heisenberg h(": (2 * d + 1, 0, 0, 1, 0, 0),
-        "e(": (turns + d, 0, turns, turned + d, 0, 0),
-        "Galilei in ": (2 + turns + 2 * d, 0, turns, turned + boosted + d + 1, 0, 0),
-        "Poincaré iso(": (turns + 2 * d + 1, d, turns, turns + 2 * d + 1, 0, 0),
+        "Heisenberg h(": Signature(2 * d + 1, 0, 0, 1),
+        "e(": Signature(turns + d, 0, turns, turned + d),
+        "Galilei in ": Signature(2 + turns + 2 * d, 0, turns, turned + boosted + d + 1),
+        "Poincaré iso(": Signature(turns + 2 * d + 1, d, turns, turns + 2 * d + 1),
     }.get(found[1])
