@@ -25,6 +25,7 @@ from lagcli.statements.wording import (
     listed,
     none_found,
     repeating,
+    where_void,
 )
 
 if TYPE_CHECKING:
@@ -71,6 +72,7 @@ def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
         yield Paragraph(_stability(equilibrium, states))
     if section.equilibria and section.where:
         yield Paragraph((f"They were sought only{section.where}.",))
+    yield from where_void("an equilibrium", section.void)
     if section.periods:
         yield Paragraph(tuple(repeating(section.periods)))
     if section.equilibria and not section.complete:

@@ -34,19 +34,21 @@ from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.motions import SteadyMotion, SteadySection
 from lagcli.statements.plus_minus import mirror_images, single, steady_in_pairs, unlike
 from lagcli.statements.stability import steady_stability
+from lagcli.statements.steady import (
+    in_moving_frames,
+    in_polar_coordinates,
+    other_motions,
+    the_equilibria,
+)
 from lagcli.statements.wording import (
     capitalized,
     conditions,
     constraints_give,
-    in_moving_frames,
-    in_polar_coordinates,
     linear_equations,
     listed,
     none_found,
-    other_motions,
     other_places,
     place_rows,
-    the_equilibria,
 )
 
 if TYPE_CHECKING:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import groupby
 
 from lagcli.document import Block, Equations, Formula, Label, Matrix, Paragraph, Row, equations_of
 from lagcli.expression import (
@@ -25,11 +24,8 @@ from lagcli.expression import (
 )
 from lagcli.notation.letters import names_in, own
 from lagcli.statements.answers import (
-    EquilibriaSection,
     ModesOfFrequency,
-    ModesSection,
     QuantityUnit,
-    Section,
     SpecialValue,
     Verification,
 )
@@ -38,7 +34,6 @@ from lagcli.statements.motions import (
     Irreducible,
     OneFreedom,
     SteadyMotion,
-    SteadySection,
 )
 from lagcli.statements.plus_minus import turns_alike
 from lagcli.statements.questions import Answer, Solutions
@@ -382,10 +377,21 @@ def unless(
     parts: list[Part] = [f"{general}there is no {what}"]
     for position, name in enumerate(edge):
         parts += [" and " if position else " with ", Name(name), " > 0"]
-    vanishing = vanishing or ()
-    for position, each in enumerate(vanishing):
-        parts += [" and " if position else " unless ", *_compared(each, " = ")]
+    return [*parts, *exceptions(vanishing or ())]
+
+
+def exceptions(vanishing: Sequence[Expression]) -> list[Part]:
+    """Unless these vanish."""
+    parts: list[Part] = []
+    for each in vanishing:
+        parts += [" and " if parts else " unless ", *_compared(each, " = ")]
     return parts
+
+
+def where_void(what: str, void: Expression | None) -> Iterator[Paragraph]:
+    """For which values of the parameters all positions are `what`."""
+    if void is not None:
+        yield Paragraph(("Where ", *_compared(void, " = "), f" every position is {what}."))
 
 
 def linear_equations(
@@ -431,59 +437,6 @@ def constraints_give(names: Collection[str]) -> str:
 def while_open(contacts: Sequence[object]) -> str:
     """When sentences without the forces of contacts hold; empty without contacts."""
     return f" while the contact{' is' if len(contacts) == 1 else 's are'} open" if contacts else ""
-
-
-def other_motions(section: SteadySection) -> Iterator[Paragraph]:
-    """That not all steady motions are listed, and where none was sought."""
-    if section.where:
-        yield Paragraph((f"They were sought only{section.where}.",))
-    if section.complete:
-        return
-    parts: list[Part] = []
-    for each in section.singular_where:
-        parts += [" or " if parts else ", as where ", each, " = 0"]
-    parts += [": the coordinates are singular there"] if parts else []
-    yield Paragraph(("There may be others", *parts, "."))
-
-
-def in_moving_frames(section: SteadySection) -> Iterator[Paragraph]:
-    """That all move along at a common velocity, too."""
-    lead = "The same at any constant "
-    if len(section.motions or ()) > 1:
-        lead = "All of these motions are possible at any constant "
-    for rates in section.frames:
-        parts: list[Part] = []
-        for rate, pairs in groupby(rates.items(), key=lambda pair: pair[1]):
-            parts += [", " if parts else lead]
-            parts += [part for name, _ in pairs for part in (Name(name, 1), " = ")]
-            parts += [rate]
-        yield Paragraph(
-            (*parts, ": the equations of motion hold in a frame with this velocity, too.")
-        )
-
-
-def in_polar_coordinates(section: SteadySection) -> Iterator[Paragraph]:
-    """That steady rotations are found in other coordinates."""
-    if section.plane:
-        x, y = map(Name, section.plane)
-        lead = "The system is symmetric under rotations of ("
-        rest = "Steady rotations are found in polar coordinates, whose angle is cyclic."
-        yield Paragraph((lead, x, ", ", y, f") about the origin. {rest}"))
-
-
-def the_equilibria(section: SteadySection, stated: Mapping[str, Section]) -> Iterator[Block]:
-    """One sentence where the steady motions stand above as equilibria, with their modes."""
-    rest, motions = stated.get("equilibria"), section.motions or ()
-    others = section.momenta, section.eliminated, section.frames, section.plane, section.resting
-    modes = stated.get("modes")
-    if not motions or any(others) or not (isinstance(modes, ModesSection) and modes.modes):
-        return
-    known = rest.equilibria if isinstance(rest, EquilibriaSection) else None
-    regular = [each for each in known or () if not each.indeterminate]
-    states, places = ([(x.at, x.on, x.free) for x in each] for each in (motions, regular))
-    if all(x in places for x in states) and all(x in states for x in places):
-        lead = "No coordinate can be eliminated by a constant momentum"
-        yield Paragraph((f"{lead}: in these coordinates the steady motions are the equilibria.",))
 
 
 def none_found(

@@ -49,6 +49,20 @@ def test_a_surface_does_not_pull(sign, place, stable):
     assert [to_grammar(m.at["theta"]) for m in section.motions or ()] == [place]
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_conditions_that_a_parameter_makes_void(seed):
+    """F = k times something, in all coordinates: at k = 0 no force acts."""
+    source = random.Random(f"void {seed}")
+    a, b = source.sample(["x^2 - c*y", "x*(y - c)", "x^2 + y^2 - 2*c*x", "y^2 - x"], 2)
+    file = "coordinates: [x, y]\nparameters: {{k: , c: , g: POSITIVE}}\nT: (x'^2 + y'^2)/2\nV: {}"
+    states = {
+        of: equilibria(derive(file.format(V).replace("POSITIVE", "{assume: positive}")).dynamics)
+        for of, V in {"all": f"k*({a}) + k*({b})^2", "not all": f"k*({a})^2 + g*x^2"}.items()
+    }
+    assert to_grammar(states["all"].void) == "k"
+    assert states["not all"].void is None
+
+
 @pytest.mark.parametrize(("kind", "told"), [("tension", "Taut"), ("normal", "In contact")])
 def test_a_string_hangs_down(kind, told):
     text = f"""

@@ -16,7 +16,7 @@ from lagcli.mechanics.discovery.under_constraints import UnderConstraints
 from lagcli.mechanics.noether import NoetherCharge, Transformation
 from lagcli.record import replace
 
-ALL_ARE_KNOWN = "every other integral is a function of these"
+ALL_ARE_KNOWN = "every other integral is in general a function of these"
 _MOST_IN_SPACE = 4  # measured: at most 3
 
 

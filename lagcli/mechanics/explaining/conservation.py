@@ -8,13 +8,15 @@ import sympy
 
 from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
+from lagcli.algebra.decimals import written
 from lagcli.document import Block, Equations, Heading, Label, Row
 from lagcli.expression import Diff, Name, Negative, Product, Rate, Sum, sum_of
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, listed, says, shows
 from lagcli.mechanics.impacts import when_constant
 from lagcli.mechanics.noether import NoetherCharge
-from lagcli.statements.wording import TRIVIAL, capitalized, enumerated
+from lagcli.mechanics.rest.exceptions import void_where
+from lagcli.statements.wording import TRIVIAL, capitalized, enumerated, exceptions
 
 
 def energy(explainer: Explainer) -> Iterator[Block]:
@@ -75,8 +77,9 @@ def _total(explainer: Explainer) -> list[Part]:
     undecided = function.is_total_energy is None
     verdict: list[Part] = ["whether ", h, " equals "] if undecided else [
         "so " if reasons else "", h, " does not equal "]  # fmt: skip
-    end = " was not decided." if undecided else "."
-    return [*reasons, ", " if reasons else "", *verdict, *_both(explainer), end]
+    difference = function.function - system.T - system.V
+    end = [" was not decided."] if undecided else [*_unless(explainer, difference), "."]
+    return [*reasons, ", " if reasons else "", *verdict, *_both(explainer), *end]
 
 
 def _both(explainer: Explainer) -> list[Part]:
@@ -113,7 +116,16 @@ def _rate(explainer: Explainer) -> Iterator[Block]:
         if rate is not None and not total.free_symbols.isdisjoint(explainer.system.multipliers):
             yield says("With the values of the multipliers it is")
             yield shows(Name(h.name, 1), explainer.readable.on_surface(rate))
-        yield says("This is not 0 on every motion: ", h, " is not conserved.")
+        special = _unless(explainer, total if rate is None else rate)
+        yield says("This is not 0 on every motion: ", h, " is not conserved", *special, ".")
+
+
+def _unless(explainer: Explainer, rate: sympy.Expr) -> list[Part]:
+    """The values of the parameters for which a rate vanishes."""
+    system = explainer.system
+    moving = (system.t, *system.q, *system.qdot, *system.multipliers)
+    factor = void_where([rate], moving, explainer.dynamics.lagrange.mass_matrix)
+    return [] if factor is None else exceptions([written(factor, system.order)])
 
 
 def _unchanged(explainer: Explainer) -> list[Part]:
@@ -142,9 +154,8 @@ def _work_of_drive(explainer: Explainer) -> Iterator[Block]:
     if rate == 0:
         yield says(*both, " is conserved as well.")
         return
-    yield says(
-        *both, " is not conserved: what keeps up the prescribed motion does work. Its rate is"
-    )
+    drive = ": what keeps up the prescribed motion does work. Its rate is"
+    yield says(*both, " is not conserved", *_unless(explainer, rate), drive)
     total = letters.T if len(both) == 1 else Sum((letters.T, letters.V))
     yield shows(Rate(total), explainer.readable.on_surface(rate))
 
@@ -192,7 +203,8 @@ def _cyclic(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
         if rate is not None and not right.free_symbols.isdisjoint(explainer.system.multipliers):
             yield says("and with the values of the multipliers")
             yield shows(Name(p.name, 1), explainer.readable.on_surface(rate))
-        yield says("so it is not conserved:")
+        special = _unless(explainer, right if rate is None else rate)
+        yield says("so it is not conserved", *special, ":")
     yield shows(p, explainer.readable.linear(charge.charge), _stays(charge))
     if charge.conserved:
         yield from _struck(explainer, charge)
@@ -265,7 +277,8 @@ def _candidate(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
             "derivative equals the change."
         )
     elif is_zero(gauge) is True and same:
-        yield says("Under it the action does not change: it is a symmetry.")
+        of_what: list[Part] = [] if charge.conserved else [" of ", letters.L]
+        yield says("Under it the action does not change: it is a symmetry", *of_what, ".")
     elif is_zero(gauge) is True and charge.conserved:
         yield says("Under it the action does not change on the motion.")
     elif is_zero(gauge) is True:
@@ -297,7 +310,8 @@ def _candidate(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
             yield from _work(explainer, charge, with_gauge=with_gauge)
         yield from _struck(explainer, charge)
     else:
-        yield says(f"It is not conserved, because of {charge.broken_by}:")
+        special = _unless(explainer, sympy.S.One if charge.rate is None else charge.rate)
+        yield says("It is not conserved", *special, f", because of {charge.broken_by}:")
         if charge.rate is not None:
             yield shows(Name(letters.Q.name, 1), explainer.readable.on_surface(charge.rate))
 

@@ -31,7 +31,7 @@ from lagcli.statements.plus_minus import once, unlike
 from lagcli.statements.registry import find_section
 from lagcli.statements.stability import at_the_limit, holding, stability
 from lagcli.statements.wording import conditions as inequalities
-from lagcli.statements.wording import constraints_named, place_rows, repeating, unless
+from lagcli.statements.wording import constraints_named, place_rows, repeating, unless, where_void
 
 if TYPE_CHECKING:
     from lagcli.mechanics.rest.equilibria import RestPoints
@@ -151,6 +151,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says(firm, *kept, limit)
     if _one_sided(explainer):
         yield from _where_a_contact_pulls(explainer)
+    yield from where_void("an equilibrium", states.void)
     if states.periods:
         yield says(*repeating(states.periods))
     if found and states.where:

@@ -27,18 +27,20 @@ from lagcli.statements.answers import Section
 from lagcli.statements.motions import SteadyMotion, SteadySection
 from lagcli.statements.plus_minus import mirror_images, steady_in_pairs, unlike
 from lagcli.statements.stability import steady_stability
+from lagcli.statements.steady import (
+    in_moving_frames,
+    in_polar_coordinates,
+    other_motions,
+    the_equilibria,
+)
 from lagcli.statements.wording import (
     POTENTIALS,
     capitalized,
     conditions,
     constraints_give,
-    in_moving_frames,
-    in_polar_coordinates,
     linear_equations,
-    other_motions,
     other_places,
     place_rows,
-    the_equilibria,
     unless,
     while_open,
 )

@@ -195,8 +195,8 @@ def _degenerate(explainer: Explainer) -> Iterator[Block]:
         left = left.base if isinstance(left, Power) and right == ZERO else left
         where += [" or " if where else "", left, " = ", right]
     if where:
-        yield says("Where ", *where, ", some of these vanish or coincide: the following is for "
-                   "other values.")  # fmt: skip
+        yield says("Where ", *where, ", some of these may vanish or coincide: the following is "
+                   "for other values.")  # fmt: skip
 
 
 def _rates(formula: Expr, t: Symbol) -> Iterator[Expr]:

@@ -115,11 +115,22 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
         complete=oscillations.complete,
         reason=TIMED if rest.depends_on_time else "",
         at_all_times=rest.depends_on_time,
+        void=_void(oscillations, order) if places else None,
         edge=() if places else rest.edge,
         where=rest.restricted_to,
         open=open_,
         unless=unless_written(unless, order),
     )
+
+
+def _void(oscillations: SmallOscillations, order: Sequence[str]) -> Expression | None:
+    """What may be 0, and every position is an equilibrium then, without contacts or friction."""
+    rest = oscillations.rest
+    limited = len(oscillations.held) > 1 or any(
+        place.held.firmly for place in oscillations.places or ()
+    )
+    void = None if limited or rest.restricted_to else rest.void
+    return None if void is None else written(void, order)
 
 
 def modes(dynamics: Dynamics) -> ModesSection:

@@ -8,7 +8,7 @@ import sympy
 from sympy import Expr, S, Symbol
 from sympy.core.function import AppliedUndef
 
-from lagcli.algebra import simplify
+from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.decimals import written
 from lagcli.algebra.factors import factors_of
@@ -150,9 +150,28 @@ def _factors_without(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
         deciding = [_perhaps_zero(e, unknowns) for e in open_]
         found = tuple({sympy.Mul(*each): None for each in deciding}) if all(deciding) else ()
         return () if _exclude_each_other(found) else found
-    factors = [_perhaps_zero(e, unknowns) for e in conditions]
-    common = [f for f in factors[0] if all(f in other for other in factors)] if factors else []
+    common = _common_factors(conditions, unknowns)
     return (sympy.Mul(*common),) if common else ()
+
+
+def void_where(
+    conditions: Sequence[Expr], unknowns: Sequence[Symbol], masses: Sequence[Sequence[Expr]]
+) -> Expr | None:
+    """What may be 0, and then all conditions hold everywhere; not what the mass matrix needs."""
+    common = [f for f in _common_factors(conditions, unknowns) if not _is_weightless(f, masses)]
+    return sympy.Mul(*common) if common else None
+
+
+def _is_weightless(parameter: Expr, masses: Sequence[Sequence[Expr]]) -> bool:
+    """Whether a row of the mass matrix vanishes with a parameter."""
+    rows = (row for row in masses if any(row))
+    return any(all(is_zero(x.xreplace({parameter: S.Zero})) for x in row) for row in rows)
+
+
+def _common_factors(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Expr]:
+    """What all have without unknowns and may be 0."""
+    factors = [_perhaps_zero(e, unknowns) for e in conditions]
+    return [f for f in factors[0] if all(f in other for other in factors)] if factors else []
 
 
 def _perhaps_zero(condition: Expr, unknowns: Sequence[Symbol]) -> list[Expr]:

@@ -33,7 +33,7 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.algebra.translates import common_period, recur
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.rest.exceptions import with_a_value, without_unknowns
+from lagcli.mechanics.rest.exceptions import void_where, with_a_value, without_unknowns
 from lagcli.mechanics.translations import constant_nullspace
 from lagcli.record import record
 
@@ -185,12 +185,17 @@ class RestConditions:
         constraints = self.dynamics.constraints
         conditions = [e.f for e in constraints.equations if e.holonomic]
         conditions += [e.drift for e in constraints.equations if not e.holonomic]
+        return [e for e in conditions if is_zero(e) is not True] + self._forces_along
+
+    @cached_property
+    def _forces_along(self) -> list[Expr]:
+        """The forces along what the constraints allow."""
         forces: Sequence[Expr] = self.forces_at_rest
         if self._one_gradient:
             forces = self._along_one
-        elif constraints.equations:
+        elif self.dynamics.constraints.equations:
             forces = [dot(v, forces) for v in _polynomial(self._displacements)]
-        return [e for e in (*conditions, *forces) if is_zero(e) is not True]
+        return [e for e in forces if is_zero(e) is not True]
 
     @property
     def _displacements(self) -> list[list[Expr]]:
@@ -268,6 +273,15 @@ class RestConditions:
         timed = [self.system.t] if self.depends_on_time else []
         found = without_unknowns((*self.at_all_times, *self.sums), (*self.system.q, *timed))
         return with_a_value(found, given_formulas(self.dynamics))
+
+    @property
+    def void(self) -> Expr | None:
+        """What may be 0, and every position that the constraints allow is an equilibrium then."""
+        fixed = all(is_zero(e.drift) is True for e in self.dynamics.constraints.equations)
+        if self.depends_on_time or not fixed:
+            return None
+        masses = self.dynamics.lagrange.mass_matrix
+        return void_where(self._forces_along, self.system.q, masses)
 
     @property
     def edge(self) -> tuple[str, ...]:

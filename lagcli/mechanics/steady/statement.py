@@ -34,7 +34,7 @@ from lagcli.mechanics.reduction.steady import SteadyMotions
 from lagcli.mechanics.reduction.steady_motion import Steady
 from lagcli.mechanics.rest.characteristic import Characteristic
 from lagcli.mechanics.rest.equilibria import RestPoints
-from lagcli.mechanics.rest.exceptions import unless_written
+from lagcli.mechanics.rest.exceptions import unless_written, void_where
 from lagcli.mechanics.rest.family import Family
 from lagcli.mechanics.rest.linearization import Linearization, Matrix
 from lagcli.mechanics.stability.judge import GRAZES, judge
@@ -132,6 +132,7 @@ class _SteadyStatement:
                 momenta=cyclic,
                 resting=resting,
                 unless=() if found else unless_written(steady.unless, self.order),
+                void=self._void if found else None,
                 # nor those along a closed contact
                 where=(steady.rest.restricted_to if steady.rest.points or not found else "")
                 + while_open(steady.full.problem.contacts),
@@ -140,6 +141,17 @@ class _SteadyStatement:
             ),
             [],
         )
+
+    @property
+    def _void(self) -> Expression | None:
+        """What may be 0, and U_eff is constant then at any momenta."""
+        steady = self.steady
+        if steady.acting or steady.full.problem.contacts:
+            return None
+        unknowns = (*steady.system.q, *steady.routh.momenta)
+        masses = steady.routh.given.dynamics.lagrange.mass_matrix
+        void = void_where(steady.balance, unknowns, masses)
+        return None if void is None else written(void, self.order)
 
     @property
     def _is_kinked(self) -> bool:
