@@ -19,6 +19,7 @@ class Solutions:
     solutions: tuple[Expression, ...] | None
     note: str = ""
     remarks: tuple[str | Expression, ...] = ()
+    given_values: bool = False  # for the values of the file alone
 
 
 @record(kw_only=True)
@@ -82,6 +83,7 @@ class Ranges:
     unknown: str
     ranges: tuple[Range, ...] | None
     note: str = ""
+    given_values: bool = False  # for the values of the file alone
     proved: Proved | None = None
 
 

@@ -191,22 +191,27 @@ def _number(random: Random, scale: float) -> arb:
     return ball(Fraction(round(1024 * scale * random.uniform(-1, 1)), 1024))
 
 
-def _near_the_file(reference: Reference, random: Random) -> Environment:
-    """Parameters and initial positions some per cent from those of the file."""
-    problem = reference.problem
+def values_of_the_file(reference: Reference) -> Environment:
+    """The parameters that have one; it may use other parameters."""
     known: Environment = {}
-    left = {p.name: p.value for p in problem.parameters if p.value is not None}
-    while True:  # a value may use other parameters
+    left = {p.name: p.value for p in reference.problem.parameters if p.value is not None}
+    while True:
         found = {
-            name: number * (1 + _number(random, 0.05))
+            (name, 0): number
             for name, value in left.items()
             if (number := _given(reference, value, known)) is not None
         }
         if not found:
-            break
-        known |= {(name, 0): number for name, number in found.items()}
-        left = {name: value for name, value in left.items() if name not in found}
-    for name, value in problem.initial.items():
+            return known
+        known |= found
+        left = {name: value for name, value in left.items() if (name, 0) not in found}
+
+
+def _near_the_file(reference: Reference, random: Random) -> Environment:
+    """Parameters and initial positions some per cent from those of the file."""
+    given = values_of_the_file(reference).items()
+    known = {key: number * (1 + _number(random, 0.05)) for key, number in given}
+    for name, value in reference.problem.initial.items():
         number = _given(reference, value, known)
         if number is not None and not name.primes:
             known[name.name, 0] = number + _number(random, 0.1)

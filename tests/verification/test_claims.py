@@ -142,6 +142,30 @@ def test_ranges_that_hold_too_much_are_withheld(name: str) -> None:
                 assert not found.complete
 
 
+@pytest.mark.parametrize("R", ["2", "3"])
+def test_what_is_for_the_values_of_the_file_is_examined_with_these(R: str) -> None:
+    """Of a mass without a sign the contact would hold elsewhere."""
+    text = f"""
+coordinates: {{r: {{assume: positive}}, phi: }}
+parameters: {{m: 1, g: 10, R: {R}, v: {{value: 10, assume: positive}}}}
+T: m*(r'^2 + r^2*phi'^2)/2
+V: -m*g*r*cos(phi)
+constraints: {{track: {{equation: R = r, multiplier: N, holds_while: N >= 0}}}}
+initial: {{r: R, phi: 0, r': 0, phi': v/R}}
+find: {{top: {{reaches: phi = pi, for: v}}}}
+"""
+    problem = read_problem("loop.yaml", text.encode()).checked()
+    answers = statements(derive(problem)).answers(("find",))
+    assert verified(problem, answers) is answers
+    answer = answers.sections["find"].answers["top"]
+    [only] = answer.ranges
+    assert evaluated(only.lower, {}, FUNCTIONS) == pytest.approx((50 * float(R)) ** 0.5)  # v^2 = 5 g R
+    lower = replace(only, lower=Product((number(4, 5), only.lower)))
+    wrong = {"top": replace(answer, ranges=(lower,))}
+    sheet = replace(answers, sections={"find": replace(answers.sections["find"], answers=wrong)})
+    assert not verified(problem, sheet).complete
+
+
 def text_of(
     L: str, coordinates: str, symmetries: str, parameters: str = "m: {assume: positive}"
 ) -> str:

@@ -21,6 +21,7 @@ from lagcli.mechanics.finding.line import FunctionsOnLine, NotAlgebraic
 from lagcli.mechanics.finding.passing import Passing
 from lagcli.mechanics.finding.passings import Passings
 from lagcli.mechanics.finding.ranges import Bounds, Undecided, Values, ranges
+from lagcli.mechanics.finding.remarks import FOR_GIVEN_VALUES
 from lagcli.mechanics.finding.special_values import NoClosedForm, SpecialValues
 from lagcli.mechanics.finding.walk import Start, Walk
 from lagcli.mechanics.parameter_values import exact_values
@@ -48,13 +49,18 @@ class LastingAnswer:
             values = {q: x for q, x in exact_values(self.system).items() if q is not self.p}
             if not set(self.system.parameters) - {self.p} <= values.keys():
                 return Ranges(unknown=self.p.name, ranges=None, note=str(reason))
-            self.notes = ["for the values of the file"]
+            self.notes = [FOR_GIVEN_VALUES]
             try:
                 found = self._found(values)
             except Undecided as again:
                 return Ranges(unknown=self.p.name, ranges=None, note=str(again))
         note = "; ".join(dict.fromkeys([*self.notes, *self.along.notes]))
-        return Ranges(unknown=self.p.name, ranges=tuple(map(self._range, found)), note=note)
+        return Ranges(
+            unknown=self.p.name,
+            ranges=tuple(map(self._range, found)),
+            note=note,
+            given_values=FOR_GIVEN_VALUES in self.notes,
+        )
 
     def _range(self, bounds: Bounds) -> Range:
         tree = self.along.tree

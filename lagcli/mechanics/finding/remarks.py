@@ -13,6 +13,7 @@ from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.expression import Expression
 
 Remark = str | tuple[str | Expr, ...]
+FOR_GIVEN_VALUES = "for the values of the file"
 
 
 def in_words(remarks: Iterable[Remark]) -> str:

@@ -17,7 +17,14 @@ from lagcli.algebra.numeric import FINE_DIGITS, Evaluator
 from lagcli.mechanics.finding.passing import Passage, Passing, admissible
 from lagcli.mechanics.finding.passings import Passings
 from lagcli.mechanics.finding.reach import real_value
-from lagcli.mechanics.finding.remarks import Remark, as_parts, in_words, positive_where, real_where
+from lagcli.mechanics.finding.remarks import (
+    FOR_GIVEN_VALUES,
+    Remark,
+    as_parts,
+    in_words,
+    positive_where,
+    real_where,
+)
 from lagcli.mechanics.parameter_values import admissible_values, exact_values
 from lagcli.problem_data import Where as WhereQuestion
 from lagcli.statements.questions import Solutions
@@ -61,6 +68,7 @@ class WhereSearch:
             solutions=trees,
             note=in_words(notes),
             remarks=as_parts(notes, self.along.tree),
+            given_values=FOR_GIVEN_VALUES in notes,
         )
 
     # -- a coordinate -----------------------------------------------------------------------
@@ -231,7 +239,7 @@ class WhereSearch:
             return Roots((), angle=False) if holds is False else None
         found = solve_for(equation, unknown)
         if found is None and (given := self._with_values(equation)) is not None:
-            self.notes.append("for the values of the file")
+            self.notes.append(FOR_GIVEN_VALUES)
             equation, found = given, solve_for(given, unknown)
         if found is None:
             self.along.why_not = f"no closed form was found for {unknown}"

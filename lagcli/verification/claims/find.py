@@ -18,8 +18,6 @@ from lagcli.statements.questions import Answer, FindSection, Ranges, Rewritten, 
 from lagcli.verification.claims.reached import Reached
 from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear
-from lagcli.verification.phase_points import Environment
-from lagcli.verification.states import State
 from lagcli.verification.sweeps import Unknown
 
 #: Relative difference of an answer and the truth; a velocity at a turning point is the root of
@@ -62,7 +60,10 @@ def _answer(x: Examination, name: str, answer: Answer, charges: Sequence[Charge]
         return replace(answer, solutions=None, note=_NOTE)
     if isinstance(answer, Solutions) and isinstance(question, Where) and answer.solutions:
         places = x.places(what, answer.solutions)
-        if places is not None and all(_is_root(x, what, question, p, reached) for p in places):
+        given = answer.given_values
+        if places is not None and all(
+            _is_root(x, what, question, p, reached, given_values=given) for p in places
+        ):
             return answer
         return replace(answer, solutions=None, note=_NOTE)
     if isinstance(answer, Ranges) and isinstance(question, Lasting | Reaching):
@@ -100,7 +101,7 @@ def _is_value(
         return False
     truth, tried = x.reference.place(asked), 0
     for base in x.states(6):
-        for state in reached.states(_parameters(x, base)):
+        for state in reached.states(reached.still(base)):
             try:
                 true, found = state.at(truth), [state.at(place) for place in places]
             except Unclear:
@@ -120,7 +121,15 @@ def _is_value(
     return True
 
 
-def _is_root(x: Examination, what: str, question: Where, root: int, reached: Reached) -> bool:
+def _is_root(
+    x: Examination,
+    what: str,
+    question: Where,
+    root: int,
+    reached: Reached,
+    *,
+    given_values: bool,
+) -> bool:
     """Whether the equation holds where the unknown has the value of the root."""
     key = (question.unknown.name, question.unknown.primes)
     if key not in reached.everything:
@@ -137,7 +146,8 @@ def _is_root(x: Examination, what: str, question: Where, root: int, reached: Rea
         try:
             if not x.reference.values(base.environment)(root).is_finite():
                 continue
-            for state in reached.states(_parameters(x, base), pinned):
+            known = reached.still(base, given_values=given_values)
+            for state in reached.states(known, pinned):
                 left, right = map(state.at, sides)
                 if left.is_finite() and right.is_finite():
                     gaps.append(_near(left, right))
@@ -150,12 +160,6 @@ def _is_root(x: Examination, what: str, question: Where, root: int, reached: Rea
     else:
         x.unchecked.append(what)
     return not gaps
-
-
-def _parameters(x: Examination, state: State) -> Environment:
-    """The environment of a state; its parameters are used."""
-    moving = {(n, primes) for n in x.reference.names for primes in (0, 1)}
-    return {key: value for key, value in state.environment.items() if key not in moving}
 
 
 def _near(a: arb, b: arb) -> bool:

@@ -43,7 +43,8 @@ def holds_in_ranges(
     bounds = dict(zip(map(id, trees), places, strict=True))
     tried = 0
     for base in x.states(1):
-        at = x.reference.values(base.environment)
+        still = reached.still(base, given_values=answer.given_values)
+        at = x.reference.values(still)
         intervals = [
             tuple(
                 sign * float("inf") if b is None else float(at(bounds[id(b)]).mid())
@@ -54,8 +55,7 @@ def holds_in_ranges(
         for value in _beside(intervals):
             if not _allowed(x, question.unknown.name, value):
                 continue
-            known = {k: v for k, v in base.environment.items() if k not in reached.everything}
-            start = reached.initial({**known, (question.unknown.name, 0): arb(value)})
+            start = reached.initial({**still, (question.unknown.name, 0): arb(value)})
             claimed = any(low < value < high for low, high in intervals)
             try:
                 comes = None if start is None else PassingMotion(x, start, question).outcome()
@@ -74,8 +74,7 @@ def holds_in_ranges(
 def comes_to_pass(x: Examination, question: Where, reached: Reached) -> bool:
     """Whether the sides of an equation surely pass each other on the way from the initial state."""
     for base in x.states(1):
-        known = {k: v for k, v in base.environment.items() if k not in reached.everything}
-        start = reached.initial(known)
+        start = reached.initial(reached.still(base))
         for begun in () if start is None else _begun(x, start):
             try:
                 if PassingMotion(x, begun, question).outcome():

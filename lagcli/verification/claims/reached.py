@@ -14,7 +14,7 @@ from lagcli.verification.linear import rank
 from lagcli.verification.newton import settled
 from lagcli.verification.phase_points import Environment
 from lagcli.verification.program import Key
-from lagcli.verification.states import State
+from lagcli.verification.states import State, values_of_the_file
 from lagcli.verification.sweeps import column
 
 _STEPS = 60
@@ -74,6 +74,11 @@ class Reached:
                 rows, known = more, known + 1
                 kept.append(place)
         return kept
+
+    def still(self, state: State, *, given_values: bool = False) -> Environment:
+        """What does not move in a state, with the parameters of the file where these are meant."""
+        known = {k: x for k, x in state.environment.items() if k not in self.everything}
+        return {**known, **values_of_the_file(self.reference)} if given_values else known
 
     def initial(self, known: Environment) -> Environment | None:
         """The state at t = 0; what is not given is 0, or what the constraints leave."""
