@@ -136,7 +136,8 @@ class FileReader:
         """The entries of a map; a mistake when it is none."""
         if isinstance(node, Mapping):
             is_contact = re.search("[<>≤≥]", "".join(texts_of(node))) is not None
-            if texts_of(node) and what == ("contacts" if is_contact else "constraints"):
+            of_relations = "contacts" if is_contact else "constraints"
+            if texts_of(node) and what in {of_relations, "symmetries"}:
                 self.error(f"each of {what} has a name", node.span, hint)
                 self.scope.refused.append("")
                 return

@@ -19,6 +19,7 @@ def mend_commas(node: DocumentNode) -> list[Diagnostic]:
     """Join the pieces of formulas in a list `[ ]` or a map `{ }`; report each."""
     match node:
         case Mapping():
+            node.entries = _with_whole_keys(node.entries)
             values = [value for _, value in node.entries]
             nothing = [value.is_empty for value in values]
             keys: list[DocumentNode] = [key for key, _ in node.entries]
@@ -30,6 +31,22 @@ def mend_commas(node: DocumentNode) -> list[Diagnostic]:
         case _:
             return []
     return mistakes
+
+
+def _with_whole_keys(
+    entries: list[tuple[Scalar, DocumentNode]],
+) -> list[tuple[Scalar, DocumentNode]]:
+    """The entries with one key `U(r, t)` for the two into which the comma cuts it."""
+    whole: list[tuple[Scalar, DocumentNode]] = []
+    for key, value in entries:
+        begun, nothing = whole[-1] if whole else (key, value)
+        if whole and nothing.is_empty and _unclosed(begun) > 0 and not key.style:
+            begun.end = key.end
+            begun.value = begun.text.source.text[begun.start : key.end]
+            whole[-1] = (begun, value)
+        else:
+            whole.append((key, value))
+    return whole
 
 
 def _mend(
@@ -58,22 +75,22 @@ def _mend(
             end = rest[last].end
             whole = first.text.source.text[first.start : end]
             one = " ".join(whole.split())
-            is_list = as_list(one) != f"[{one}]"
-            hint = f"write a list as {as_list(one)}" if is_list else f'put it in quotes: "{one}"'
+            hint = quoted = f'write "{one}"'
+            if as_list(one) != f"[{one}]":
+                hint = f"write {as_list(one)}"
             if pair := re.fullmatch(r"\(\s*['\"](\w+)['\"]\s*,\s*([\d.]+)\s*\)", one):
                 hint = f"write {pair[1]}: {pair[2]}, with braces {{ }} around all"
             with_unit = re.fullmatch(r"\(\s*([-\d.]+)\s*,\s*([^,()]+)\)", one)
             if with_unit and unit_behind(f"1 {with_unit[2].strip()}"):
                 hint = f"write {{value: {with_unit[1]}, unit: {with_unit[2].strip()}}}"
-            is_quoted = hint.startswith("put ")
-            if is_quoted and (parts := components(one, ())):
-                hint = f"write a list: [{', '.join(parts)}]"
-            elif is_quoted and re.search(r"(?:[-+*]|^)\s*\([^()]*(?:\([^()]*\)[^()]*)*,", one):
+            if hint == quoted and (parts := components(one, ())):
+                hint = f"write [{', '.join(parts)}]"
+            elif hint == quoted and re.search(r"(?:[-+*]|^)\s*\([^()]*(?:\([^()]*\)[^()]*)*,", one):
                 hint = "a vector is a list of its components, as in [x, y]"
             message = "inside { } and [ ] a comma ends the value"
             mistakes.append(Diagnostic(message, first.text.span(first.start, end), hint))
             if isinstance(first, Scalar):
-                first.broken = True
+                first.value, first.end, first.broken = one, end, True
             keep[i + 1 : last + 1] = [False] * (last - i)
         i = last + 1
     return keep, mistakes

@@ -122,7 +122,7 @@ def texts_of(node: DocumentNode) -> list[str]:
     found: list[str] = []
     if isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
         found = [key.value for key, _ in node.entries]
-        return found if all(re.search("[=<>≤≥]", each) for each in found) else []
+        return found if all(re.search("[=<>≤≥→↦⇒]", each) for each in found) else []
     for each in getattr(node, "items", [node]):
         if isinstance(each, Scalar):
             lines = each.text.source.text[each.start : each.end].split("\n")

@@ -38,9 +38,10 @@ from lagcli.reader.quantities import (
     read_parameters,
 )
 from lagcli.reader.questions import read_find, read_initial, read_simulation
-from lagcli.reader.restrictions import declare_constraints, read_constraints, read_symmetries
+from lagcli.reader.restrictions import declare_constraints, read_constraints
 from lagcli.reader.scenery import read_scenery
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
+from lagcli.reader.symmetries import read_symmetries
 from lagcli.reader.text import Mistake, SourceText, decode
 from lagcli.reader.undeclared import (
     one_for_alike,

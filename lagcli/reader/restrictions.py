@@ -1,4 +1,4 @@
-"""The sections `constraints` and `symmetries`."""
+"""The section `constraints`."""
 
 from __future__ import annotations
 
@@ -7,18 +7,15 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from lagcli.expression import ZERO, Name, walk
-from lagcli.problem_data import Constraint, Symmetry, pushing_sign
+from lagcli.problem_data import Constraint, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
-from lagcli.reader.habits import is_angle, name_meant
-from lagcli.reader.misshapen import as_equation, as_list, is_sentence, pieces, source_of, texts_of
+from lagcli.reader.misshapen import as_equation, is_sentence, pieces, source_of, texts_of
 from lagcli.reader.names import derivative_order
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
+from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import QUESTION, STATE
-from lagcli.reader.small_changes import moved, small_change
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.velocity_quotients import multiplied_out
-from lagcli.record import replace
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
@@ -27,12 +24,7 @@ if TYPE_CHECKING:
 
 _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION,
                           "acts_as")  # fmt: skip
-#: `x -> -x`, and words for it.
-_REFLECTED = regex(
-    r"(\w+)\s*(?:->|→|↦|=>|=)\s*[-−]\s*\1\s*$|^(?:mirror|parity|reflection|spiegelung)\b"
-)
 _FRICTION = regex("fric|drag|reib|frott|attrit|roz|brems|wrijv|тре", re.IGNORECASE)
-_WORDS = frozenset("yes no true false True False none None null auto".split())
 _ON_LOSS = ("stop", "release")
 _OF_CONTACT = ("multiplier", RESTITUTION)
 _INEQUALITY = regex(r"(?<!-)[<>]|[≤≥]")
@@ -244,100 +236,3 @@ def _restitution(
         hint = f"write holds_while: {one.multiplier} >= 0, or <="
         file.error(message, node.span, hint)
     return read_restitution(file, node, f"the constraint '{one.key.label}'")
-
-
-def _usual_change(word: str, coordinates: list[str]) -> str:
-    """What a rotation, a shift in time or a boost changes; nothing for other words."""
-    if "time" in word or word in {"t", "energy"}:
-        return "{t: 1}"
-    if "boost" in word.casefold() or "galil" in word.casefold():
-        return f"{{{coordinates[0] if coordinates else 'x'}: t}}"
-    if "rot" not in word.casefold() or not coordinates:
-        return ""
-    angle = next((name for name in reversed(coordinates) if is_angle(name)), "")
-    if len(coordinates) == 1 or (angle and not {"x", "y"} <= {*coordinates}):
-        return f"{{{angle or coordinates[0]}: 1}}"
-    return "{{{0}: -{1}, {1}: {0}}}".format(*coordinates)
-
-
-def _changes_meant(file: FileReader, given: Mapping | str) -> str:
-    """`{x: -y, y: x}` for a finite rotation and for `x -> x - eps*y, y -> y + eps*x`."""
-    finite = moved(given) if isinstance(given, str) else {}
-    if isinstance(given, Mapping):
-        parts = [(key.label, value) for key, value in given.entries]
-        finite = {x: value.value for x, value in parts if isinstance(value, Scalar)}
-    names = [*file.scope.of_kind("coordinate")]
-    return small_change(finite, names, {*file.scope.kinds}, declared=isinstance(given, str))
-
-
-def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...]:
-    """The candidate symmetries."""
-    coordinates = list(file.scope.of_kind("coordinate"))
-    symmetries = []
-    change_of = "{{{}: 1}}".format
-    listed = texts_of(node)
-    named = [each for each in re.findall(r"\w+", ", ".join(listed)) if each in {*coordinates, "t"}]
-    named = named if as_list(", ".join(listed)) == f"[{', '.join(named)}]" else []
-    shifts = [f"{x if named[1:] else 'shift'}: {change_of(x)}" for x in named or coordinates[:1]]
-    hint = f"write {{{', '.join(shifts or ['shift: {x: 1}'])}}}"
-    if listed and (small := _changes_meant(file, listed[0])):  # phi -> phi + const
-        hint = f"write {{shift: {small}}}"
-    elif listed and not named and (usual := _usual_change(listed[0], coordinates)):
-        hint = f"write {{{name_meant(listed[0], one=True) or listed[0]}: {usual}}}"
-    entries = [*file.entries(node, "symmetries", hint)]
-    moves = [key.label for key, value in entries if key.in_flow and moved(key.label)]
-    for key, value in ((k, v) for k, v in entries if k.label not in moves):
-        what = f"the symmetry '{key.label}'"
-        before = len(file.diagnostics)
-        changes = {}
-        if isinstance(value, Mapping) and not value.entries:
-            file.error(f"{what} changes nothing", value.span, hint)
-        words = re.findall(r"\w+", value.value) if isinstance(value, Scalar) else []
-        changed = [name for name in words if name in {*coordinates, "t"}]
-        usual = change_of(*(changed or coordinates or ["x"])[:1])
-        if not changed or "time" in key.label:
-            usual = _usual_change(key.label, coordinates) or usual
-        here = f"write {key.label}: {usual}"
-        said = ", ".join([value.value, *moves]) if isinstance(value, Scalar) else ""
-        if small := _changes_meant(file, said):
-            here = f"write {key.label}: {small}"
-        if isinstance(value, Scalar) and _REFLECTED.search(f"{key.label}: {value.value}"):
-            hint = "leave it out: conserved quantities belong to continuous symmetries"
-            file.error(f"{what} is a reflection", value.span, hint)
-            value = Mapping(value.text, value.start, value.start, [])
-        elif isinstance(value, Mapping) and (small := _changes_meant(file, value)):
-            hint = f"write {small}: the change per unit of the parameter"
-            file.error(f"{what} contains its parameter", value.span, hint)
-            value = replace(value, entries=[])
-        for name, change in file.entries(value, what, here):
-            if name.label == "gauge" and isinstance(change, Scalar) and change.value in _WORDS:
-                file.error("'gauge' is a formula", change.span, "leave it out: it is found")
-                continue
-            if name.label in coordinates or name.label in {"t", "gauge"}:
-                changes[name.label] = file.expression(change, what, STATE)
-                continue
-            if file.scope.refused:  # it may be one of those that could not be declared
-                continue
-            message = f"'{name.label}' in {what} is not a coordinate"
-            if isinstance(change, Mapping):
-                written = change.text.source.text[change.start : change.end].strip()
-                file.error(message, name.span, f"write {key.label}: {written}")
-                continue
-            file.expression(change, what, STATE)
-            hint = did_you_mean(name.label, [*coordinates, "t", "gauge"])
-            bare = re.sub(r"^(?:\\?[dD]elta[_ ]?|d|δ|Δ) ?(?=.)", "", name.label)
-            if bare in {*coordinates, "t"}:
-                hint = f"write {bare}, whose change it is"
-            known = f"known are {', '.join(coordinates)}, t and gauge"
-            whole = _usual_change(key.label, coordinates) if is_angle(name.label) else ""
-            known = f"write {key.label}: {whole}" if whole else known
-            file.error(message, name.span, hint or known)
-        time, gauge = changes.pop("t", None), changes.pop("gauge", None)
-        is_said = len(file.diagnostics) > before or file.scope.refused
-        if gauge is not None and time is None and not changes and not is_said:
-            message = f"{what} changes neither a coordinate nor t"
-            file.error(message, key.span, f"write {key.label}: {usual}")
-        symmetries.append(
-            Symmetry(name=key.label, changes=changes, time=time, gauge=gauge, span=key.span)
-        )
-    return tuple(symmetries)

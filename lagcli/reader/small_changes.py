@@ -19,6 +19,9 @@ from lagcli.reader.regex import regex
 from lagcli.record import record
 
 _MOVED = regex(r"\s*([^\W\d]\w*)\s*(?:['’](?=\s*=))?\s*(?:[-=]>|→|↦|⇒|:?=)\s*([^=<>]*[^=<>\s])\s*")
+#: `x <-> y`, and `(x, y) -> (-x, -y)`.
+_EXCHANGED = regex(r"([^\W\d]\w*)\s*(?:<[-=]+>|↔|⇔)\s*([^\W\d]\w*)")
+_TUPLES = regex(r"\s*\(([^()]*)\)\s*(?:[-=]>|→|↦|⇒)\s*\((.*)\)\s*")
 #: What is taken for the parameter of a change that has it as a factor: eps*y.
 _SMALL = frozenset("eps epsilon ε s delta δ lambda lam λ alpha α a".split())
 #: The value and the derivative of a function at some places.
@@ -64,6 +67,9 @@ class _Near:
 
 def moved(text: str) -> dict[str, str]:
     """What each coordinate of `x -> x + a, y -> y` becomes; empty for other texts."""
+    text = _EXCHANGED.sub(r"\1 -> \2, \2 -> \1", text)
+    if both := _TUPLES.fullmatch(text):  # (x, y) -> (-x, -y)
+        text = ", ".join(map("{} -> {}".format, *(pieces(each, ",") for each in both.groups())))
     found = [_MOVED.fullmatch(each) for each in pieces(text, ",;")]
     return {each[1]: each[2] for each in found if each} if all(found) else {}
 
@@ -109,6 +115,17 @@ def small_change(
             if is_finite or (is_part and len(changes) == len(near)):
                 return f"{{{', '.join(changes)}}}"
     return ""
+
+
+def is_discrete(
+    finite: Mapping[str, str], coordinates: Collection[str], known: Collection[str]
+) -> bool:
+    """Whether a transformation has no parameter, as x -> -x, and x -> y, y -> x."""
+    words = {word for text in finite.values() for word in re.findall(r"[^\W\d]\w*", text)}
+    of_file = {*known, *coordinates, "t", "pi", *FUNCTIONS}
+    if not finite or not (words <= of_file and {*finite} <= {*coordinates, "t"}):
+        return False
+    return not small_change(finite, coordinates, known, declared=True)
 
 
 def _near(text: str, values: Mapping[str, _Near]) -> _Near:

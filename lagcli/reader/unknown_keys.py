@@ -225,13 +225,15 @@ _SAID = ("unit", "symbol", "description", "assume")
 def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
     """`points: {A: {position: [x, y], mass: m}}` for `masses: {A: m}` beside `points: {A: [x, y]}`.
 
-    Nothing where the entries are not all names of sections that have the attribute.
+    One value is that of the only name, values in a list are those of the names in order.  Nothing
+    where the entries are not all names of sections that have the attribute.
     """
     given = {key.label: source_of(each) for key, each in getattr(value, "entries", ())}
+    values = [*given.values()] or [source_of(each) for each in getattr(value, "items", [value])]
     known = (*SECTIONS, *_SAID, "restitution")
     attribute = key_meant(word, known) or key_meant(word.removesuffix("s"), known)
     attribute = "mass" if word == "masses" else attribute or ""
-    if attribute == "multiplier" and not all(map(str.isidentifier, given.values())):
+    if attribute == "multiplier" and not all(x.isidentifier() and x not in _WISHES for x in values):
         return ""  # its formula
     named = (
         ("coordinates", "parameters")
@@ -244,11 +246,17 @@ def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
         for key, each in getattr(node, "entries", ()):
             alone = f"{_FIRST[section]}: {source_of(each)}" * (not each.is_empty)
             inner[key.label] = entries_of(each) if isinstance(each, Mapping) else alone
+        is_in_order = len(values) == 1 or not given
+        if len(named) == 1 and is_in_order and len(values) == len(inner):
+            given = dict(zip(inner, values, strict=True))
+            left = {*given}
         for name in left & {*inner}:
             inner[name] += ", " * bool(inner[name]) + f"{attribute}: {given[name]}"
         whole = ", ".join(f"{name}: {{{each}}}" for name, each in inner.items())
         parts += [f"{section}: {{{whole}}}"] if left & {*inner} else []
         left -= {*inner}
+    if attribute == "multiplier" and (left or not parts):
+        return f"constraints: {{name: {{equation: left = right, multiplier: {values[0]}}}}}"
     return "; ".join(parts) if given and attribute and not left else ""
 
 

@@ -22,7 +22,7 @@ HINTS = [
     (text(constraints="\n  rod: Equal[x, k]"), "write x = k"),
     (text(constraints="\n  - Eq(x, k)"), "write {name: x = k}"),
     (text(constraints="\n  rod: Eq(x)"), "write left = right"),
-    (text(constraints="{rod: f(x, k)}"), 'put it in quotes: "f(x, k)"'),
+    (text(constraints="{rod: f(x, k)}"), 'write "f(x, k)"'),
     (text(find="\n  turn: Eq(x', 0)"), "write {where: x' = 0, for: x}"),
     (text(T="Eq(T, m*x'^2/2)"), "write m*x'^2/2"),
     (text(coordinates="{x: {unit: m, start: 0.05}}"), "write initial: {x: 0.05}"),

@@ -650,7 +650,7 @@ def test_a_unit_in_brackets_before_its_number(number, unit, brackets):
     [
         (
             text(contacts="{floor: x >= 0}", restitution="0.8"),
-            "{floor: {gap: y >= 0, restitution: 0.8}}",
+            "{floor: {gap: x >= 0, restitution: 0.8}}",
         ),
         (text(simulation="{until: 1, n: 100}"), "lagcli simulate FILE --samples 100"),
         (text(parameters="\n  m:\n    - 1\n    - kg\n  k: 2"), "write {value: 1, unit: kg}"),

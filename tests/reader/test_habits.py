@@ -366,7 +366,7 @@ HABITS = [
     (text(T=None) + "T:-x'^2\n", "write T: -x'^2"),
     (
         text(points="{a: {position: (2*(x + cos(2*(x + 1))), (x)), mass: m}}", T=None),
-        "write a list as [2*(x + cos(2*(x + 1))), (x)]",
+        "write [2*(x + cos(2*(x + 1))), (x)]",
     ),
     (
         text(constraints="{rod: {equation: x = 1, multiplier: N, holds_while: N is positive}}"),
@@ -638,7 +638,7 @@ HABITS = [
     (text(T="\"m*x'^2/2", V='k*x^2/2"'), 'write "m*x\'^2/2"'),
     ("x, y = dynamicsymbols('x y')\nm = symbols('m')\n", "lagcli new NAME"),
     (text(constraints="{x <= 1}"), "write contacts: {floor: x <= 1}"),
-    (text(multiplier="N"), "write constraints: {name: {equation: left = right, multiplier: …}}"),
+    (text(multiplier="N"), "write constraints: {name: {equation: left = right, multiplier: N}}"),
     (text(V="|x|*k"), "write V: abs(x)*k"),
     (text(parameters="m = 1 kg, k = 2"), "write {m: {value: 1, unit: kg}, k: 2}"),
     (text(lagrangian="T - V"), "leave out L: it is T - V"),

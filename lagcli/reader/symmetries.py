@@ -1,0 +1,173 @@
+"""The section `symmetries`: what each candidate changes, per unit of its parameter."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from lagcli.problem_data import Symmetry
+from lagcli.reader.habits import is_angle, name_meant
+from lagcli.reader.misshapen import as_list, source_of, texts_of
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
+from lagcli.reader.regex import regex
+from lagcli.reader.scope import STATE
+from lagcli.reader.small_changes import is_discrete, moved, small_change
+from lagcli.reader.suggest import did_you_mean
+
+if TYPE_CHECKING:
+    from lagcli.expression import Expression
+    from lagcli.reader.file_reader import FileReader
+
+_REFLECTION = regex(r"(?:mirror|parity|reflection|inversion|spiegelung)", re.IGNORECASE)
+_CONTINUOUS = "leave it out: conserved quantities belong to continuous symmetries"
+_WORDS = frozenset("yes no true false True False none None null auto".split())
+
+
+def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...]:
+    """The candidate symmetries."""
+    texts = texts_of(node)
+    if texts and all(_is_discrete(file, each) for each in texts):
+        file.error("a symmetry has a parameter", node.span, _CONTINUOUS)
+        return ()
+    entries: list[tuple[Scalar, DocumentNode]] = []
+    for key, value in file.entries(node, "symmetries", _listed(file, texts)):
+        if key.in_flow and value.is_empty and moved(key.label) and entries:
+            name, before = entries[-1]  # {rotation: x -> x - eps*y, y -> y + eps*x}
+            said = f"{source_of(before)}, {key.label}"
+            value = Scalar(key.text, before.start, key.end, said, "", True)
+            entries[-1] = (name, value)
+        else:
+            entries.append((key, value))
+    return tuple(_symmetry(file, key, value) for key, value in entries)
+
+
+def _symmetry(file: FileReader, key: Scalar, value: DocumentNode) -> Symmetry:
+    what = f"the symmetry '{key.label}'"
+    coordinates = [*file.scope.of_kind("coordinate")]
+    before = len(file.diagnostics)
+    usual = _usual_change(key.label, coordinates) or _shift(coordinates[:1])
+    changes: dict[str, Expression] = {}
+    for name, change in _entries(file, key, value):
+        if name.label == "gauge" and isinstance(change, Scalar) and change.value in _WORDS:
+            file.error("'gauge' is a formula", change.span, "leave it out: it is found")
+        elif name.label in {*coordinates, "t", "gauge"}:
+            changes[name.label] = file.expression(change, what, STATE)
+        elif not file.scope.refused:  # else it may be one of those that could not be declared
+            hint = _name_meant(key.label, name.label, coordinates)
+            if isinstance(change, Mapping):
+                hint = f"write {key.label}: {source_of(change)}"
+            else:
+                file.expression(change, what, STATE)
+            file.error(f"'{name.label}' in {what} is not a coordinate", name.span, hint)
+    time, gauge = changes.pop("t", None), changes.pop("gauge", None)
+    is_said = len(file.diagnostics) > before or file.scope.refused
+    if gauge is not None and time is None and not changes and not is_said:
+        message = f"{what} changes neither a coordinate nor t"
+        file.error(message, key.span, f"write {key.label}: {usual}")
+    return Symmetry(name=key.label, changes=changes, time=time, gauge=gauge, span=key.span)
+
+
+def _entries(
+    file: FileReader, key: Scalar, value: DocumentNode
+) -> list[tuple[Scalar, DocumentNode]]:
+    """The changes by name; none and a mistake where the value is a transformation or no map."""
+    what = f"the symmetry '{key.label}'"
+    coordinates = [*file.scope.of_kind("coordinate")]
+    is_map = isinstance(value, Mapping) and not texts_of(value)
+    said = "" if is_map else ", ".join(texts_of(value))
+    said = key.label if value.is_empty and moved(key.label) else said
+    if getattr(value, "broken", False) and not moved(said):
+        return []  # reported already
+    if said and (_REFLECTION.match(key.label) or _is_discrete(file, said)):
+        file.error(f"{what} has no parameter", value.span, _CONTINUOUS)
+        return []
+    if isinstance(value, Mapping) and is_map:
+        if not value.entries:
+            usual = _usual_change(key.label, coordinates) or _shift(coordinates[:1])
+            file.error(f"{what} changes nothing", value.span, f"write {key.label}: {usual}")
+        if small := _changes_meant(file, value):
+            hint = f"write {small}: the change per unit of the parameter"
+            file.error(f"{what} contains its parameter", value.span, hint)
+            return []
+        return [*file.entries(value, what)]
+    changed = [name for name in re.findall(r"\w+", said) if name in {*coordinates, "t"}]
+    usual = _shift(changed or coordinates)
+    if not changed or "time" in key.label:
+        usual = _usual_change(key.label, coordinates) or usual
+    name = key.label if said != key.label else "shift"
+    hint = f"write {name}: {_changes_meant(file, said) or usual}"
+    if isinstance(value, Mapping):
+        file.error(f"{what} must be a map, not a transformation", value.span, hint)
+        return []
+    return [*file.entries(value, what, hint)]
+
+
+def _shift(names: list[str]) -> str:
+    return f"{{{(*names, 'x')[0]}: 1}}"
+
+
+def _listed(file: FileReader, texts: list[str]) -> str:
+    """How a list of coordinates, of words or of transformations is written by names."""
+    coordinates = [*file.scope.of_kind("coordinate")]
+    whole = ", ".join(texts)
+    named = [each for each in re.findall(r"\w+", whole) if each in {*coordinates, "t"}]
+    if named and as_list(whole) == f"[{', '.join(named)}]":
+        shifts = [f"{x if named[1:] else 'shift'}: {_shift([x])}" for x in named]
+        return f"write {{{', '.join(shifts)}}}"
+    found: dict[str, str] = {}
+    for text in [whole] if _changes_meant(file, whole) else texts:
+        if change := _changes_meant(file, text):  # phi -> phi + const
+            found[f"shift_{len(found) + 1}" if found else "shift"] = change
+        elif change := _usual_change(text, coordinates):
+            found[name_meant(text, one=True) or text] = change
+    found = found or {"shift": _shift(coordinates)}
+    return f"write {{{', '.join(map('{0[0]}: {0[1]}'.format, found.items()))}}}"
+
+
+def _usual_change(word: str, coordinates: list[str]) -> str:
+    """What a rotation, a shift in time or a boost changes; nothing for other words."""
+    if "time" in word or word in {"t", "energy"}:
+        return "{t: 1}"
+    if "boost" in word.casefold() or "galil" in word.casefold():
+        return f"{{{coordinates[0] if coordinates else 'x'}: t}}"
+    if "rot" not in word.casefold() or not coordinates:
+        return ""
+    angle = next((name for name in reversed(coordinates) if is_angle(name)), "")
+    if len(coordinates) == 1 or (angle and not {"x", "y"} <= {*coordinates}):
+        return _shift([angle or coordinates[0]])
+    return "{{{0}: -{1}, {1}: {0}}}".format(*coordinates)
+
+
+def _name_meant(symmetry: str, name: str, coordinates: list[str]) -> str:
+    """What is written for a name of a symmetry that is no coordinate."""
+    known = [*coordinates, "t", "gauge"]
+    bare = re.sub(r"^(?:\\?[dD]elta[_ ]?|d|δ|Δ) ?(?=.)", "", name)
+    if bare in {*coordinates, "t"}:
+        return f"write {bare}, whose change it is"
+    if hint := did_you_mean(name, known):
+        return hint
+    if is_angle(name) and (usual := _usual_change(symmetry, coordinates)):
+        return f"write {symmetry}: {usual}"
+    return f"known are {', '.join(coordinates)}, t and gauge"
+
+
+def _finite(given: Mapping | str) -> dict[str, str]:
+    """What each coordinate becomes, or its change with the parameter as a factor."""
+    if isinstance(given, str):
+        return moved(given)
+    parts = ((key.label, value) for key, value in given.entries)
+    return {x: value.value for x, value in parts if isinstance(value, Scalar)}
+
+
+def _changes_meant(file: FileReader, given: Mapping | str) -> str:
+    """`{x: -y, y: x}` for a finite rotation and for `x -> x - eps*y, y -> y + eps*x`."""
+    names = [*file.scope.of_kind("coordinate")]
+    declared = isinstance(given, str)
+    return small_change(_finite(given), names, {*file.scope.kinds}, declared=declared)
+
+
+def _is_discrete(file: FileReader, text: str) -> bool:
+    """Whether a transformation is a reflection, or another one without a parameter."""
+    names = [*file.scope.of_kind("coordinate")]
+    is_word = _REFLECTION.match(text) is not None
+    return is_word or is_discrete(moved(text), names, {*file.scope.kinds})

@@ -1,0 +1,59 @@
+"""Symmetries as transformations: a continuous one is told its change, a discrete one has none."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from tests.reader.test_habits import messages, text
+
+FILE = {
+    "coordinates": "[x, y]",
+    "parameters": "{m: 1, k: 2}",
+    "T": "m*(x'^2 + y'^2)/2",
+    "V": "k*(x^2 + y^2)/2",
+}
+DISCRETE = ["x {} -x", "x {} -x, y {} -y", "y {} 1 - y", "x {} y, y {} x", "t {} -t", "x {} k - x"]
+#: Transformations with a parameter, and their changes per unit of it.
+CONTINUOUS = [
+    ("x {} x + eps", "{x: 1}"),
+    ("x {} x - eps*y, y {} y + eps*x", "{x: -y, y: x}"),
+    ("t {} t + a", "{t: 1}"),
+    ("x {} x + v*t", "{x: t}"),
+    ("x {} x*cos(a) - y*sin(a), y {} x*sin(a) + y*cos(a)", "{x: -y, y: x}"),
+]
+SHAPES = ["{{name: {}}}", "{{name: {{{}}}}}", "{{name: [{}]}}", "{{name: '{}'}}", "\n  name: {}",
+          "[{}]", "{{{}}}", "{}"]  # fmt: skip
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("given", DISCRETE)
+def test_a_transformation_without_a_parameter_has_no_charge(shape, given):
+    arrow = random.Random(given + shape).choice(["->", "→", "=>"])
+    written = shape.format(given.replace("{}", arrow))
+    [found] = messages(text(**FILE, symmetries=written))
+    assert found.endswith("leave it out: conserved quantities belong to continuous symmetries")
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize(("given", "change"), CONTINUOUS)
+def test_a_transformation_with_a_parameter_is_told_its_change(shape, given, change):
+    arrow = random.Random(given + shape).choice(["->", "→", "=>"])
+    written = shape.format(given.replace("{}", arrow))
+    [found] = messages(text(**FILE, symmetries=written))
+    assert f": {change}" in found.partition("; write ")[2]
+
+
+@pytest.mark.parametrize("word", ["mirror", "Reflection", "parity", "inversion"])
+@pytest.mark.parametrize("shape", ["{}", "[{}]", "{{{}: yes}}", "{{{}: x}}"])
+def test_a_reflection_in_a_word_has_no_charge(word, shape):
+    [found] = messages(text(**FILE, symmetries=shape.format(word)))
+    assert "continuous symmetries" in found
+
+
+def test_pairs_of_coordinates_are_read_as_their_transformations():
+    [found] = messages(text(**FILE, symmetries="{p: '(x, y) -> (-x, -y)'}"))
+    assert "continuous symmetries" in found
+    [found] = messages(text(**FILE, symmetries="{p: '(x, y) -> (x + s*y, y - s*x)'}"))
+    assert found.endswith("write p: {x: y, y: -x}")
