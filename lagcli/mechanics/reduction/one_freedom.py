@@ -28,6 +28,7 @@ from lagcli.algebra.positivity import sign_of, weak_sign
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign
 from lagcli.algebra.translates import least_period, one_of_each
+from lagcli.algebra.vanishing_factors import may_vanish, squares_divided_by
 from lagcli.mechanics.inequalities import contradictory
 from lagcli.mechanics.parameter_values import admissible_values
 from lagcli.mechanics.reduction.routh import Routh
@@ -123,7 +124,14 @@ class ReducedFreedom:
             real = [*not_negative_where_real(root)]
             powers = (p for p in root.atoms(sympy.Pow) if p.exp.is_Integer and p.exp.is_negative)
             found |= {p.base for p in powers if sign_of(p.base**2, real) != 1}
+            found |= self._value_where(root)
         return [d**2 for d in sorted(found, key=sympy.default_sort_key)]
+
+    def _value_where(self, root: Expr) -> set[Expr]:
+        """Parameters whose value 0 takes a root to where U_eff is 0/0: p in p^2/sin^2 q = E."""
+        below = (at(d, {self.q: root}) for d in squares_divided_by([self.potential]))
+        found = {f for value in below if value != 0 for f in may_vanish(simplify(value))}
+        return {f for f in found if free_of(f, [self.E])}
 
     @property
     def turning_where(self) -> tuple[tuple[Expr, ...], ...]:
