@@ -39,7 +39,14 @@ _NO_LINE = regex(
 )
 _PAIRS = {"[": "]", "{": "}", '"': '"', "'": "'"}
 #: Advice that fits many lines; a repair is better.
-_GENERAL = frozenset({"", "put the whole value in quotes", "group with parentheses ( )"})
+_GENERAL = frozenset(
+    {
+        "",
+        "put the whole value in quotes",
+        "group with parentheses ( )",
+        "leave out what is not known",
+    }
+)
 
 
 def _closed(line: str) -> str:
@@ -141,6 +148,7 @@ def _assumed(line: str) -> str:
 _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"\s+//\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
+    lambda line: re.sub(r"(?<=:)\s+\?\s*(?=[,}]|$)", "", line),
     _assumed,
     lambda line: re.sub(r"\\\[([A-Z])([a-z]+)\]", lambda m: m[1].lower() + m[2], line),
     lambda line: re.sub(r"^([TVLH]:)\s+[a-z][a-z ]*:(?=\s)", r"\1", line),

@@ -226,7 +226,7 @@ def _meant(name: str, what: str, order: str) -> str:
     The order is `first`, or `unlike` for a name that no known one is spelled like.
     """
     said = (
-        each.expand(advice)
+        each.expand(advice).replace("PLACE", what.rpartition(" ")[2].strip("'"))
         for place, form, advice in habits()["names_in"][order]
         if re.match(place, what) and (each := re.fullmatch(form, name))
     )

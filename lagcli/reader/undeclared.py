@@ -176,18 +176,25 @@ def _joined(group: list[Diagnostic]) -> Diagnostic:
     """The first, with the advice of each, of three where there are more."""
     keys = [_OTHER_KEY.fullmatch(f"{each.message}: {each.hint}") for each in group]
     if len(pairs := {each["key"]: each["meant"] for each in keys if each}) > 1 and all(keys):
-        place = _KEY.sub(r"\g<place>", group[0].message)
-        message = f"unknown keys {', '.join(pairs)} in {place}"
+        places = dict.fromkeys(_KEY.sub(r"\g<place>", each.message) for each in group)
+        message = f"unknown keys {', '.join(pairs)} in {' and '.join(places)}"
         return replace(group[0], message=message, hint=f"the keys are {', '.join(pairs.values())}")
     hints = {group[0].hint: group[0].hint}
+    lines: list[str] = []
+    names: list[str] = []
     for before, each in pairwise(group):
-        at = each.span.line
-        line = f"in line {at} " if at != before.span.line else ""
-        if each.hint in hints and line and each.hint.startswith("write "):
-            hints[f"{line}the same"] = f"{line}the same"
-            continue
-        hints.setdefault(each.hint, line + each.hint[each.hint.find(": write ") + 1 :].strip())
+        line = f"in line {each.span.line} " if each.span.line != before.span.line else ""
+        if each.hint not in hints:
+            advice = re.sub(r"^.*?: (?=write |give )", "", each.hint, flags=re.DOTALL)
+            hints[each.hint] = line + advice
+        elif line:
+            lines.append(str(each.span.line))
+        else:
+            named = {*_QUOTED.findall(each.message)} - {*_QUOTED.findall(before.message)}
+            names += named if len(named) == 1 else ()
     more = ["and so on"] if len(hints) > _SHOWN else []
+    more += [f"for {', '.join(names)} the same"] if names else []
+    more += [f"in line{'s' * bool(lines[1:])} {', '.join(lines)} the same"] if lines else []
     return replace(group[0], hint="; ".join([*list(hints.values())[:_SHOWN], *more]))
 
 

@@ -198,7 +198,7 @@ HABITS = [
     (text(parameters="{m: ?, k: 2}"), "leave out what is not known"),
     (text(parameters="{m: 1±0.1, k: 2}"), "write the number without its error"),
     (text(parameters="{m:1, k:2}"), "write {m: 1, k: 2}"),
-    (text(parameters="{m: const, k: 2}"), "is written without ':'"),
+    (text(parameters="{m: const, k: 2}"), "write m:"),
     (text(parameters="{m: {default: 1}, k: 2}"), "the key is value"),
     (text(parameters="none", T="x'^2", V=None), "leave out the key"),
     (text(initial="{x: [1, 0]}"), "write x: 1, x': 0"),

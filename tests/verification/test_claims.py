@@ -159,7 +159,9 @@ find: {{top: {{reaches: phi = pi, for: v}}}}
     assert verified(problem, answers) is answers
     answer = answers.sections["find"].answers["top"]
     [only] = answer.ranges
-    assert evaluated(only.lower, {}, FUNCTIONS) == pytest.approx((50 * float(R)) ** 0.5)  # v^2 = 5 g R
+    assert evaluated(only.lower, {}, FUNCTIONS) == pytest.approx(
+        (50 * float(R)) ** 0.5
+    )  # v^2 = 5 g R
     lower = replace(only, lower=Product((number(4, 5), only.lower)))
     wrong = {"top": replace(answer, ranges=(lower,))}
     sheet = replace(answers, sections={"find": replace(answers.sections["find"], answers=wrong)})
