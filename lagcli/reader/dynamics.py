@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.problem_data import Point, Problem
 from lagcli.reader.by_coordinate import by_name, coordinate_meant, of_vectors
 from lagcli.reader.file_reader import Required
-from lagcli.reader.foreign.tokens import polar_speed
+from lagcli.reader.foreign.words import polar_speed
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import colon_advice, is_angle
 from lagcli.reader.headings import forces_without_headings, without_headings

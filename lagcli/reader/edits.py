@@ -51,8 +51,10 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
     if named := _RENAMED.fullmatch(hint):
         written = text.source.text[start:end]
         better = named[1] or named[2] or named[3]
-        primes = written[len(written.rstrip("'")) :] if "'" not in better else ""
-        return [[Edit(start, end, better + primes)]]
+        bare = written.rstrip("'")
+        edit = Edit(start, end, better + written[len(bare) :] * ("'" not in better))
+        is_name = named[2] and mistake.message.startswith("unknown name '")
+        return [[edit, *(_elsewhere(bare, edit, text.source.text) if is_name else ())]]
     if moved := _moved(hint, start, end, text):
         return [moved]
     if hint.partition(":")[0] == "leave it out":
@@ -69,7 +71,8 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
     found = [edits for part in parts for edits in _placed(part, start, end, text, root)]
     written = text.source.text
     if name := NO_NAME.match(mistake.message):
-        found = [edits + _elsewhere(name[1], edits[0], written) for edits in found]
+        is_text = re.fullmatch(r"\w+", name[1]) is None
+        found = [edits + _elsewhere(name[1], edits[0], written) * is_text for edits in found]
     is_own = is_node(start, end, root, written) and not _SECTION.fullmatch(whole)
     return sorted(found, key=lambda edits: (
         not is_own or edits[0].start != start or edits[0].end < end, -_likeness(edits, written)
@@ -82,11 +85,10 @@ def is_node(start: int, end: int, root: DocumentNode, text: str) -> bool:
 
 
 def _elsewhere(name: str, edit: Edit, text: str) -> list[Edit]:
-    """The other places of a text that was to be a name, such as `x-cart`."""
-    if re.fullmatch(r"\w+", name) or not edit.written.isidentifier():
-        return []
-    others = re.finditer(rf"(?<!\w){re.escape(name)}(?!\w)", text)
-    return [Edit(m.start(), m.end(), edit.written) for m in others if m.start() != edit.start]
+    """The other places of a name, or of a text that was to be one, such as `x-cart`."""
+    better = edit.written.rstrip("'")
+    others = re.finditer(rf"(?<!\w){re.escape(name)}(?!\w)", text) if better.isidentifier() else ()
+    return [Edit(m.start(), m.end(), better) for m in others if m.start() != edit.start]
 
 
 def _without_reason(whole: str) -> Iterator[str]:

@@ -17,7 +17,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.notation.greek import BY_NAME as GREEK
-from lagcli.reader.foreign.words import VELOCITIES, Vocabulary, rate_meant
+from lagcli.reader.foreign.words import VELOCITIES, Vocabulary, rate_meant, square_of_speed
 from lagcli.reader.habits import foreign_function, habits, instead, is_angle, meanings
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import alike, closest, did_you_mean
@@ -262,7 +262,9 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     if hint:
         return hint
     if name in {"v", "velocity", "speed", "d"} and role.order > 0 and coordinates and not of_drive:
-        return "the velocities are " + "' and ".join(coordinates) + "'"
+        square = square_of_speed((*coordinates,)) if name != "d" else ""
+        speed = f", the speed is sqrt({square})" if square else ""
+        return "the velocities are " + "' and ".join(coordinates) + f"'{speed}"
     if primes and role.order > 0:
         return COORDINATE
     if said := _meant(name, what, "unlike"):

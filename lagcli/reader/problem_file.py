@@ -6,6 +6,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source, Span
+from lagcli.expression import Name, walk
 from lagcli.problem_data import Problem
 from lagcli.reader.compose import compose
 from lagcli.reader.contacts import declare_contacts, read_contacts
@@ -48,6 +49,7 @@ from lagcli.reader.undeclared import (
     one_for_habit,
     one_for_shapes,
     one_for_undeclared,
+    undeclared_velocity,
 )
 from lagcli.reader.value_checks import check_values, slips
 from lagcli.record import record, replace
@@ -271,12 +273,29 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
     at_rest = potential is None or derivative_order(potential, file.scope) < 1
     if file.diagnostics and problem.kinetic is not None and at_rest:
         mend_velocities(file, section("observables"), problem.kinetic)
+    _rename(file, problem)
     problem = replace(problem, expect=ExpectReader(file, problem).read(section("expect")))
     if len(given) == len(root.entries):  # else the energy may be there under another key
         check_masses(file, problem, section("points").span)
     if not file.diagnostics:
         check_values(file, problem)
     return problem
+
+
+def _rename(file: FileReader, problem: Problem) -> None:
+    """Take the only unknown velocity for that of the only coordinate that nothing contains."""
+    energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
+    places = (axis for point in problem.points for axis in point.position)
+    formulas = [each for each in (*energies, *places, *problem.definitions.values()) if each]
+    used = {part.name for each in formulas for part in walk(each) if isinstance(part, Name)}
+    unused = [x for x in file.scope.of_kind("coordinate") if x not in used]
+    moving = {name for each in file.diagnostics if (name := undeclared_velocity(each))}
+    if len(unused) == len(moving) == 1:
+        begin = f"unknown name '{moving.pop()}' in "
+        file.diagnostics[:] = [
+            replace(each, hint=f"did you mean '{unused[0]}'?")
+            if each.message.startswith(begin) else each for each in file.diagnostics
+        ]  # fmt: skip
 
 
 def _is_problem(node: Mapping) -> bool:

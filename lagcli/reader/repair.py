@@ -12,15 +12,15 @@ from lagcli.problem_data import Inequality
 from lagcli.reader.expressions import read_equation, read_expression, sides_of
 from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.foreign.translation import translated
-from lagcli.reader.foreign.words import UnclearText, Vocabulary
-from lagcli.reader.habits import name_meant
+from lagcli.reader.foreign.words import UnclearText, Vocabulary, square_of_speed
+from lagcli.reader.habits import is_angle, name_meant
 from lagcli.reader.misshapen import FRICTION, as_equation, as_rayleigh, behind_words, is_sentence
 from lagcli.reader.momenta_meant import with_momenta, with_velocities
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
-from lagcli.reader.undeclared import UNDECLARED
+from lagcli.reader.undeclared import BY_OTHERS, UNDECLARED
 from lagcli.reader.velocity_quotients import multiplied_out
 from lagcli.record import replace
 
@@ -53,8 +53,8 @@ _TOTAL_RATE = regex(
     r"|(?<![\w.])d\s*/\s*dt\s*\(?\((?P<behind>(?:[^()]|\([^()]*\))+)\)"
     r"|(?<![\w.])\((?P<primed>(?:[^()]|\([^()]*\))+)\)['’′]"
 )
-#: The name of a velocity: omega1, w_x, v2.
-_RATE_OF_BODY = regex(r"(?:omega|Omega|ω|Ω|w|v|u)_?(?:[1-9]|[xyz])")
+#: The name of a velocity or a height: omega1, w_x, v2, h.
+_MOVING = r"(?:omega|Omega|ω|Ω|w|v|u)_?(?:[1-9]|[xyz])|h|height"
 #: A product of two vectors within a formula.
 _CROSS = regex(r"(?<!\w)([^\W\d]\w*)\s*(?:[×⨯]|\\times)\s*([^\W\d]\w*)")
 _SUM_IN_WORDS = regex(
@@ -94,6 +94,19 @@ def with_whole(
     read
         Reads an expression, an equation or a comparison.
     """
+    whole = _in_whole(found, node, what, scope, role, read)
+    return _unmoved(found, node, what, scope, r"\w+") if whole == found else whole
+
+
+def _in_whole(
+    found: list[Diagnostic],
+    node: Scalar,
+    what: str,
+    scope: Scope,
+    role: Role,
+    read: Callable[[Excerpt], Expression | Equation | Inequality],
+) -> list[Diagnostic]:
+    """The same without names for what moves."""
     if what in {"T", "L"} and (energy := _energy_meant(found, node, what, scope, role)):
         return [energy]
     by_momenta = _hamiltonian_meant(node.value) if what == "H" else ""
@@ -104,7 +117,7 @@ def with_whole(
         law = "…" if others[1:] else force[1].strip()
         hint = f"V is an energy; a force stands by its coordinate: write forces: {{{along}: {law}}}"
         return [replace(found[0], hint=hint)]
-    if what == "T" and (unmoved := _rates_meant(found, node, scope)):
+    if what == "T" and (unmoved := _unmoved(found, node, what, scope)) != found:
         return unmoved
     if matrices := _of_matrices(node, what, scope):
         return [matrices]
@@ -176,16 +189,38 @@ def with_whole(
     return [replace(found[0], hint=f"did you mean {exchanged}?")] if exchanged else found
 
 
-def _rates_meant(found: list[Diagnostic], node: Scalar, scope: Scope) -> list[Diagnostic]:
-    """The mistakes of a kinetic energy of unknown angular velocities: `I1*omega1^2/2`."""
-    names = {name for each in found for name in _named_in(each) if UNDECLARED in each.hint}
-    rates = {name for name in names if _RATE_OF_BODY.fullmatch(name)}
-    moving = re.search(r"['’′\u0307]|dot|\bd\w+/dt", node.value) or scope.moving
-    if moving or not rates or not [*scope.of_kind("coordinate")]:
-        return []
-    advice = "T has velocities: write {} by them under 'definitions'".format
-    return [replace(each, hint=advice(*(_named_in(each) & rates)))
-            if _named_in(each) & rates else each for each in found]  # fmt: skip
+def _unmoved(
+    found: list[Diagnostic], node: Scalar, what: str, scope: Scope, only: str = _MOVING
+) -> list[Diagnostic]:
+    """The mistakes of an energy in which nothing moves: `m*g*h`, `I1*omega1^2/2`.
+
+    A name that is the `only` unknown one has this form.
+    """
+    coordinates = (*scope.of_kind("coordinate"),)
+    moving = {*scope.moving, *(coordinates if what == "V" else ())}
+    has_rate = re.search(r"['’′\u0307]|dot|\bd\w+/dt", node.value)
+    unclear = (UNDECLARED, f"{UNDECLARED}, or its formula under 'definitions'")
+    names = {name for each in found for name in _named_in(each) if each.hint in unclear}
+    if what not in {"T", "V", "L"} or has_rate or moving & {*re.findall(r"\w+", node.value)}:
+        return found
+    form = only if len(names) == 1 else _MOVING
+    names = {x for x in names if re.fullmatch(form, x)}
+    thing = "coordinates" if what == "V" else "velocities"
+    square = square_of_speed(coordinates) if coordinates else ""
+    square = square if len(coordinates) == 1 else f"({square})"
+    height = next((x for x in "zy" if x in coordinates), "")
+    examples = {"h": height, "gamma": f"1/sqrt(1 - {square}/c^2)" if "c" in scope.kinds else ""}
+    angles = [x for x in coordinates if is_angle(x)]
+
+    def advice(name: str) -> str:
+        if is_angle(name) and len(angles) == 1 and what == "V":
+            return f"did you mean '{angles[0]}'?"
+        example = examples.get(name, "")
+        example = f", as in {name}: {example}" if example and square != "()" else ""
+        return f"{what} has {thing}: write {name} {BY_OTHERS}{example}"
+
+    return [replace(each, hint=advice(*(_named_in(each) & names)))
+            if _named_in(each) & names else each for each in found]  # fmt: skip
 
 
 def _is_of_accelerations(text: str, names: Vocabulary) -> bool:

@@ -141,8 +141,8 @@ class Scope:
 
     @property
     def moving(self) -> tuple[str, ...]:
-        """The definitions that depend on coordinates."""
-        return tuple(name for name, one in self.definitions.items() if one.order > CONSTANT)
+        """The definitions that depend on coordinates or on the time."""
+        return tuple(n for n, one in self.definitions.items() if one.order > CONSTANT or one.time)
 
     def usable(self, role: Role) -> list[str]:
         """The names that may stand in an expression, for suggestions."""

@@ -15,6 +15,8 @@ from lagcli.record import replace
 UNDECLARED = "declare it under 'parameters'"
 #: What it says of one with a prime.
 COORDINATE = "declare it under 'coordinates'"
+#: What is said of one that is the only unknown in an energy in which nothing moves.
+BY_OTHERS = "by them under 'definitions'"
 _KEY = regex(r"unknown keys? (?P<keys>'.*') in (?P<place>(?:the |[^']).*)")
 _ORDER = regex(r"^(the (?:coordinate|velocity|acceleration|momentum)) (\S+) (cannot stand in .*)$")
 _MISSING_LINE = regex(r"a line '\w+:' is missing")
@@ -251,9 +253,11 @@ def one_for_undeclared(
         The list or map of parameters as the file writes it; nothing where it has none.
     """
     diagnostics = _once_by_name(diagnostics)
-    moving = {each.message.split("'")[1] for each in diagnostics if each.hint == COORDINATE}
+    moving = {name: COORDINATE for each in diagnostics if (name := undeclared_velocity(each))}
+    by_others = [each for each in diagnostics if BY_OTHERS in each.hint]
+    moving = {each.message.split("'")[1]: each.hint for each in by_others} | moving
     diagnostics = [
-        replace(each, hint=COORDINATE)
+        replace(each, hint=moving[named[1]])
         if (named := _NAME.fullmatch(each.message)) and named[1] in moving
         else each
         for each in diagnostics
@@ -284,6 +288,11 @@ def one_for_undeclared(
         whole = Diagnostic(message, first.span, hint)
     one = [whole if each is first else each for each in kept]
     return tuple(each for each in one if not any(each is other for other in undeclared.values()))
+
+
+def undeclared_velocity(mistake: Diagnostic) -> str:
+    """The name of a velocity that belongs to no coordinate of the file; nothing for others."""
+    return mistake.message.split("'")[1] if mistake.hint == COORDINATE else ""
 
 
 def _declaration(parameters: str, names: list[str]) -> str:

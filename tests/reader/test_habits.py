@@ -490,7 +490,7 @@ HABITS = [
     (text(V="k*x?"), "leave it out"),
     (
         text(coordinates="[x, y]", T="m*(x'^2 + y'^2)/2", V="k*m/r"),
-        "its formula under 'definitions'",
+        "write r by them under 'definitions'",
     ),
     ("Freiheitsgrade: [x]\nT: x'^2/2\n", "the key is coordinates"),
     ("coordinates: [x]\nmasses: [m]\nT: m*x'^2/2\n", "the key is parameters"),

@@ -10,8 +10,8 @@ from typing import NamedTuple
 from lagcli.notation.greek import BY_LETTER, BY_NAME
 from lagcli.reader.foreign.indexed_sums import written_out
 from lagcli.reader.foreign.vector_products import vector_product
-from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant, parts_of
-from lagcli.reader.habits import REMARK, foreign_function, is_angle, unit_behind
+from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant, parts_of, polar_speed
+from lagcli.reader.habits import REMARK, foreign_function, unit_behind
 from lagcli.reader.regex import regex
 
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻½⅓⅔¼¾⅛"
@@ -232,19 +232,6 @@ def _square_of_speed(text: str, names: Vocabulary) -> str:
         squares = " + ".join(f"{x}^2" for x in names.coordinates)
         text = _LENGTH.sub(f" sqrt({squares}) ", text)
     return text
-
-
-def polar_speed(coordinates: tuple[str, ...]) -> str:
-    """The square of the speed in polar, cylindrical or spherical coordinates; else nothing."""
-    r, *others = coordinates
-    angles = [x for x in others if is_angle(x)]
-    if r not in {"r", "rho", "ρ"} or len(others) - len(angles) > 1 or not angles:
-        return ""
-    if len(angles) == 2 == len(others) and angles[0] in {"theta", "θ"}:
-        return f"{r}'^2 + {r}^2*{angles[0]}'^2 + {r}^2*sin({angles[0]})^2*{angles[1]}'^2"
-    if len(angles) == 1 and {*others} <= {*angles, "z"}:
-        return f"{r}'^2 + {r}^2*{angles[0]}'^2" + " + z'^2" * ("z" in others)
-    return ""
 
 
 def _distance(text: str, names: Vocabulary) -> str:

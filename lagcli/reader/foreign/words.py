@@ -42,7 +42,7 @@ class Vocabulary(NamedTuple):
     functions: frozenset[str] = frozenset()
     momenta: bool = False
     components: Mapping[str, str] = {}  #: of points: what `bob.x` is written as
-    moving: tuple[str, ...] = ()  #: definitions that depend on coordinates
+    moving: tuple[str, ...] = ()  #: definitions that depend on coordinates or on the time
     related: bool = False  #: in an equation, where v = ω R relates the velocities
 
     @property
@@ -139,7 +139,8 @@ def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
     if word in VELOCITIES and (names.related or alone):
         turns = word in {"omega", "ω"}
         alike = [x for x in names.coordinates if is_angle(x) == turns]
-        found |= {(x, 1) for x in alike if len(alike) == 1 and (alone or turns or not radial)}
+        polar = radial and not ({"s", *alike} == {"s"} and "z" not in names.coordinates)
+        found |= {(x, 1) for x in alike if len(alike) == 1 and (alone or turns or not polar)}
     if alone and names.coordinates[0] in {"q", "Q"} and word in {"i", "I"}:  # a current
         found.add((names.coordinates[0], 1))
     if names.momenta and alone and word in {"p", "P"}:
@@ -149,6 +150,25 @@ def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
     if names.momenta:
         found |= {(f"p_{x}", 0) for x in names.coordinates if word in _momenta(spelled_out(x))}
     return found.pop() if len(found) == 1 else None
+
+
+def square_of_speed(coordinates: tuple[str, ...]) -> str:
+    """The square of the speed in Cartesian or polar coordinates; else nothing."""
+    cartesian = {*coordinates} <= {*"xyz"}
+    return " + ".join(f"{x}'^2" for x in coordinates) if cartesian else polar_speed(coordinates)
+
+
+def polar_speed(coordinates: tuple[str, ...]) -> str:
+    """The square of the speed in polar, cylindrical or spherical coordinates; else nothing."""
+    r, *others = coordinates
+    angles = [x for x in others if is_angle(x)]
+    if r not in {"r", "rho", "ρ"} or len(others) - len(angles) > 1 or not angles:
+        return ""
+    if len(angles) == 2 == len(others) and angles[0] in {"theta", "θ"}:
+        return f"{r}'^2 + {r}^2*{angles[0]}'^2 + {r}^2*sin({angles[0]})^2*{angles[1]}'^2"
+    if len(angles) == 1 and {*others} <= {*angles, "z"}:
+        return f"{r}'^2 + {r}^2*{angles[0]}'^2" + " + z'^2" * ("z" in others)
+    return ""
 
 
 def momentum_meant(word: str, coordinates: Sequence[str]) -> str:
