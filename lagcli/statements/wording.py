@@ -213,6 +213,14 @@ def turning_contacts(motion: OneFreedom) -> Iterator[Paragraph]:
             yield Paragraph((*place, " ", *demands, f"{hold} for ", *conditions(where), "."))
 
 
+def while_contacts_last(motion: OneFreedom) -> list[Part]:
+    """That one-sided contacts and the signs of what was eliminated limit the motion."""
+    if not (motion.one_sided or motion.signed):
+        return []
+    demands, hold = _demands(motion)
+    return [" as long as ", *demands, hold]
+
+
 def _demands(motion: OneFreedom) -> tuple[list[Part], str]:
     """What must hold at a turning point, and the verb."""
     several = len(motion.signed) > 1

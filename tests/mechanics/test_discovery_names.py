@@ -10,6 +10,9 @@ import pytest
 import sympy
 
 from lagcli.algebra import is_zero
+from lagcli.mechanics.discovery.brackets import ChargeBrackets
+from lagcli.mechanics.discovery.lie_algebra import name_of
+from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.reader import parse_text
 
@@ -452,3 +455,21 @@ def test_what_is_linear_in_the_velocities_is_no_energy_of_a_coordinate(seed, tur
     found = names_of(text)
     assert ("energy_x" in found) is not turning
     assert len(found) >= 2
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_constant_beside_an_angular_momentum_changes_no_name(seed):
+    """{A_x, A_y} = -2 E L of Kepler's problem is -2 E (L + s) + 2 s E; L^2 + E is another thing."""
+    derivation = derive(
+        f"{{coordinates: [x, y], parameters: {{k: {POS}}}, T: (x'^2 + y'^2)/2, V: -k/sqrt(x^2 + y^2)}}"
+    )
+    of = {c.name: c.charge for c in derivation.discovery.charges}
+    energy, turn = of["energy"], of["L_z"]
+    axes = [of["runge_lenz_x"], of["runge_lenz_y"]]
+    s = sympy.Rational(Random(seed).randint(1, 9), 4)
+    for momentum, name in ((turn + s, "so(3) where the energy is negative"), (turn + energy, None)):
+        brackets = ChargeBrackets([energy, momentum, *axes], derivation.dynamics, Allowance())
+        structure = brackets.structure([1, 2, 3], 0)
+        found = None if structure is None else name_of(structure)
+        assert (found or "").startswith(name or "")
+        assert (name is None) == (found is None)

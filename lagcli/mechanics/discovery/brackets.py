@@ -23,12 +23,10 @@ from dataclasses import dataclass
 from itertools import chain
 
 import mpmath
-import sympy
 from mpmath import mpf
 from sympy import Expr
 
-from lagcli.algebra import derivative, simplify
-from lagcli.algebra.build import free_of
+from lagcli.algebra import derivative
 from lagcli.algebra.numeric import DIGITS, Evaluator, with_assumed_sign
 from lagcli.algebra.row_rank import nullspace, rank
 from lagcli.mechanics.discovery.limits import Allowance
@@ -90,15 +88,7 @@ class ChargeBrackets:
         self._constraints = len(surface)
         q, v = system.q, system.qdot
         slopes = [[derivative(Q, x) for x in (*q, *v)] for Q in (*charges, *surface)]
-        # without the s of p_phi + s: {A_x, A_y} = -2 E p_phi has no E s
-        still = dict.fromkeys(v, sympy.S.Zero)
-        moving = [
-            Q - simplify(Q.xreplace(still)).as_independent(system.t, *q, as_Add=True)[0]
-            if all(free_of(slope, v) for slope in by_state[len(q) :])
-            else Q
-            for Q, by_state in zip(charges, slopes, strict=False)
-        ]
-        self.charges = (*moving, *surface)
+        self.charges = (*charges, *surface)
         self.dynamics, self.allowed = dynamics, allowed
         expressions: list[Expr] = [*self.charges, *chain.from_iterable(slopes)]
         expressions += [m for row in dynamics.lagrange.mass_matrix for m in row]
@@ -250,13 +240,13 @@ class ChargeBrackets:
 
     def _structure(self, chosen: list[int], energy: int | None) -> Structure | None:
         count = len(chosen)
-        width = count + 1 + (0 if energy is None else count)
+        width = count + 1 if energy is None else 2 * count + 2
         samples = self.samples(width + _CHECKS)
 
         def row(sample: Sample) -> Vector:
-            values = [sample.values[a] for a in chosen]
+            values = [*(sample.values[a] for a in chosen), mpf(1)]
             more = [] if energy is None else [sample.values[energy] * x for x in values]
-            return [*values, mpf(1), *more]
+            return [*values, *more]
 
         try:
             inverse = mpmath.matrix([row(s) for s in samples[:width]]) ** -1
@@ -265,6 +255,7 @@ class ChargeBrackets:
         constants = [[[mpf(0)] * count for _ in chosen] for _ in chosen]
         second = [[[mpf(0)] * count for _ in chosen] for _ in chosen]
         central = [[mpf(0)] * count for _ in chosen]
+        shifts: list[Vector] = []  # rows of C s = K, where the energy has coefficients
         for i in range(count):
             for j in range(i):
                 self.allowed.check()
@@ -278,8 +269,14 @@ class ChargeBrackets:
                     constants[a][b] = [sign * x for x in c[:count]]
                     central[a][b] = sign * c[count]
                     if energy is not None:
-                        second[a][b] = [sign * x for x in c[count + 1 :]]
-        return Structure(constants, central, None if energy is None else second)
+                        second[a][b] = [sign * x for x in c[count + 1 : -1]]
+                shifts += [c[: count + 1], c[count + 1 :]]
+        if energy is None:
+            return Structure(constants, central)
+        # without the s of p_phi + s: {A_x, A_y} = -2 E p_phi has no E s
+        if rank([row[:-1] for row in shifts]) < rank(shifts):
+            return None
+        return Structure(constants, [[mpf(0)] * count for _ in chosen], second)
 
 
 def _on_surface(sample: Sample, count: int) -> Sample:

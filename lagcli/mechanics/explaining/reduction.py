@@ -31,6 +31,7 @@ from lagcli.statements.wording import (
     place_rows,
     turning_contacts,
     used_to_eliminate,
+    while_contacts_last,
 )
 
 _TWICE = "the period is twice the time between the turning points."
@@ -163,8 +164,10 @@ def _one_freedom(motion: OneFreedom, potential: Part) -> Iterator[Block]:
             yield says("for ", *conditions(motion.turning_finite), ".")
         for lower, upper in motion.turning_energies:
             yield says("They are real for ", lower, " ≤ ", E, " ≤ ", upper, ".")
-            onwards = (", ", q, " does not turn back.") if motion.regular else (" there is none.",)
-            yield says("For larger ", E, *onwards)
+            onwards: list[Part] = [" there is none"]
+            if motion.regular:
+                onwards = [", ", q, " does not turn back", *while_contacts_last(motion)]
+            yield says("For larger ", E, *onwards, ".")
         yield from turning_contacts(motion)
     else:
         yield says("It has no turning point.")

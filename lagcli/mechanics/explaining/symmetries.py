@@ -7,11 +7,27 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 from typing import cast
 
-from sympy import Expr, Matrix, N, Poly, Rational, S, Symbol, cos, cosh, exp, sin, sinh
+from sympy import (
+    Add,
+    Expr,
+    Matrix,
+    N,
+    Poly,
+    Rational,
+    S,
+    Symbol,
+    cos,
+    cosh,
+    exp,
+    expand,
+    sin,
+    sinh,
+)
 
 from lagcli.algebra import dot, is_zero, shape, simplify
 from lagcli.algebra.build import free_of
 from lagcli.algebra.place import NO_VALUE
+from lagcli.algebra.signs import sign
 from lagcli.algebra.vanishing_factors import may_vanish
 from lagcli.document import Block, Bracket, Equations, Heading, Label, Row, equations_of
 from lagcli.expression import ZERO, Expression, Name, Power, sum_of, walk
@@ -24,6 +40,7 @@ from lagcli.mechanics.discovery.reality import real_where
 from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, constraints_allow, listed, says
+from lagcli.mechanics.rest.rest_conditions import given_formulas
 from lagcli.notation.letters import names_in
 from lagcli.notation.ordering import positive_first
 from lagcli.statements.answers import (
@@ -170,7 +187,7 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
     if found.in_involution is None:
         yield says(*_no_brackets(explainer))
     yield from _brackets(explainer, found)
-    yield from _degenerate(explainer)
+    yield from _in_general(explainer)
     yield from _dimension(found)
     number, n = found.independent, explainer.dynamics.degrees_of_freedom
     if found.number > 1 and number is not None:
@@ -183,8 +200,11 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
     yield from _at_special_values(explainer, found)
 
 
-def _degenerate(explainer: Explainer) -> Iterator[Block]:
-    """Where rates or roots of parameters vanish: sin(a t) is 0 at a = 0, exp(a t) is exp(-a t)."""
+def _in_general(explainer: Explainer) -> Iterator[Block]:
+    """That special values of the parameters are left out, and where rates or roots vanish.
+
+    sin(a t) is 0 at a = 0, and sqrt(b^2 - c) beside its negative may coincide at 0.
+    """
     charges, system = explainer.derivation.discovery.charges, explainer.system
     bounds = [each for charge in charges for each in real_where(charge, system)]
     rates = {f**2 for charge in charges for f in _rates(charge.charge, system.t)}
@@ -193,10 +213,32 @@ def _degenerate(explainer: Explainer) -> Iterator[Block]:
     where: list[Part] = []
     for left, right in sides:
         left = left.base if isinstance(left, Power) and right == ZERO else left
-        where += [" or " if where else "", left, " = ", right]
+        where += [" or " if where else ": where ", left, " = ", right]
     if where:
-        yield says("Where ", *where, ", some of these may vanish or coincide: the following is "
-                   "for other values.")  # fmt: skip
+        where += [" it may be otherwise"]
+    if where or _is_special_somewhere(explainer):
+        yield says("The following is for general values of the parameters", *where, ".")
+
+
+def _is_special_somewhere(explainer: Explainer) -> bool:
+    """Whether parameters of L or of forces may be 0, or all coefficients of a charge."""
+    system = explainer.system
+    L, *forces = given_formulas(explainer.dynamics)
+    used = {p for formula in (L, *forces) for p in formula.free_symbols} & {*system.parameters}
+    moving = (system.t, *system.q, *system.qdot)
+    return any(sign(p) not in (1, -1) for p in used) or any(
+        all(sign(c) not in (1, -1) for c in _coefficients(charge.charge, moving))
+        for charge in explainer.derivation.discovery.charges
+    )
+
+
+def _coefficients(formula: Expr, moving: Sequence[Symbol]) -> list[Expr]:
+    """Those of the different functions of the moving quantities that it is a sum of."""
+    found: dict[Expr, Expr] = {}
+    for term in Add.make_args(expand(formula)):
+        constant, function = term.as_independent(*moving, as_Add=False)
+        found[function] = found.get(function, S.Zero) + constant
+    return [simplify(c) for c in found.values()]
 
 
 def _rates(formula: Expr, t: Symbol) -> Iterator[Expr]:
