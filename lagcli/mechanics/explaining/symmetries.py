@@ -30,9 +30,8 @@ from lagcli.algebra.place import NO_VALUE
 from lagcli.algebra.signs import sign
 from lagcli.algebra.vanishing_factors import may_vanish
 from lagcli.document import Block, Bracket, Equations, Heading, Label, Row, equations_of
-from lagcli.expression import ZERO, Expression, Name, Power, sum_of, walk
+from lagcli.expression import ZERO, Expression, Name, sum_of, walk
 from lagcli.mechanics.canonical.poisson import poisson
-from lagcli.mechanics.conditions import conditions as conditions_of
 from lagcli.mechanics.discovery.isometries import THEY_ARE
 from lagcli.mechanics.discovery.lie_algebra import MODULO_CONSTANTS
 from lagcli.mechanics.discovery.limits import TooMuchWork
@@ -41,7 +40,6 @@ from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, constraints_allow, listed, says
 from lagcli.mechanics.rest.rest_conditions import given_formulas
-from lagcli.notation.letters import names_in
 from lagcli.notation.ordering import positive_first
 from lagcli.statements.answers import (
     AlgebraSection,
@@ -201,34 +199,26 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
 
 
 def _in_general(explainer: Explainer) -> Iterator[Block]:
-    """That special values of the parameters are left out, and where rates or roots vanish.
-
-    sin(a t) is 0 at a = 0, and sqrt(b^2 - c) beside its negative may coincide at 0.
-    """
-    charges, system = explainer.derivation.discovery.charges, explainer.system
-    bounds = [each for charge in charges for each in real_where(charge, system)]
-    rates = {f**2 for charge in charges for f in _rates(charge.charge, system.t)}
-    bounds += conditions_of(sorted(rates, key=str), system.order)
-    sides = {(each.left, each.right): each for each in bounds if "t" not in names_in(each)}
-    where: list[Part] = []
-    for left, right in sides:
-        left = left.base if isinstance(left, Power) and right == ZERO else left
-        where += [" or " if where else ": where ", left, " = ", right]
-    if where:
-        where += [" it may be otherwise"]
-    if where or _is_special_somewhere(explainer):
-        yield says("The following is for general values of the parameters", *where, ".")
+    """That special values of the parameters are left out."""
+    if _is_special_somewhere(explainer):
+        yield says("The following is for general values of the parameters.")
 
 
 def _is_special_somewhere(explainer: Explainer) -> bool:
-    """Whether parameters of L or of forces may be 0, or all coefficients of a charge."""
-    system = explainer.system
+    """Whether there may be values at which charges vanish or coincide, or brackets vanish.
+
+    A parameter of L or of forces may be 0, or a root or a rate, as a of sin(a t), or all
+    coefficients of a charge.
+    """
+    system, charges = explainer.system, explainer.derivation.discovery.charges
     L, *forces = given_formulas(explainer.dynamics)
     used = {p for formula in (L, *forces) for p in formula.free_symbols} & {*system.parameters}
     moving = (system.t, *system.q, *system.qdot)
     return any(sign(p) not in (1, -1) for p in used) or any(
-        all(sign(c) not in (1, -1) for c in _coefficients(charge.charge, moving))
-        for charge in explainer.derivation.discovery.charges
+        real_where(each, system)
+        or any(_rates(each.charge, system.t))
+        or all(sign(c) not in (1, -1) for c in _coefficients(each.charge, moving))
+        for each in charges
     )
 
 
