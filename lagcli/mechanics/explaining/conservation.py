@@ -154,7 +154,7 @@ def _work_of_drive(explainer: Explainer) -> Iterator[Block]:
     if rate == 0:
         yield says(*both, " is conserved as well.")
         return
-    drive = ": the prescribed motion does work on it. Its rate is"
+    drive = ": the prescribed motion does work on the system. The rate is"
     yield says(*both, " is not conserved", *_unless(explainer, rate), drive)
     total = letters.T if len(both) == 1 else Sum((letters.T, letters.V))
     yield shows(Rate(total), explainer.readable.on_surface(rate))
