@@ -305,6 +305,13 @@ class Dynamics:
         matrix += [[*e.row, *none] for e in rows]
         return matrix, [*self.lagrange.forcing, *(-e.bias for e in rows)]
 
+    @property
+    def without_reactions(self) -> bool:
+        """Whether velocity constraints hold by themselves: each multiplier is 0 on the motion."""
+        on_velocities = not any(e.holonomic for e in self.constraints.equations)
+        known = () if self.motion is None else self.motion.multipliers
+        return on_velocities and bool(known) and all(value == 0 for value in known)
+
     @cached_property
     def determined_multipliers(self) -> tuple[tuple[Expr | None, ...], Verification | None]:
         """Those that the equations determine though q'' is not, and how that was verified."""

@@ -190,6 +190,20 @@ def test_what_is_a_function_of_the_others_is_not_missed(friction):
     assert not found.stopped
 
 
+@pytest.mark.parametrize("a", [1, -2, 3])
+def test_constraints_that_free_motion_fulfils_cost_no_symmetry(a):
+    """z' = a (y x' - x y') of straight lines: z'' = a (y x'' - x y'') is 0 by itself.
+
+    x', y' and the places at t = 0 are five constants of it.
+    """
+    found = derive(
+        f"{{coordinates: [x, y, z], T: (x'^2 + y'^2 + z'^2)/2, "
+        f"constraints: {{c: z' = {a}*(y*x' - x*y')}}}}"
+    ).discovery
+    assert {"p_x", "p_y", "boost_x"} <= {c.name for c in found.charges}
+    assert summary(found).independent == 5
+
+
 def test_on_a_turning_wire_the_five_are_constant_along_the_known_motion():
     """r = A exp(w t) + B exp(-w t) + g sin(w t)/(2 w^2) solves r'' = w^2 r - g sin(w t)."""
     derivation = derived("driven/bead-on-wire-turning-in-vertical-plane")

@@ -227,7 +227,8 @@ class Discovery(Setting):
         transformations = centralized(transformations, self.system, allowed, self.cartesian)
         if constraints:
             self._of_lagrangian = transformations
-            transformations = tangent(transformations, self.dynamics, allowed)
+            if not self.dynamics.without_reactions:
+                transformations = tangent(transformations, self.dynamics, allowed)
         lengths = self.isometries.translated if self.isometries else ()
         for transformation in transformations:
             allowed.check()
