@@ -15,7 +15,7 @@ from lagcli.algebra import is_zero
 from lagcli.algebra.build import Builder, symbol
 from lagcli.expression import Call, Expression, Name, Number, Power, Sum, walk
 from lagcli.formatters.grammar import to_grammar
-from lagcli.mechanics.reduction.period import ratio_series
+from lagcli.mechanics.reduction.ratio_series import ratio_series
 from lagcli.mechanics.reduction.statement import Missing, reduction
 from lagcli.reader import parse_text
 from lagcli.statements.answers import ReductionSection

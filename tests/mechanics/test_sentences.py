@@ -55,7 +55,9 @@ def test_on_a_driven_wire_h_is_conserved_and_the_drive_does_work(seed):
     text = f"coordinates: [r]\nparameters: [m, w, k]\nT: m*(r'^2 + w^2*{shape})/2{mixed}\nV: k*r^4"
     sentences = said(text, "The energy")
     assert "h, Jacobi's integral, is conserved." in sentences
-    assert "is not conserved unless w = 0: the prescribed motion does work on the system" in sentences
+    assert (
+        "is not conserved unless w = 0: the prescribed motion does work on the system" in sentences
+    )
     energy = derive(text).energy
     assert energy.conserved
     at = {name: source.uniform(0.3, 0.9) for name in ("m", "w", "k", "r", "r'")}
