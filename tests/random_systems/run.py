@@ -6,6 +6,7 @@ One worker imports once and forks for each system, so that a crash or a hang is 
 from __future__ import annotations
 
 import argparse
+import gc
 import importlib
 import json
 import os
@@ -134,6 +135,8 @@ def _import_all() -> None:
     for module in pkgutil.walk_packages(lagcli.__path__, "lagcli."):
         if not module.name.endswith("__main__"):
             importlib.import_module(module.name)
+    gc.collect()
+    gc.freeze()  # a collection in a fork would write to, and so copy, all pages
 
 
 if __name__ == "__main__":
