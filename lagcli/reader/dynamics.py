@@ -38,8 +38,11 @@ _GRADIENT = regex(
 _POINT_ATTRIBUTES = ("position", "mass", "force")
 
 
-def check_energies(file: FileReader, given: dict[str, Scalar]) -> None:
+def check_energies(file: FileReader, entries: dict[str, tuple[Scalar, DocumentNode]]) -> None:
     """The kinetic energy comes from one place: L, or H, or T, or the masses of the points."""
+    given = {key: name for key, (name, _) in entries.items()}
+    texts = {key: node.value for key, (_, node) in entries.items() if isinstance(node, Scalar)}
+    file.scope.energies = {key: text for key, text in texts.items() if key in {"T", "V"}}
     for whole, others in (("L", "TV"), ("H", "LTV")):
         both = [key for key in others if whole in given and key in given]
         if both:
@@ -51,8 +54,11 @@ def check_energies(file: FileReader, given: dict[str, Scalar]) -> None:
             if both[1:] and "L" not in both:
                 at, related = whole, ((given[both[0]].span, f"{both[0]} is given here"),)
                 hint = "leave out L: it is T - V" if whole == "L" else "leave out H: it is derived"
+            if whole == "H" and both == ["V"]:
+                hint = "leave it out where H has its formula, or give T and V"
             file.error(message, given[at].span, hint, related)
-            file.scope.refused += both  # as in L: T - V
+            if whole != "H" or both != ["V"]:  # H: p^2/(2*m) + V has other mistakes
+                file.scope.refused += both  # as in L: T - V
 
 
 def check_masses(file: FileReader, problem: Problem, span: Span) -> None:

@@ -97,6 +97,8 @@ def key_meant(word: str, known: tuple[str, ...]) -> str | None:
         return word
     keys = habits()["keys"]
     spelled = word.casefold().replace(" ", "_").replace("-", "_")
+    if spelled in known:
+        return spelled
     for written in (word, spelled):
         for key in known:
             if written in keys.get(key, ()):

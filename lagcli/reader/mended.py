@@ -250,6 +250,6 @@ def _with_rest(one: _Followed, number: int, state: _State) -> Diagnostic:
     pairs = zip(state.text.source.text, state.origins, strict=True)
     whole = "".join(each for each, origin in pairs if origin == -1 - number).lstrip("\n")
     hint = one.mistake.hint
-    if not one.written or whole == one.written or not PROPOSED.fullmatch(hint):
+    if not one.written or whole in {"", one.written} or not PROPOSED.fullmatch(hint):
         return one.mistake
     return replace(one.mistake, hint=hint.replace(one.written, whole, 1))

@@ -120,7 +120,10 @@ def _order(node: Expression, scope: Scope) -> int:
 
 #: Kind -> the role's permission, what it is called, and a hint where it is not allowed.
 _WITHOUT_PRIMES = {
-    "multiplier": ("multipliers", "a multiplier", ""),
+    "multiplier": (
+        "multipliers", "a multiplier",
+        "write this force out, as in m*g on a level floor, m*g*cos(alpha) on a slope",
+    ),
     "contact force": (
         "contact_forces", "a multiplier",
         "the forces of contacts are known along a numerical run only",
@@ -160,6 +163,8 @@ def _name(
             allowed, thing, hint = _WITHOUT_PRIMES[kind]
             if not getattr(role, allowed):
                 article = "the multiplier " if kind == "multiplier" else ""
+                if article and what in {"T", "V", "L", "H"}:
+                    hint = "the forces of constraints are found without it"
                 yield Diagnostic(f"{article}'{name}' cannot stand in {what}", node.span, hint)
             elif node.primes:
                 yield Diagnostic(f"{thing} has no primes", node.span)

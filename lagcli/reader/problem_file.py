@@ -230,7 +230,7 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
     names = {one.key.label for one in constraints}
     contacts = declare_contacts(file, section("contacts"), names)
     check_momenta(file)
-    check_energies(file, {key: name for key, (name, _) in given.items()})
+    check_energies(file, given)
 
     parameters_read = read_parameters(file, parameters)
     definitions_read = read_definitions(file, definitions)

@@ -12,6 +12,7 @@ from lagcli.reader.constants import value_cycle
 from lagcli.reader.habits import (
     SIGNS,
     is_constant,
+    name_meant,
     names_among,
     number_and_unit,
     spoken_unit,
@@ -402,9 +403,11 @@ def _pairs(node: DocumentNode, section: str) -> str:
         source = [item.text.source.text[item.start : item.end] for item in node.items]
         source = [re.sub(r"^\[(\w+),\s*([^,\]]+)\]$", r"\1: \2", text) for text in source]
         source = [_PRODUCT.sub(lambda m: re.sub("[ *]", "", m[0]), text) for text in source]
+        source = [_with_sign(text) for text in source]  # r > 0
+        is_map = section == "parameters" or any("{assume" in text for text in source)
         given = [re.fullmatch(r"(\w+)\s*[=:]\s*(\S.*?)\s*", text) for text in source]
         given = [] if any(each and re.search(r"\(['\"]", each[2]) for each in given) else given
-        if any(given) and not all(given) and section == "parameters":  # [m, g = 9.81]
+        if any(given) and not all(given) and is_map:  # [m, g = 9.81]
             parts = [
                 f"{each[1]}: {each[2]}" if each else text
                 for each, text in zip(given, source, strict=True)
@@ -413,6 +416,12 @@ def _pairs(node: DocumentNode, section: str) -> str:
     if not given or not all(given):
         return ""
     return ", ".join(f"{each[1]}: {each[2]}" for each in given if each)
+
+
+def _with_sign(text: str) -> str:
+    """`r: {assume: positive}` for `r > 0`; other texts as they are."""
+    meant = name_meant(text) if re.search("[<>!≥≠]", text) else ""
+    return meant if "{assume" in meant else text
 
 
 def _has_attributes(node: DocumentNode) -> bool:

@@ -109,9 +109,12 @@ def _in_whole(
     """The same without names for what moves."""
     if what in {"T", "L"} and (energy := _energy_meant(found, node, what, scope, role)):
         return [energy]
-    by_momenta = _hamiltonian_meant(node.value) if what == "H" else ""
+    of_key = what not in {"T", "V"} and any("is a key and not a name" in x.hint for x in found)
+    energy = _with_energies(node.value, scope) if of_key else node.value
+    by_momenta = _hamiltonian_meant(energy) if what == "H" or (of_key and role.momenta) else ""
     if by_momenta and _is_read(by_momenta, scope, role, what):
-        return [replace(found[0], hint=f"write {by_momenta}: {found[0].hint}")]
+        why = found[0].hint.removesuffix(": write its formula")
+        return [replace(found[0], hint=f"write {by_momenta}: {why}")]
     if what == "V" and (force := _FORCE.fullmatch(node.value)):
         along, *others = [*scope.of_kind("coordinate"), "x"]
         law = "…" if others[1:] else force[1].strip()
@@ -135,7 +138,7 @@ def _in_whole(
         hint = "write a formula" if role.order > 0 else "write a number or a parameter"
         hint = "write left = right, as in x' = R*theta'" if read is read_equation else hint
         return [Diagnostic("a sentence is no formula", node.span, hint)]
-    for written in _written(node.value, scope, equation=read is not read_expression):
+    for written in _written(energy, scope, equation=read is not read_expression):
         try:
             names = _vocabulary(scope, role)
             whole = translated(written, names._replace(related=read is read_equation))
@@ -312,6 +315,17 @@ def _hamiltonian_meant(text: str) -> str:
     moving = [each for each in terms if "'" in text[slice(*source.offsets(each.span))]]
     kinetic = Sum(tuple(moving)) if moving[1:] else next(iter(moving), None)
     return "" if kinetic is None else with_momenta(text, kinetic, source)
+
+
+def _with_energies(text: str, scope: Scope) -> str:
+    """The text with the formulas of the file for T and V, which are no names."""
+
+    def formula(found: re.Match[str]) -> str:
+        written = "" if found[0] in scope.kinds else scope.energies.get(found[0], "").strip()
+        is_sum = re.search(r"\S\s*[-+]|^-", written) is not None
+        return f"({written})" if is_sum else written or found[0]
+
+    return re.sub(r"(?<!\w)[TV](?![\w'’(])", formula, text)
 
 
 def _is_read(text: str, scope: Scope, role: Role, what: str) -> bool:

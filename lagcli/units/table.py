@@ -29,6 +29,8 @@ class Meaning(NamedTuple):
 def meaning(name: str) -> Meaning | None:
     """The meaning of a unit's name or symbol, with a prefix or without; None: there is none."""
     units, prefixes = _table()
+    if name == "kilos":  # kg, no kilosecond
+        return None
     for shown in (name, name[:-1] if len(name) > _SHORTEST_PLURAL and name[-1] == "s" else ""):
         if shown in units:
             return _meaning(units[shown], 1)
@@ -63,4 +65,4 @@ def _meaning(entry: tuple[float, list[str]], prefix: float) -> Meaning:
 @cache
 def _table() -> tuple[_Units, dict[str, float]]:
     table = json.loads(TABLE.read_bytes())
-    return table["units"], table["prefixes"]
+    return {**table["units"], "°": table["units"]["deg"]}, table["prefixes"]

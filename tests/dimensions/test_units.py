@@ -95,7 +95,7 @@ def test_a_unit_means_what_it_means_to_pint(text, pints):
         ("c", 0, "unknown unit"),
         ("m" * 201, 0, "more than 200"),
         ("(" * 100 + "m", 99, "never closed"),
-        ("°", 0, "unknown unit"),
+        ("º", 0, "unknown unit"),
     ],
 )
 def test_a_wrong_unit_is_told_with_its_place(text, start, piece):

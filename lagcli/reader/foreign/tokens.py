@@ -121,6 +121,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = re.sub(r"\\(?:begin|end)\s*\{\w+\*?\}|\\[()\[\]]", " ", text)
     text = re.sub(r"<su(p|b)>(\w+)</su\1>", lambda m: ("_" if m[1] == "b" else "^") + m[2], text)
     text = re.sub(r"(?<![\\\w])([^\W\d_]+)(['’′]+)_(?:\{(\w+)\}|(\w+))", r"\1_\3\4\2", text)  # x'_1
+    text = re.sub(r"(?<![\\\w])([^\W\d_]+)(['’′]+)(\d+)(?!\w)", lambda m: _numbered(m, names), text)
     text = re.sub(
         r"\\(d?dot)\s*(?:\{\s*(\\?[^\W\d_]+)\s*\}|(\w))\s*_(?:\{(\w+)\}|(\w))",
         r"\\\1{\2\3_\4\5}",
@@ -161,6 +162,12 @@ def prepared(text: str, names: Vocabulary) -> str:
         return "" if is_name and found[1] not in names.known else found[0]
 
     return _OWNER.sub(without_owner, text)
+
+
+def _numbered(found: re.Match[str], names: Vocabulary) -> str:
+    """`x1'` for `x'1`, where x1 is a name."""
+    word, primes, index = found.groups()
+    return word + index + primes if word + index in names.dependent else found[0]
 
 
 def _by_components(found: re.Match[str]) -> str:
