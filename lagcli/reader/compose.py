@@ -21,6 +21,8 @@ from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
 
 #: An entry of a map in braces that YAML reads as a key: `t; 1`, `mass= m`, `t :1`, `x 1`, `y x`.
+#: Keys that stand beside the equation of a constraint.
+_BESIDE_EQUATION = ("multiplier", "holds_while", "on_loss", "acts_as", "lambda")
 _WITHOUT_COLON = regex(
     r"(?P<key>[^\W\d]\w*'*)(?:\s*[;=](?!>)\s*|\s*:(?=\S)|\s+(?=[.\d])|\s+(?=[-\w.+*/^'()]+$))"
     r"(?P<value>[^:;]+)"
@@ -198,10 +200,12 @@ class _Composer:
                 continue
             equations = [each for each in values if isinstance(each, Scalar) and "=" in each.value]
             if equations and "=" in key.value and split["key"] not in SECTIONS:
-                message = f"the equation '{key.value}' has no name"
-                self._report(key.start, key.end, message, f"write name: {key.value}")
+                beside = {*_BESIDE_EQUATION} & {getattr(each, "label", "") for each in keys}
+                name = "equation" if beside else "name"
+                message = f"the equation '{key.value}' has no {'key' if beside else 'name'}"
+                self._report(key.start, key.end, message, f"write {name}: {key.value}")
                 value = Scalar(self.text, key.start, key.end, key.value, "", True)
-                mended += [Scalar(self.text, key.start, key.start, "name", "", True), value]
+                mended += [Scalar(self.text, key.start, key.start, name, "", True), value]
                 continue
             hint = f"write {split['key']}: {split['value']}"
             self._report(key.start, key.end, f"': ' is missing behind '{split['key']}'", hint)

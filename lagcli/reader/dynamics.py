@@ -10,7 +10,7 @@ from lagcli.reader.by_coordinate import by_name, coordinate_meant, of_vectors
 from lagcli.reader.file_reader import Required
 from lagcli.reader.foreign.words import polar_speed
 from lagcli.reader.growth import growth
-from lagcli.reader.habits import colon_advice, is_angle
+from lagcli.reader.habits import colon_advice, is_angle, key_meant
 from lagcli.reader.headings import forces_without_headings, without_headings
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.misshapen import as_list, source_of
@@ -42,7 +42,7 @@ def check_energies(file: FileReader, entries: dict[str, tuple[Scalar, DocumentNo
     """The kinetic energy comes from one place: L, or H, or T, or the masses of the points."""
     given = {key: name for key, (name, _) in entries.items()}
     texts = {key: node.value for key, (_, node) in entries.items() if isinstance(node, Scalar)}
-    file.scope.energies = {key: text for key, text in texts.items() if key in {"T", "V"}}
+    file.scope.energies = {key: text for key, text in texts.items() if key in {"T", "V", "H"}}
     for whole, others in (("L", "TV"), ("H", "LTV")):
         both = [key for key in others if whole in given and key in given]
         if both:
@@ -216,7 +216,10 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
             )
             file.scope.refused.append("points")
             break
-        required = Required("position", key.span, f"write position: [{_by_axes(value)}]")
+        rest_of = _without_axes(value)
+        whole = f"position: [{_by_axes(value)}]"
+        whole = f"{key.label}: {{{whole}, {rest_of}}}" if rest_of else whole
+        required = Required("position", key.span, f"write {whole}")
         found = file.attributes(value, what, _POINT_ATTRIBUTES, required)
         attributes = {name: attribute for name, (_, attribute) in found.items()}
         if "position" not in attributes:
@@ -248,6 +251,14 @@ def _by_axes(node: DocumentNode) -> str:
     if "polar" in {key.label for key, _ in entries}:
         return "r*cos(phi), r*sin(phi)"
     return ", ".join(written) or "x, y"
+
+
+def _without_axes(node: DocumentNode) -> str:
+    """`mass: m` for `{x: x, y: 0, m: m}`."""
+    entries = node.entries if isinstance(node, Mapping) else []
+    given = [(key_meant(key.label, _POINT_ATTRIBUTES), value) for key, value in entries
+             if {each.label for each, _ in entries} & {*"xyz"}]  # fmt: skip
+    return ", ".join(f"{meant}: {source_of(value)}" for meant, value in given if meant)
 
 
 def read_components(
@@ -386,6 +397,9 @@ def read_by_coordinate(
             if section == "forces" and len(moved) == 1 and not hint:
                 terms = [source_of(v) for k, v in entries if k.label in (moved[0], key.label)]
                 hint = f"write {moved[0]}: {' + '.join(terms).replace('+ -', '- ')}"
+            if f"{key.label}.x" in file.scope.components and section == "forces":
+                whole = f"{key.label}: {{position: …, force: {source_of(value)}}}"
+                hint = f"a force on a point stands there: {whole}"
             hint = hint or f"it is given along a coordinate: {', '.join(coordinates)}{pointed}"
             if not file.scope.refused:
                 file.error(f"'{key.label}' in {section} is not a coordinate", key.span, hint)

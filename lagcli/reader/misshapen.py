@@ -30,7 +30,10 @@ FOUND = frozenset(
 )
 
 SEVERAL = "one value each, with a name of its own; several are run by lagcli sweep --vary"
-ALREADY_FOUND = "leave it out: equilibria, frequencies and charges are found"
+ALREADY_FOUND = (
+    "leave it out: equilibria, frequencies and charges are found by "
+    "lagcli solve FILE --show equilibria,modes,charges"
+)
 FRICTION = "a friction force -c*x' is written dissipation: c*x'^2/2"
 WITHOUT_HYPHENS = "leave out the '-' before each key"
 
@@ -86,7 +89,8 @@ def as_list(written: str) -> str:
 def as_rayleigh(forces: str) -> str:
     """`c*x'^2/2 + k*(y' - z')^2/2` for the sum `-c*x' - k*(y' - z')`; nothing for other texts.
 
-    Each term is linear in one velocity, or in a difference of velocities.
+    Each term is linear in one velocity, or in a difference of velocities.  A half without a minus
+    is that of the function.
     """
     found = []
     law = re.sub(r"(?<=[\w)])\s+(?=[\w(])", "*", re.sub(r"^\s*[FQ]\w*\s*=", "", forces))
@@ -98,7 +102,8 @@ def as_rayleigh(forces: str) -> str:
         at = term.index(moving[0]) + len(moving[0])
         if term[: at - len(moving[0])].rstrip().endswith("/"):
             return ""
-        found.append(f"{term[:at]}^2{term[at:]}/2")
+        has_half = re.search(r"^(?:1/2|0\.5)(?!\d)|/\s*2$", term) and not re.search("[-−]", law)
+        found.append(f"{term[:at]}^2{term[at:]}{'' if has_half else '/2'}")
     return " + ".join(found)
 
 

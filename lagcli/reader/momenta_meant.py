@@ -79,6 +79,16 @@ def with_velocities(text: str) -> str:
     return changed if changed != text else ""
 
 
+def rate_of(name: str, hamiltonian: str) -> str:
+    """`p_phi/(m*r^2)` for the velocity of phi where H has p_phi^2/(2*m*r^2) alone; else nothing."""
+    squares = [each for each in _SQUARE.finditer(hamiltonian) if each["name"] == name]
+    divisors = squares[0]["below"].split("*") if squares else []
+    if len(re.findall(rf"(?<!\w)p_{name}(?!\w)", hamiltonian)) != 1 or "2" not in divisors[:-1]:
+        return ""
+    divisors.remove("2")
+    return f"p_{name}/" + (f"({'*'.join(divisors)})" if divisors[1:] else divisors[0])
+
+
 def _inertia(factors: _Factors) -> str:
     """`m*l^2` for the factors of `m*l^2*theta'^2/2`: twice them, p = 2 a q' where T = a q'^2."""
     above, below = [*factors[0]], [*factors[1]]

@@ -327,6 +327,10 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
             for part in walk(each)
         ):
             hint = f"{written} is taken at the time t; there are no delays"
+        elif scope.kinds.get(name) == "definition" and all(
+            isinstance(each, Name) for each in node.arguments
+        ):
+            hint = f"a definition has no arguments: write {written}"
         elif scope.kinds.get(name) == "parameter" and node.arguments == (Name("t"),):
             hint = f"a function of time is declared as such: functions: {{{name}: [t]}}"
         yield Diagnostic(message, node.span, hint)

@@ -210,7 +210,7 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
         if call or given:
             hint = f"write {name}: [{call[2]}]" if call else f"write [{given}]"
             if not re.fullmatch(r"(?!\d)[\w\s,]*", given):
-                hint = f"a formula stands under definitions: {name}: {given}"
+                hint = f"a formula, without arguments, stands under definitions: {name}: {given}"
             file.error(f"{what} must be a list", (key if call else value).span, hint)
             file.scope.arity[name] = call[2].count(",") + 1 if call else 1
             continue

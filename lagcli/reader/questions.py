@@ -44,7 +44,6 @@ _SIMULATION_ATTRIBUTES = ("until", "accuracy", "method")
 
 #: An event for an end: `x = 0`, `y < 0`.
 _ENDS = regex(r"([^<>=≤≥]+)(?:[<>=]=?|≤|≥)([^<>=≤≥]+)")
-_REACHES = "as in reaches: theta = pi"
 
 #: What a question can be answered for.
 _UNKNOWN = Role(
@@ -104,7 +103,11 @@ def _state_name(
         if re.search(r"[=→>]", key.label):
             hint = f"write {name_meant(key.label)}"
         if momentum := momentum_meant(letters, coordinates):
+            from lagcli.reader.momenta_meant import rate_of
+
+            value_ = rate_of(momentum, file.scope.energies.get("H", ""))
             hint = f"a state has velocities, not momenta: give {momentum}'"
+            hint += f", which is {value_}" if value_ else ""
         if part := key_meant(key.label, _SIMULATION_ATTRIBUTES):
             inner = f"{part}: {source_of(value)}"
             hint = f"an end of the run stands under simulation: write simulation: {{{inner}}}"
@@ -199,6 +202,13 @@ def _reaching(
     file: FileReader, key: Scalar, place: DocumentNode, unknown: DocumentNode
 ) -> list[Question]:
     what = f"the question '{key.label}'"
+    angles = [x for x in file.scope.free if is_angle(x)]
+    along = (angles or file.scope.free or ["x"])[0]
+    example = f"as in reaches: {along} = {'pi' if angles else '1'}"
+    words = place.value if isinstance(place, Scalar) else ""
+    if re.fullmatch(r"[\w ]+", words) and not {*words.split()} & {"is", "equals"}:
+        file.error("a place is an equation of a coordinate", place.span, example)
+        return []
     before = len(file.diagnostics)
     equation = file.equation(place, what, POSITION)
     name = _parameter(file, unknown)
@@ -206,10 +216,10 @@ def _reaching(
         return []
     left = equation.left
     if not isinstance(left, Name) or file.scope.kinds.get(left.name) != "coordinate":
-        file.error(f"'reaches' is about a coordinate alone, {_REACHES}", place.span)
+        file.error("'reaches' is about a coordinate alone", place.span, example)
         return []
     if derivative_order(equation.right, file.scope) >= 0:
-        file.error(f"the place that is reached has no coordinate, {_REACHES}", place.span)
+        file.error("the place that is reached has no coordinate", place.span, example)
         return []
     return [
         Reaching(name=key.label, coordinate=left, value=equation.right, unknown=name, span=key.span)

@@ -110,8 +110,8 @@ def _in_whole(
     if what in {"T", "L"} and (energy := _energy_meant(found, node, what, scope, role)):
         return [energy]
     of_key = what not in {"T", "V"} and any("is a key and not a name" in x.hint for x in found)
-    energy = _with_energies(node.value, scope) if of_key else node.value
-    by_momenta = _hamiltonian_meant(energy) if what == "H" or (of_key and role.momenta) else ""
+    given = _with_energies(node.value, scope) if of_key else node.value
+    by_momenta = _hamiltonian_meant(given) if what == "H" or (of_key and role.momenta) else ""
     if by_momenta and _is_read(by_momenta, scope, role, what):
         why = found[0].hint.removesuffix(": write its formula")
         return [replace(found[0], hint=f"write {by_momenta}: {why}")]
@@ -124,6 +124,13 @@ def _in_whole(
         return unmoved
     if matrices := _of_matrices(node, what, scope):
         return [matrices]
+    if what == "'holds_while'" and found[0].message == "two statements in one":
+        parts = re.split(r"\s+and\s+", node.value)
+        forces = [
+            each for each in parts if {*re.findall(r"\w+", each)} & {*scope.of_kind("multiplier")}
+        ]
+        hint = f"a condition is one comparison: write {(forces or parts)[0]}"
+        return [replace(found[0], hint=hint)]
     too_large = "the limit is" in found[0].hint
     in_lines = any(each.message.startswith("two lines without") for each in found)
     by_name = read is read_expression and "is not a derivative" in found[0].message
@@ -136,9 +143,11 @@ def _in_whole(
         return found
     if is_sentence(node.value, scope.kinds):
         hint = "write a formula" if role.order > 0 else "write a number or a parameter"
-        hint = "write left = right, as in x' = R*theta'" if read is read_equation else hint
+        hint = (
+            f"write left = right, {_example(node.value, scope)}" if read is read_equation else hint
+        )
         return [Diagnostic("a sentence is no formula", node.span, hint)]
-    for written in _written(energy, scope, equation=read is not read_expression):
+    for written in _written(given, scope, equation=read is not read_expression):
         try:
             names = _vocabulary(scope, role)
             whole = translated(written, names._replace(related=read is read_equation))
@@ -224,6 +233,20 @@ def _unmoved(
 
     return [replace(each, hint=advice(*(_named_in(each) & names)))
             if _named_in(each) & names else each for each in found]  # fmt: skip
+
+
+def _example(text: str, scope: Scope) -> str:
+    """`as in s' = R*phi'` with the coordinates of the file, or one of lengths for a sentence."""
+    coordinates = [*scope.of_kind("coordinate"), "x"]
+    turning = [x for x in coordinates if is_angle(x)] or ["theta"]
+    moving = [x for x in coordinates if x not in turning]
+    if not re.search(r"length|distance|long|rigid|inextens|string|rope|\brod\b", text):
+        return f"as in {moving[0]}' = R*{turning[0]}'"
+    whole = " + ".join(moving[:-1] or turning)
+    squares = " + ".join(f"{x}^2" for x in moving[:-1] or turning)
+    return f"as in {whole} = l" + f", or {squares} = l^2" * (
+        {*moving} <= {*"xyz"} and moving[2:] != []
+    )
 
 
 def _is_of_accelerations(text: str, names: Vocabulary) -> bool:

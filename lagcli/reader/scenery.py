@@ -101,7 +101,8 @@ def _name(file: FileReader, node: DocumentNode, what: str, names: list[str]) -> 
     name = scalar.value.strip()
     if name in names:
         return name
-    known = f"there are {', '.join(names)}" if names else "declare it under points or places"
+    fixed = f"a fixed place stands beside it: places: {{{name}: [0, 0]}}"
+    known = f"there are {', '.join(names)}; {fixed}" if names else fixed
     hint = did_you_mean(name, names) or known
     if not file.scope.refused:
         file.error(f"{what}: there is no point '{name}'", scalar.span, hint)

@@ -109,7 +109,7 @@ class Scope:
     #: coordinates to which a constraint gives a value
     held: set[str] = field(default_factory=set)
 
-    #: the texts of T and V
+    #: the texts of T, V and H
     energies: dict[str, str] = field(default_factory=dict)
 
     #: what is written for a component of a point, `bob.x`, which has no name

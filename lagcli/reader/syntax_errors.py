@@ -115,7 +115,11 @@ def _unexpected_end(tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
     open_ = _open_parenthesis(tokens)
     if open_ is not None:
         missing = ")" * (excerpt.value.count("(") - excerpt.value.count(")"))
-        hint = f"did you mean {' '.join(excerpt.value.split())}{missing}?"
+        whole = " ".join(excerpt.value.split()) + missing
+        inner = excerpt.value[open_.end_pos :]
+        if missing == ")" and re.fullmatch(r"[^/]*[\w')]\s*\+[^/]*/\s*2\s*", inner):
+            whole = re.sub(r"\s*/\s*2\)$", ")/2", whole)  # m*(x'^2 + y'^2/2
+        hint = f"did you mean {whole}?"
         if excerpt.in_flow and re.match(r"\s*,", excerpt.text.source.text[excerpt.offsets[-1] :]):
             hint = "inside { } and [ ] a comma ends the value: put it in quotes"
         return Diagnostic("this parenthesis is never closed", _span(open_, excerpt), hint)

@@ -214,7 +214,7 @@ HABITS = [
     (text(T=None, points="{bob: {pos: [x, 0], mass: m}}"), "the key is position"),
     (text(T=None, points="{bob: {mass: m}}"), "write position: [x, y]"),
     ("- coordinates: [x]\n- T: x'^2\n", "leave out the '-' before each key"),
-    (text(T=None, points="{bob: {x: x, y: 0, mass: m}}"), "write position: [x, 0]"),
+    (text(T=None, points="{bob: {x: x, y: 0, mass: m}}"), "write bob: {position: [x, 0], mass: m}"),
     (text(T=None, points="{bob: {position: [x, 0], mass: 1 kg}}"), "write 1"),
     (text(dissipation="k*x'"), "dissipation: c*x'^2/2"),
     (text(dissipation="-k*x'^3"), "write forces: {x: -k*x'^3}"),

@@ -134,7 +134,7 @@ def test_a_comment_of_another_language_is_named(mark, above):
         (text(V="std::pow(x, 2)"), "write x^2"),
         (text(constraints='{a: "Eq(x, 1)"}'), "write x = 1"),
         (text(parameters="\n  m: 1\n  k: N/m"), "write {unit: N/m}"),
-        (text(coordinates="{x: {unit: °}}"), "did you mean 'deg'"),
+        (text(coordinates="{x: {unit: º}}"), "did you mean 'deg'"),
         (text(V="m*g*„x“"), "leave them out"),
         (text(expect="{eom: [m*x'' = -k*x]}"), "the key is equations"),
     ],

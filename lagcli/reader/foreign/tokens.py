@@ -78,8 +78,12 @@ _PRODUCT_OF_VECTORS = regex(
 #: A product of two vectors by their letters: A·v, dot(A, v), \\vec{A}\\cdot\\vec{v}.
 _LETTER_OF_VECTOR = r"\\?(?:(?:vec|mathbf|boldsymbol|bm)\s*)?\{?\s*([^\W\d_]'*)\s*\}?"
 _LETTERS_OF_VECTORS = regex(
-    rf"(?<![\w.}}]){_LETTER_OF_VECTOR}\s*(?:[·⋅∙•]|\\cdot(?![a-z])|\s\.\s)\s*{_LETTER_OF_VECTOR}(?![\w'(])"
+    rf"(?<![\w.}}]){_LETTER_OF_VECTOR}\s*(?:[·⋅∙•]|\\cdot(?![a-z])|\s\.\s|(?<=[vr])\.(?=[A-Z]\b)|(?<=[A-Z])\.(?=[vr]\b))\s*{_LETTER_OF_VECTOR}(?![\w'(])"
     rf"|(?<![\w.])(?:\w+\.)?dot\(\s*{_LETTER_OF_VECTOR}\s*,\s*{_LETTER_OF_VECTOR}\s*\)"
+)
+#: A force in the complex plane: exp(i*omega*t), e^{iωt}.
+_COMPLEX = regex(
+    r"(?<!\w)(?:exp\s*\(|e\s*\^\s*[({])\s*[-+]?\s*[ij]\s*\*?\s*((?:\w+\s*\*\s*)?\w*t)\s*[)}]"
 )
 #: A coordinate behind the word for its rate.
 _DOT_BEFORE = regex(r"(?<![\\\w.])(d)?dot\s+(?P<name>[^\W\d]\w*)")
@@ -133,6 +137,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = re.sub(r"->|→|⇒", "=", text) if names.related else text
     if names.related and not {"d", "dt"} & {*names.known} and re.search(r"\bd[^\W\dt]", text):
         text = re.sub(r"(?<=[\w)'])\s*\*?\s*\bdt\b|\bdt\s*\*\s*", "", text)
+    text = text if {"i", "j"} & {*names.known} else _COMPLEX.sub(r"cos(\1)", text)
     for words, sign in _RELATIONS:
         text = words.sub(f" {sign} ", text)
     behind = re.search(r"\[([^\[\]]+)\]\s*$", text)
