@@ -51,3 +51,22 @@ def test_nothing_is_reported_of_a_run_that_keeps_the_sign(
     assume: str, start: str, until: float, centre: str
 ) -> None:
     assert warned(assume, start, until, centre) == []
+
+
+@pytest.mark.parametrize(("relation", "other"), [(">=", "<="), ("<=", ">=")])
+def test_a_condition_that_the_initial_state_breaks_is_told_with_the_force(relation, other):
+    # a string of length l pulls with m (l theta'^2 + g cos theta) against r
+    speed = {">=": 5, "<=": 0}[relation]
+    angle = {">=": 0.0, "<=": 3.0}[relation]
+    text = (
+        "{coordinates: {r: {assume: positive}, theta: }, parameters: {m: 2, g: 9.81, l: 1}, "
+        "T: m*(r'^2 + r^2*theta'^2)/2, V: -m*g*r*cos(theta), constraints: {string: "
+        f"{{equation: r = l, multiplier: S, holds_while: S {relation} 0}}}}, "
+        f"initial: {{r: l, theta: {angle}, r': 0, theta': {speed}}}}}"
+    )
+    (warning,) = simulated(text, 1.0, show=("theta",)).warnings
+    force = -2 * (speed**2 + 9.81 * math.cos(angle))
+    assert float(re.findall(r"S = (-?[\d.]+)", warning)[0]) == pytest.approx(force, rel=1e-4)
+    assert warning.endswith(f"write holds_while: S {other} 0")
+    kept = text.replace(f"S {relation} 0", f"S {other} 0")
+    assert not simulated(kept, 0.1, show=("theta",)).warnings

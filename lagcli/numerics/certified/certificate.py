@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from lagcli.numerics.certified.accuracy import USUAL, Outcome
@@ -12,6 +12,7 @@ from lagcli.numerics.certified.exact_columns import at_written_times, with_digit
 from lagcli.numerics.certified.left_signs import left_signs
 from lagcli.numerics.certified.methods import METHODS
 from lagcli.numerics.certified.scales import relative
+from lagcli.numerics.equations.columns import Values
 from lagcli.numerics.equations.motion import Motion
 from lagcli.numerics.equations.refusal import reason_of
 from lagcli.numerics.hybrid.events import Event
@@ -19,6 +20,7 @@ from lagcli.numerics.hybrid.result import Certificate, Result
 from lagcli.numerics.hybrid.run import Run
 from lagcli.numerics.hybrid.setup import Setup
 from lagcli.numerics.integrators.steps import CannotGoOn, Grazes, StopWithReason
+from lagcli.problem_data import pushing_sign
 from lagcli.record import replace
 
 #: A motion that is known up to this part of the time at which its run stops, stops there.
@@ -79,7 +81,11 @@ def result_of(setup: Setup, motion: Motion, outcome: Outcome, remark: str) -> Re
         steps=run.steps,
         evaluations=outcome.evaluations,
         events=tuple(events),
-        warnings=(*_warnings(setup, rows, events), *left_signs(setup, run.marks[:kept])),
+        warnings=(
+            *_broken_at_once(setup, motion, outcome, events),
+            *_warnings(setup, rows, events),
+            *left_signs(setup, run.marks[:kept]),
+        ),
         cut=setup.cut,
         refusal=refusal,
     )
@@ -247,6 +253,27 @@ def _irregularity(motion: Motion, stop: CannotGoOn) -> str:
         return "the power series of a function in the equations is beyond all numbers there"
     what = "jumps" if 2 * near > far else "has a corner"
     return f"a function in the equations {what} there"
+
+
+def _broken_at_once(
+    setup: Setup, motion: Motion, outcome: Outcome, events: list[Event]
+) -> Iterator[str]:
+    """A sentence for each constraint whose force has the other sign in the initial state."""
+    lost = {event.name for event in events if event.what == "contact lost" and event.t == 0}
+    for k, node in setup.margins.items():
+        one = setup.whole.constraints[k]
+        sign = None if one.holds_while is None else pushing_sign(one.multiplier, one.holds_while)
+        if one.name not in lost or k not in setup.given or sign is None:
+            continue
+        mark = outcome.run.marks[0]
+        [margin] = Values(motion, setup.reading, [node])(mark.t, mark.q, mark.v)
+        if margin is not None and float(margin) < 0:
+            holds, fits = (">=", "<=") if sign > 0 else ("<=", ">=")
+            yield (
+                f"{one.multiplier} {holds} 0 does not hold at the beginning, where "
+                f"{one.multiplier} = {sign * float(margin):.6g}; for a force of this sign write "
+                f"holds_while: {one.multiplier} {fits} 0"
+            )
 
 
 def _warnings(setup: Setup, rows: list[Any], events: list[Event]) -> list[str]:
