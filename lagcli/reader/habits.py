@@ -57,7 +57,7 @@ RATES = {**dict.fromkeys("Derivative derivative D ddt dt Dt der deriv diff dot".
          "ddot": 2}  # fmt: skip
 POWERS = frozenset("POWER POTENZ PUISSANCE pow power Pow Power".split())
 SQUARES = frozenset("square sqr sq".split())
-FOREIGN = RATES.keys() | POWERS | SQUARES | {"norm", "hypot", "Subscript"}
+FOREIGN = RATES.keys() | POWERS | SQUARES | {"norm", "hypot"}
 _VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "⅛": "1/8"}
 
 
@@ -241,8 +241,6 @@ def _with_powers(text: str) -> str:
 def _is_unit(text: str) -> bool:
     from lagcli.units import UnitMistake, read_unit
 
-    if text in {"deg", "rpm", "min", "h"}:
-        return True
     try:
         read_unit(text)
     except UnitMistake:

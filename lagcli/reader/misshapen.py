@@ -220,8 +220,6 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
         return f"write {{at: {{{unknown}: {place or '0'}}}}}"
     if (words := written.split(None, 1)) and words[0] in names and words[1:]:
         return f"write {{{words[0]}: {words[1].lstrip('=: ')}}}"
-    if isinstance(node, Sequence) and all(isinstance(each, Mapping) for each in node.items):
-        return WITHOUT_HYPHENS
     return f"it has the keys {', '.join(names)}"
 
 

@@ -319,9 +319,7 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         written = name + "'" * node.primes
         message = f"{written} is {_a(scope.kinds.get(name))}, not a function"
         hint = f"did you mean {written}*(…)?"
-        if scope.kinds.get(name) == "coordinate" and node.arguments == (Name("t"),):
-            hint = f"a coordinate is a function of t by itself: write {written}"
-        elif scope.kinds.get(name) == "coordinate" and any(
+        if scope.kinds.get(name) == "coordinate" and any(
             isinstance(part, Name) and part.name == "t"
             for each in node.arguments
             for part in walk(each)
@@ -393,8 +391,6 @@ def _partial_by_time(node: Expression, operand: Expression, scope: Scope) -> Ite
     if derivative_order(operand, scope) == CONSTANT or depends_on_time(operand, scope):
         return
     hint = "a total time derivative is a prime: x', or the prime of a definition"
-    if isinstance(operand, Name):
-        hint = f"the velocity of {operand} is {operand}'"
     yield Diagnostic("this is a partial derivative, and 0: t is not in it", node.span, hint)
 
 

@@ -234,11 +234,11 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
 
     parameters_read = read_parameters(file, parameters)
     definitions_read = read_definitions(file, definitions)
+    points = read_points(file, section("points"))
     constraints_read = read_constraints(file, constraints)
     symmetries = read_symmetries(file, section("symmetries"))
     questions = read_find(file, section("find"))
     contacts_read = read_contacts(file, contacts)
-    points = read_points(file, section("points"))
     observables = read_observables(file, section("observables"))
     brackets = read_brackets(file, section("brackets"), symmetries)
     transformations = read_transformations(file, section("canonical_transformations"))

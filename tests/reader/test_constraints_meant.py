@@ -1,5 +1,8 @@
 """What stands under constraints and is none, or none yet: the hint has what is meant."""
 
+import math
+import re
+
 import pytest
 
 from lagcli.reader import read_problem
@@ -56,3 +59,44 @@ def test_an_inequality_is_a_contact(written, contacts):
 def test_equations_of_one_name_get_one_each(between, form):
     hint = only_hint(form.format(f"x = a{between}y = 0"))
     assert hint == "each equation has its own name: c_1: x = a, c_2: y = 0"
+
+
+BODIES = """coordinates: [x, phi]
+parameters: {{m: 1, l: 2, k: 3}}
+points:
+  A: {{position: [x, 0], mass: m}}
+  B: {{position: [x + l*sin(phi), -l*cos(phi)*exp(k*x)], mass: m}}
+V: m*x
+constraints:
+  c: {}
+"""
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("B.x' = 1", lambda v: v[1][0]),
+        ("B'.y = 1", lambda v: v[1][1]),
+        ("A.x' = 1", lambda v: v[0][0]),
+        ("|B'|^2 = 1", lambda v: v[1][0] ** 2 + v[1][1] ** 2),
+        ("|B' - A'|^2 = 1", lambda v: (v[1][0] - v[0][0]) ** 2 + v[1][1] ** 2),
+        ("norm(B') = 1", lambda v: math.hypot(*v[1])),
+    ],
+)
+def test_the_velocity_of_a_point_is_the_rate_of_its_position(written, meant):
+    [hint] = [
+        each.hint for each in read_problem("p.yaml", BODIES.format(written).encode()).diagnostics
+    ]
+    formula = hint.removeprefix("write ").removeprefix("c: ").removesuffix(" = 1")
+    x, phi, dx, dphi, h = 0.3, 0.7, -0.4, 1.1, 1e-6
+
+    def places(at):
+        q, angle = x + dx * at, phi + dphi * at
+        return (q, 0.0), (q + 2 * math.sin(angle), -2 * math.cos(angle) * math.exp(3 * q))
+
+    rates = [[(b - a) / (2 * h) for a, b in zip(*each, strict=True)]
+             for each in zip(places(-h), places(h), strict=True)]  # fmt: skip
+    code = re.sub(r"\b(x|phi)'", r"d\1", formula).replace("^", "**")
+    known = {name: getattr(math, name) for name in ("sin", "cos", "exp", "sqrt")}
+    found = eval(code, known | {"x": x, "phi": phi, "dx": dx, "dphi": dphi, "l": 2, "k": 3})
+    assert found == pytest.approx(meant(rates), rel=1e-6)

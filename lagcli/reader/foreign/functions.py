@@ -113,9 +113,7 @@ class Functions(Sums):
         grouped = [each if re.fullmatch(r"[\w.]+'*", each) else f"({each})" for each in arguments]
         if word in RATES:
             x = arguments[0]
-            if not re.fullmatch(r"\w+'*", x):
-                return self.partial(word, arguments)
-            if len(arguments) > 1 and arguments[1] != "t":
+            if not re.fullmatch(r"\w+'*", x) or arguments[1:2] not in ([], ["t"]):
                 return self.partial(word, arguments)
             rate = x + "'" * (RATES[word] * self.order(arguments[1:]))
             self.called_by_time()
@@ -123,8 +121,6 @@ class Functions(Sums):
         if word in {"norm", "hypot"}:
             squares = " + ".join(f"{each}^2" for each in grouped)
             return Part(f"sqrt({squares})", 3, is_call=True)
-        if word == "Subscript" and len(arguments) == 2:
-            return self.named("_".join(arguments))
         if word in SQUARES and len(arguments) == 1:
             return Part(f"{grouped[0]}^2", 2)
         if word in POWERS and len(arguments) == 2:

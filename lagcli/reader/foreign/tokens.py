@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from functools import partial
 from html import unescape
 from typing import NamedTuple
 
 from lagcli.notation.greek import BY_LETTER, BY_NAME
 from lagcli.reader.foreign.indexed_sums import written_out
+from lagcli.reader.foreign.lengths import component, with_components, with_products
 from lagcli.reader.foreign.vector_products import vector_product
-from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant, parts_of, polar_speed
+from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant, parts_of
 from lagcli.reader.habits import REMARK, foreign_function, unit_behind
 from lagcli.reader.regex import regex
 
@@ -40,46 +42,11 @@ SIGNS = {
     "\\{": "(", "\\}": ")", "[": "(", "]": ")", "{": "(", "}": ")", "\\|": "|",
 }  # fmt: skip
 _SUM_IN_WORDS = regex(r"\b[sS]um(?:me)?\s+(?:over\s+(?:all\s+)?([i-n])\s+)?(?:of|von|de)\s+")
-#: v², |v|^2, \\vec{v}^2, v.v and v·v.
-_SPEED = regex(
-    r"(?<!\w)(?P<v>\|?(?:\\(?:vec|mathbf)\s*\{?)?v\}?\|?)(?:\s*(?:\^|\*\*)\s*\{?2\}?|\s*²"
-    r"|\s*(?:\.|·|\\cdot)\s*(?P=v))(?![\w.])"
-)
-#: The square of a position: \\vec{r}^2, |\\mathbf{r}|^2.
-_DISTANCE = regex(r"\|?\\(?:vec|mathbf)\s*\{?r\}?\|?\s*(?:(?:\^|\*\*)\s*\{?2\}?|²)(?!\w)")
 _RATE_OF_VECTOR = regex(r"\\dot\s*\{?\s*\\(?:vec|mathbf)\s*\{?r\}?\s*\}?(?=\s*[\^²*])")
 #: A remark behind a formula, a row of a matrix, the brackets of a mean, lines without a sign.
 _NO_FORMULA = regex(
     r"[\w)']\s*\n\s*[\w(]|"
     r"(?<!\w)\(\s*[^\W\d]{3,}(?:\s+[^\W\d]+)+\s*\)\s*$|\[\s*[\w'.]+(?:\s+[-\w'.]+)+\s*\]|<[^<>=]+>"
-)
-#: The length of a position: |r|, ||r||, |\\vec{r}|.
-_LENGTH = regex(
-    r"\b(?:\w+\.)*(?:norm|abs|length|mag)\(\s*r\s*\)|(?:\\?\|){1,2}\s*(?:\\(?:vec|mathbf)\s*)?\{?r\}?\s*(?:\\?\|){1,2}"
-)
-_SPEED_LENGTH = regex(
-    r"(?:\\?\|){1,2}\s*(?:\\(?:vec|mathbf)\s*)?\{?v\}?\s*(?:\\?\|){1,2}"
-    r"|\b(?:abs|norm|(?:np\.)?linalg\.norm)\(\s*v\s*\)"
-)
-#: The distance of two bodies, and of one from the origin: |r1 - r2|, |\\vec{r}_1|.
-_VECTOR = r"(?:\\(?:vec|mathbf)\s*)?\{?r\}?_?\{?"
-_BETWEEN = regex(
-    rf"(?:\\?\|){{1,2}}\s*{_VECTOR}(?P<one>\d)\}}?"
-    rf"(?:\s*[-−,]\s*{_VECTOR}(?P<two>\d)\}}?)?\s*(?:\\?\|){{1,2}}"
-)
-#: norm(r1 - r2), and of one body from the origin.
-_LENGTH_OF_DIFFERENCE = regex(
-    r"\b(?:\w+\.)*(?:norm|abs|length|mag|dist|distance)\(\s*(r_?\d(?:\s*[-−,]\s*r_?\d)?)\s*\)"
-)
-#: A product of vectors in brackets.
-_PRODUCT_OF_VECTORS = regex(
-    r"[(\[]([^()\[\]]+,[^()\[\]]+)[)\]]\s*[.·]\s*[(\[]([^()\[\]]+,[^()\[\]]+)[)\]]"
-)
-#: A product of two vectors by their letters: A·v, dot(A, v), \\vec{A}\\cdot\\vec{v}.
-_LETTER_OF_VECTOR = r"\\?(?:(?:vec|mathbf|boldsymbol|bm)\s*)?\{?\s*([^\W\d_]'*)\s*\}?"
-_LETTERS_OF_VECTORS = regex(
-    rf"(?<![\w.}}]){_LETTER_OF_VECTOR}\s*(?:[·⋅∙•]|\\cdot(?![a-z])|\s\.\s|(?<=[vr])\.(?=[A-Z]\b)|(?<=[A-Z])\.(?=[vr]\b))\s*{_LETTER_OF_VECTOR}(?![\w'(])"
-    rf"|(?<![\w.])(?:\w+\.)?dot\(\s*{_LETTER_OF_VECTOR}\s*,\s*{_LETTER_OF_VECTOR}\s*\)"
 )
 #: A force in the complex plane: exp(i*omega*t), e^{iωt}.
 _COMPLEX = regex(
@@ -133,7 +100,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     )  # \dot{x}_i
     along_z = vector_product(text, names.coordinates, {*names.known})
     text = along_z[0] if len(along_z) == 1 else text
-    text = _products_of_vectors(written_out(text, names), names)
+    text = with_products(written_out(text, names), names)
     text = re.sub(r"->|→|⇒", "=", text) if names.related else text
     if names.related and not {"d", "dt"} & {*names.known} and re.search(r"\bd[^\W\dt]", text):
         text = re.sub(r"(?<=[\w)'])\s*\*?\s*\bdt\b|\bdt\s*\*\s*", "", text)
@@ -148,19 +115,21 @@ def prepared(text: str, names: Vocabulary) -> str:
     if "arc" not in names.known:
         text = re.sub(r"\b(ar[ck]?)\s+(?=(?:sin|cos|tan|cot)h?\b)", "arc", text)
     text = "".join(map(_on_the_keyboard, _RATE_OF_VECTOR.sub(r"\\vec{v}", text)))
-    text = _DOT_BEFORE.sub(
-        lambda m: _dotted(m, names), _PRODUCT_OF_VECTORS.sub(_by_components, text)
-    )
+    text = _DOT_BEFORE.sub(lambda m: _dotted(m, names), text)
     if "x" not in names.known:
         text = re.sub(r"(?<=[\w)'²])\s+[xX]\s+(?=[\w(\\])", " * ", text)
     text = re.sub(r"(?<=\w)//(?=\w)", "/", re.sub(r"\s\.\s", " * ", text).strip(" =").rstrip(";,"))
     text = re.sub(r"\bDerivative\[(\d)\]\[(\w+)\]", lambda m: m[2] + "'" * int(m[1]), text)
-    text = _leibniz(_distance(_square_of_speed(text, names), names), names)
-    for name, component in names.components.items():
+    text = _leibniz(with_components(text, names), names)
+    for name, formula in names.components.items():
         point, axis = name.split(".")
         forms = [name, *({f"{axis}_{point}", f"{axis}{point}", f"{point}_{axis}"} - {*names.known})]
         spelled = "|".join(map(re.escape, forms))
-        text = re.sub(rf"(?<![\w.])(?:{spelled})(?!\w)", f"({component})", text)
+        text = re.sub(
+            rf"(?<![\w.])(?:{spelled}|{point}['’′]\.{axis})(?!\w)['’′]*",
+            partial(_component, formula, names),
+            text,
+        )
 
     def without_owner(found: re.Match[str]) -> str:
         is_name = meant(found[2], names)[0] in names.known
@@ -175,42 +144,8 @@ def _numbered(found: re.Match[str], names: Vocabulary) -> str:
     return word + index + primes if word + index in names.dependent else found[0]
 
 
-def _by_components(found: re.Match[str]) -> str:
-    """`(a*c + b*d)` for `(a, b).(c, d)`."""
-    left, right = (each.split(",") for each in found.groups())
-    if len(left) != len(right):
-        return found[0]
-    return (
-        f"({' + '.join(f'({a.strip()})*({b.strip()})' for a, b in zip(left, right, strict=True))})"
-    )
-
-
-def _products_of_vectors(text: str, names: Vocabulary) -> str:
-    """`(A_x*x' + A_y*y')` for A·v, where A has components in the file."""
-    axes = [x for x in names.coordinates if x in {"x", "y", "z"}]
-
-    def components(letter: str) -> list[str]:
-        bare = letter.rstrip("'")
-        primes = letter[len(bare) :]
-        if bare in {"v", "r"} - {*names.known} and axes == [*names.coordinates]:
-            return [x + "'" * (bare == "v") + primes for x in axes]
-        listed = [f"{bare}_{x}" for x in axes if f"{bare}.{x}" in names.components]
-        named = listed or [
-            next((each for each in (f"{bare}_{x}", f"{bare}{x}") if each in names.known), "0")
-            for x in axes
-        ]
-        return [each + primes * (each != "0") for each in named]
-
-    def written(found: re.Match[str]) -> str:
-        one, two = (components(each) for each in found.groups() if each)
-        pairs = [pair for pair in zip(one, two, strict=False) if "0" not in pair]
-        if not pairs and {each for each in found.groups() if each} & {"r", "v", "r'"} - {
-            *names.known
-        }:
-            raise UnclearText  # E·r, where E has no components
-        return f"({' + '.join(map('*'.join, pairs))})" if pairs else found[0]
-
-    return _LETTERS_OF_VECTORS.sub(written, text)
+def _component(formula: str, names: Vocabulary, found: re.Match[str]) -> str:
+    return component(formula, "'" * len(re.findall("['’′]", found[0])), names)
 
 
 def _dotted(found: re.Match[str], names: Vocabulary) -> str:
@@ -224,46 +159,6 @@ def _on_the_keyboard(character: str) -> str:
     """`*` for its full-width form, m for the italic 𝑚 of formulas, `^` for the accent."""
     is_wide = "！" <= character <= "～" or "\U0001d400" <= character <= "\U0001d7ff"
     return unicodedata.normalize("NFKC", character) if is_wide else character.replace("ˆ", "^")
-
-
-def _square_of_speed(text: str, names: Vocabulary) -> str:
-    """The sum of squares for v², in Cartesian coordinates."""
-    if len(names.coordinates) < 2 or "v" in names.known:
-        return text
-    if squares := polar_speed(names.coordinates):
-        text = _SPEED.sub(f" ({squares}) ", text)
-        return _SPEED_LENGTH.sub(f" sqrt({squares}) ", text)
-    if not {*names.coordinates} <= {*"xyz"}:
-        return text
-    for pattern, prime in ((_SPEED, "'"), (_DISTANCE, "")):
-        squares = " + ".join(f"{x}{prime}^2" for x in names.coordinates)
-        text = pattern.sub(f" ({squares}) ", text)
-    squares = " + ".join(f"{x}'^2" for x in names.coordinates)
-    text = _SPEED_LENGTH.sub(f" sqrt({squares}) ", text)
-    if "r" not in names.known:
-        squares = " + ".join(f"{x}^2" for x in names.coordinates)
-        text = _LENGTH.sub(f" sqrt({squares}) ", text)
-    return text
-
-
-def _distance(text: str, names: Vocabulary) -> str:
-    """`sqrt((x1 - x2)^2 + (y1 - y2)^2)` for |r1 - r2|, with the coordinates of two bodies."""
-
-    def written(found: re.Match[str]) -> str:
-        parts = []
-        for axis in "xyz":
-            ends = [_axis(axis, found[index], names) for index in ("one", "two") if found[index]]
-            if all(ends):
-                parts.append(f"({' - '.join(ends)})^2" if len(ends) > 1 else f"{ends[0]}^2")
-        return f" sqrt({' + '.join(parts)}) " if len(parts) > 1 else found[0]
-
-    text = _LENGTH_OF_DIFFERENCE.sub(r"|\1|", text)
-    known = {*names.known} & {found[0] for found in re.finditer(r"r_?\d", text)}
-    return text if known else _BETWEEN.sub(written, text)
-
-
-def _axis(axis: str, index: str, names: Vocabulary) -> str:
-    return next((x for x in (f"{axis}{index}", f"{axis}_{index}") if x in names.coordinates), "")
 
 
 def _leibniz(text: str, names: Vocabulary) -> str:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Set as AbstractSet
 
+from lagcli.reader.foreign.lengths import components
+from lagcli.reader.foreign.words import Vocabulary
 from lagcli.reader.regex import regex
 
 #: A vector by its letter, or by its components.
@@ -83,14 +85,9 @@ def _components_of(
 ) -> list[str] | None:
     """The three components of a vector: r, v and p, or others with names; None for unknown ones."""
     if given[0] not in "[(":
-        usual = {"r": "{}", "v": "{}'", "p": "p_{}"}
-        if given in usual and given not in known:
-            form = usual[given]
-            return [form.format(x) if x in coordinates else "" for x in _AXES_OF]
-        named = [next((n for n in (f"{given}_{x}", f"{given}{x}") if n in known), "")
-                 for x in _AXES_OF]  # fmt: skip
-        if any(named):
-            return named
+        names = Vocabulary(coordinates, frozenset(known - {*coordinates}))
+        if any(found := components(given, names)):
+            return found
         return ["", "", given] if given in known - {*coordinates} else None
     parts = [part.strip() for part in given[1:-1].split(",")]
     parts = [f"({part})" if re.search(r"\w\s*[-+]", part) else part for part in parts]
