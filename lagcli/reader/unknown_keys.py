@@ -125,6 +125,8 @@ def unknown_key(
         scope.refused.append(word)
     if isinstance(value, Mapping | Sequence):
         given_there = source_of(value)
+        if "until: …" in hint:
+            given_there = range_end(given_there) or given_there
         hint = hint.replace(": …}", f": {given_there}}}")
     if hint.startswith("did you mean"):
         meant = meant or closest(word, names, _NEAR)
