@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import (
+    ONE,
     ZERO,
     Call,
     Name,
@@ -310,10 +311,14 @@ def _is_misplaced(file: FileReader, term: Expression) -> bool:
             case _:
                 return sum(parts)
 
-    above = term.numerator if isinstance(term, Quotient) else term
+    above: Expression = term
+    below: Expression = ONE
+    if isinstance(term, Quotient):
+        above, below = term.numerator, term.denominator
     factors = above.factors if isinstance(above, Product) else (above,)
     inner = [part for factor in factors if isinstance(factor, Sum) for part in factor.terms]
-    outer = [name for factor in factors if not isinstance(factor, Sum) for name in _names(factor)]
+    plain = [factor for factor in factors if not isinstance(factor, Sum)]
+    outer = [name for factor in (*plain, below) for name in _names(factor)]
     at_a_place = any(derivative_order(name, file.scope) == 0 for name in outer)
     of_a_sum = any(_is_misplaced(file, part) for part in inner)
     return not at_a_place and (of_a_sum or (not inner and folded(term, degree) > 1))

@@ -158,7 +158,8 @@ def void_where(
     conditions: Sequence[Expr], unknowns: Sequence[Symbol], masses: Sequence[Sequence[Expr]]
 ) -> Expr | None:
     """What may be 0, and then all conditions hold everywhere; not what the mass matrix needs."""
-    common = [f for f in _common_factors(conditions, unknowns) if not _is_weightless(f, masses)]
+    open_ = [e for e in conditions if e != 0]
+    common = [f for f in _common_factors(open_, unknowns) if not _is_weightless(f, masses)]
     return sympy.Mul(*common) if common else None
 
 
@@ -176,6 +177,8 @@ def _common_factors(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> l
 
 def _perhaps_zero(condition: Expr, unknowns: Sequence[Symbol]) -> list[Expr]:
     """The factors without unknowns that can vanish."""
-    return [
-        f for f, k in factors_of(condition) if k > 0 and free_of(f, unknowns) and _can_vanish(f)
-    ]
+    # each by itself: sin(a) (g cos(a) + X'' sin(a)) is a sum with cos(a)^2 when multiplied out
+    found = (each for part in sympy.Mul.make_args(condition) for each in factors_of(part))
+    return list(
+        dict.fromkeys(f for f, k in found if k > 0 and free_of(f, unknowns) and _can_vanish(f))
+    )

@@ -36,8 +36,9 @@ def constraint_forces(x: Examination, section: ConstraintForcesSection) -> Const
         if force is not None:
             known = {q: f for q, f in force.items() if f is not None}
             where = [x.reference.names.index(q) for q in known]
-            ok = x.hold(
-                f"the generalized force of '{name}'",
+            what = f"the generalized force of '{name}'"
+            ok = x.determined(what, lambda s, k=k: _splits(s, k)) and x.hold(  # type: ignore[misc]
+                what,
                 list(known.values()),
                 lambda s, k=k, where=where: [s.laws.constraint_force(k)[j] for j in where],  # type: ignore[misc]
             )
@@ -50,6 +51,12 @@ def constraint_forces(x: Examination, section: ConstraintForcesSection) -> Const
     ):
         total = None
     return _on_points(x, replace(section, forces=found, total=total))
+
+
+def _splits(s: State, k: int) -> bool:
+    """Whether the force of one constraint is determined, and not only its sum with others."""
+    alone = all(map(is_zero, s.laws.jacobian[k]))
+    return alone or s.laws.motion.determined(len(s.laws.jacobian[k]) + k)
 
 
 def _on_points(x: Examination, section: ConstraintForcesSection) -> ConstraintForcesSection:
