@@ -354,9 +354,11 @@ class FileReader:
         """The whole formula in the first hint of a list of mistakes, where it was understood."""
         found = self.diagnostics[before:]
         if found and not self.is_full and isinstance(node, Scalar):
-            from lagcli.reader.repair import with_whole
+            from lagcli.reader.repair import unmoved, with_whole
 
-            self.diagnostics[before:] = with_whole(found, node, what, self.scope, role, read)
+            whole = with_whole(found, node, what, self.scope, role, read)
+            whole = unmoved(found, node, what, self.scope, r"\w+") if whole == found else whole
+            self.diagnostics[before:] = whole
 
     def equation(self, node: DocumentNode, what: str, role: Role) -> Equation:
         """`left = right`, or an expression that is 0."""

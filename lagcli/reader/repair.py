@@ -94,19 +94,6 @@ def with_whole(
     read
         Reads an expression, an equation or a comparison.
     """
-    whole = _in_whole(found, node, what, scope, role, read)
-    return _unmoved(found, node, what, scope, r"\w+") if whole == found else whole
-
-
-def _in_whole(
-    found: list[Diagnostic],
-    node: Scalar,
-    what: str,
-    scope: Scope,
-    role: Role,
-    read: Callable[[Excerpt], Expression | Equation | Inequality],
-) -> list[Diagnostic]:
-    """The same without names for what moves."""
     if what in {"T", "L"} and (energy := _energy_meant(found, node, what, scope, role)):
         return [energy]
     of_key = what not in {"T", "V"} and any("is a key and not a name" in x.hint for x in found)
@@ -120,8 +107,8 @@ def _in_whole(
         law = "…" if others[1:] else force[1].strip()
         hint = f"V is an energy; a force stands by its coordinate: write forces: {{{along}: {law}}}"
         return [replace(found[0], hint=hint)]
-    if what == "T" and (unmoved := _unmoved(found, node, what, scope)) != found:
-        return unmoved
+    if what == "T" and (still := unmoved(found, node, what, scope)) != found:
+        return still
     if matrices := _of_matrices(node, what, scope):
         return [matrices]
     if what == "'holds_while'" and found[0].message == "two statements in one":
@@ -201,7 +188,7 @@ def _in_whole(
     return [replace(found[0], hint=f"did you mean {exchanged}?")] if exchanged else found
 
 
-def _unmoved(
+def unmoved(
     found: list[Diagnostic], node: Scalar, what: str, scope: Scope, only: str = _MOVING
 ) -> list[Diagnostic]:
     """The mistakes of an energy in which nothing moves: `m*g*h`, `I1*omega1^2/2`.
