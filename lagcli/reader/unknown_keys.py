@@ -243,7 +243,8 @@ def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
         else (SECTIONS.get(attribute, "contacts"),)
     )
     parts, left = [], {*given}
-    for section, node in ((key.label, node) for key, node in around.entries if key.label in named):
+    sections = ((key.label, node) for key, node in around.entries)
+    for section, node in (each for each in sections if each[0] in named and each[0] in _FIRST):
         inner = dict.fromkeys(names_in(node), "")
         for key, each in getattr(node, "entries", ()):
             alone = f"{_FIRST[section]}: {source_of(each)}" * (not each.is_empty)
