@@ -1,0 +1,70 @@
+"""A text of names, or of names with their values, as the list or the map that it should be."""
+
+from __future__ import annotations
+
+import re
+
+from lagcli.reader.habits import names_among, number_and_unit
+from lagcli.reader.headings import system_meant
+from lagcli.reader.regex import regex
+
+#: `m = 1 kg`, `k: 2`, `l 3`, several of them.
+_VALUES = regex(
+    r"(\w+)(?:\s*[=:]\s*|\s+(?=[\d.]))"
+    r"((?:[^\s,;()}]|\([^()]*\))+(?: [A-Za-z][\w/^]*(?=\s*(?:[,;]|$)))?)"
+)
+#: `Real x(start=1);`, `parameter Real m = 2 "mass";` of Modelica, `double m = 2;`.
+_DECLARATION = regex(
+    r"(?:\b(?:parameter|constant|const|final|var|let)\s+)*\b(?:Real|real|float|double|int|Integer)\s+"
+    r"(\w+)(?:\([^()]*\))?\s*(?:=\s*([^;\"]+))?"
+)
+_WITH_ITS_UNIT = regex(r"\s*([^\W\d]\w*)(?:\s*[(\[](rad|deg|k?m|cm|mm|s|kg|g|N|J)[)\]])?\s*")
+#: Between two names of a list, where nothing else stands.
+_AND = frozenset("and und et en og och".split())
+
+
+def as_names(text: str) -> str:
+    """`[x, y]` for `x, y` and for `symbols("x y")`, and `m: 1` for `m = 1`."""
+    if re.fullmatch(r"(?:\s*\d+[.)]\s*[^\W\d]\w*)+\s*", text):  # 1. x 2. y
+        listed = ", ".join(re.findall(r"[^\W\d]\w*", text))
+        return f"write [{listed}]"
+    units = [_WITH_ITS_UNIT.fullmatch(each) for each in text.split(",")]
+    if any(each and each[2] for each in units) and all(units):
+        named = ", ".join(
+            f"{x[1]}: {{unit: {x[2]}}}" if x[2] else f"{x[1]}: {{}}" for x in units if x
+        )
+        return f"write {{{named}}}"
+    if declared := _DECLARATION.findall(text):
+        pairs = [f"{name}: {value.strip()}" for name, value in declared if value.strip()]
+        listed = ", ".join(pairs or [name for name, _ in declared])
+        return f"write {{{listed}}}" if pairs else f"write [{listed}]"
+    if re.search(r"\d,\d+\s*(?:;|$)", text) and (";" in text or text.count(",") == 1):
+        text = re.sub(r"(?<=\d),(?=\d)", ".", text)
+    if told := re.fullmatch(
+        r"\s*([^\W\d]\w*)\s+(?:is|ist|est|es|è|=|means)\s+((?:the|a|der|die|das|l[ea']|el|un|une|eine?)\s*\b.*\S)\s*",
+        text,
+    ):
+        return f"write {{{told[1]}: {{description: {told[2]}}}}}"
+    text = re.sub(r"^([\w\s,]*\w)\s+(?:y|e|i)\s+([^\W\d]\w*\s*)$", r"\1, \2", text)
+    if vector := re.fullmatch(r"\s*\w+\s*=\s*[(\[<]([\w\s,']+)[)\]>](?:\^?T)?\s*", text):
+        return f"write [{vector[1].strip()}]"
+    text = re.sub(r"^(?:.*=)?\s*(?:\w+\.)?\w+\(\s*(['\"])(.*)\1.*\)\s*$", r"\2", text)
+    if given := _VALUES.findall(text):
+        parts = ((name, *number_and_unit(value)) for name, value in given)
+        listed = ", ".join(
+            f"{x}: {{value: {value}, unit: {unit}}}" if unit else f"{x}: {value}"
+            for x, value, unit in parts
+        )
+        return f"write {{{listed}}}" if given[1:] else f"write {listed}"
+    if text.strip().casefold() in {"none", "null", "no", "~"}:
+        return "leave out the key, or write such as [x, y]"
+    if meant := system_meant(text):
+        return f"write their names, as in {meant}"
+    if counted := names_among(text):
+        return f"write [{', '.join(counted)}]"
+    names = [
+        name
+        for name in re.findall(r"[^\W\d]\w*", re.sub(r"[(\[]t[)\]]", "", text))
+        if name not in _AND
+    ]
+    return f"write [{', '.join(names)}]" if names else "such as [x, y]"
