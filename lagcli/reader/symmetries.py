@@ -94,6 +94,9 @@ def _entries(
     usual = _shift(changed or coordinates)
     if not changed or "time" in key.label:
         usual = _usual_change(key.label, coordinates) or usual
+    items = [*map(source_of, getattr(value, "items", ()))]
+    if len(items) == len(coordinates) and not {*items} <= {*coordinates}:  # [-y, x]
+        usual = f"{{{', '.join(map('{}: {}'.format, coordinates, items))}}}"
     name = key.label if said != key.label else "shift"
     hint = f"write {name}: {_changes_meant(file, said) or usual}"
     if isinstance(value, Mapping):
