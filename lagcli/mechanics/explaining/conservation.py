@@ -16,6 +16,7 @@ from lagcli.mechanics.explaining.words import Part, listed, says, shows
 from lagcli.mechanics.impacts import when_constant
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.rest.exceptions import void_where
+from lagcli.mechanics.total_derivative import euler_operator
 from lagcli.statements.wording import TRIVIAL, capitalized, enumerated, exceptions
 
 
@@ -120,11 +121,11 @@ def _rate(explainer: Explainer) -> Iterator[Block]:
         yield says("This is not 0 on every motion: ", h, " is not conserved", *special, ".")
 
 
-def _unless(explainer: Explainer, rate: sympy.Expr) -> list[Part]:
-    """The values of the parameters for which a rate vanishes."""
+def _unless(explainer: Explainer, *rates: sympy.Expr) -> list[Part]:
+    """The values of the parameters for which rates vanish."""
     system = explainer.system
-    moving = (system.t, *system.q, *system.qdot, *system.multipliers)
-    factor = void_where([rate], moving, explainer.dynamics.lagrange.mass_matrix)
+    moving = sorted({s for r in rates for s in r.free_symbols} - {*system.parameters}, key=str)
+    factor = void_where(rates, moving, explainer.dynamics.lagrange.mass_matrix)
     return [] if factor is None else exceptions([written(factor, system.order)])
 
 
@@ -310,8 +311,11 @@ def _candidate(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
             yield from _work(explainer, charge, with_gauge=with_gauge)
         yield from _struck(explainer, charge)
     else:
-        special = _unless(explainer, sympy.S.One if charge.rate is None else charge.rate)
-        yield says("It is not conserved", *special, f", because of {charge.broken_by}:")
+        rates = [] if charge.rate is None else [charge.rate]
+        if gauge is None and not (explainer.constraints or explainer.forced or explainer.damped):
+            rates = euler_operator(changed, explainer.system)  # 0 where there is a G
+        yield says("It is not conserved", *_unless(explainer, *rates),
+                   f", because of {charge.broken_by}:")  # fmt: skip
         if charge.rate is not None:
             yield shows(Name(letters.Q.name, 1), explainer.readable.on_surface(charge.rate))
 
