@@ -30,9 +30,10 @@ _SHOWN = 3
 _LONGEST = 80
 _SHAPE = regex(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
 _SHAPE_OF_SECTION = regex(r"'?(\w+)'? must be an? (?:map|list)\b.*")
+_EACH_KEY = "the key is {}"
 #: Other words for keys, constants and states outside of their sections; the hint for all.
 _TOGETHER = (
-    (re.compile(r"unknown key ('.*') in the problem: the key is (\w+)"), "the keys are {}"),
+    (re.compile(r"unknown key ('.*') in the problem: the key is (\w+)"), _EACH_KEY),
     (
         re.compile(r"unknown key ('.*') in the problem: a constant .* parameters: \{(.*)\}"),
         "constants stand under parameters: write parameters: {{{}}}",
@@ -230,6 +231,11 @@ def _together(
     if not words[1:]:
         return diagnostics
     keys = ", ".join(dict.fromkeys(meant for _, _, meant in words))
+    if advice == _EACH_KEY:
+        keys = words[0][2]
+        for (before, *_), (each, _, meant) in pairwise(words):
+            is_below = each.span.line > before.span.line
+            keys += f"; {f'in line {each.span.line} ' * is_below}it is {meant}"
     message = f"unknown keys {', '.join(word for _, word, _ in words)} in the problem"
     whole = replace(words[0][0], message=message, hint=advice.format(keys))
     kept = (whole if each is words[0][0] else each for each, _ in found)

@@ -644,11 +644,11 @@ HABITS = [
     (text(lagrangian="T - V"), "leave out L: it is T - V"),
     (
         "Koordinaten: [x]\nKonstanten: {m: 1}\nKinetische Energie: m*x'^2/2\n",
-        "the keys are coordinates, parameters, T",
+        "the key is coordinates; in line 2 it is parameters; in line 3 it is T",
     ),
     (
         "координаты: [x]\nпараметры: {m: 1}\nT: m*x'^2/2\nначальные условия: {x: 1}\n",
-        "the keys are coordinates, parameters, initial",
+        "the key is coordinates; in line 2 it is parameters; in line 4 it is initial",
     ),
     *(
         (text(coordinates="[theta]", T=f"m*{rate}^2/2", V=None), "write m*theta'^2/2")
