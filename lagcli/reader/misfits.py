@@ -60,6 +60,10 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
         few = [] if len(places) * len(text.source.text) > _TRIED else list(islice(fitting, 2))
         return few[0] if len(few) == 1 else None
 
+    def factor(mistake: Diagnostic, places: list[_Place], remaining: list[str]) -> _Place | None:
+        term = text.source.text[slice(*text.offsets(mistake.span))]
+        return only(_squares(places, term, problem), remaining) or only(places, remaining)
+
     place = only(_other_primes(problem, text, found), [])
     units = wrong_units(problem, found[0])
     if units[1:] and place is None:
@@ -68,8 +72,8 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
     if not found[1:]:
         if place is not None:
             return [_with_term(found[0], place, text)]
-        factor = only(_other_factors(problem, text, found[0]), [])
-        return [_with_term(found[0], factor, text, unit)]
+        place = factor(found[0], _other_factors(problem, text, found[0]), [])
+        return [_with_term(found[0], place, text, unit)]
     causes = [] if place is None else [_prime_elsewhere(found[0], place, text)]
     known = causes if unit is None else [*causes, unit]
     if len(known) == 1:
@@ -80,7 +84,7 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
         is_bare = not any(re.search(rf"\b{one.name}\b", term) for one in problem.parameters)
         places = _other_factors(problem, text, each)
         powers = [place for place in places if is_bare or place[0] != place[1]]
-        found[number] = _with_term(each, only(powers, others), text)
+        found[number] = _with_term(each, factor(each, powers, others), text)
     return found
 
 
@@ -162,16 +166,24 @@ def _other_factors(problem: Problem, text: SourceText, mistake: Diagnostic) -> l
     quantities = (*problem.coordinates, *problem.parameters)
     names = "|".join(re.escape(each.name) for each in quantities)
     start, end = text.offsets(mistake.span)
-    factor = re.compile(
-        rf"(?<![\w.'^])(?:{names})'*(?![\w('])(?:\s*(?:\^|\*\*)\s*(\d+))?(?![\w.^])"
+    factor = re.compile(  # of one that contains others: (x - y), (l1*(x - y))
+        rf"(?<![\w.'^])(?=(?P<base>(?:{names})'*(?![\w('])|\((?:[^()]|\([^()]*\))*\))"
+        r"(?P<rest>(?:\s*(?:\^|\*\*)\s*(?P<power>\d+))?)(?![\w.^]))"
     )
     term = text.source.text[start:end]
     others = (one.name for one in problem.parameters if not re.search(rf"\b{one.name}\b", term))
     places = [(start, start, f"{other}*") for other in others]
     for each in factor.finditer(text.source.text, start, end):
-        power = int(each[1] or 1)
-        base = re.match(r"\w+'*", each[0])
+        power, base = int(each["power"] or 1), each["base"]
         for other in (power + 1, power - 1):
-            better = f"{base[0] if base else ''}{f'^{other}' if other > 1 else ''}"
-            places.append((each.start(), each.end(), better if other else "1"))
+            better = f"{base}{f'^{other}' if other > 1 else ''}" if other else "1"
+            places.append((each.start(), each.end("rest"), better))
     return places
+
+
+def _squares(places: list[_Place], term: str, problem: Problem) -> list[_Place]:
+    """Those of a square of coordinates, where the term is a half: k*x^2/2, not k*l*x/2."""
+    names = {each.name for each in problem.coordinates}
+    if not re.search(r"/\s*2(?![\w.^])|(?<![\w.])0?\.5(?!\d)", term):
+        return []
+    return [x for x in places if x[2].endswith("^2") and names & {*re.findall(r"\w+", x[2])}]

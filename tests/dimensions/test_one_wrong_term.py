@@ -73,6 +73,27 @@ def test_the_term_in_the_hint_is_put_in(seed):
     assert errors("\n".join(lines)) == []
 
 
+@pytest.mark.parametrize("seed", range(10))
+def test_a_half_of_a_sum_of_coordinates_lacks_its_square(seed):
+    draw = random.Random(seed)
+    x, y = draw.sample(["x", "y", "s", "x_1", "q2"], 2)
+    sum_ = draw.choice([f"({y} - {x})", f"({x} + 2*{y} - a)", f"({x} - (a - {y}))"])
+    half = draw.choice(["k*{}/2", "1/2*k*{}", "{}*k/2", "0.5*k*{}"])
+    rate = draw.choice([f"({y}' - {x}')", f"({x}' + {y}')", f"({x}' - 2*({y}'))"])
+    good = (
+        f"coordinates: {{{x}: {{unit: m}}, {y}: {{unit: m}}}}\n"
+        "parameters: {m: {unit: kg}, k: {unit: N/m}, a: {unit: m}, b: {unit: m}, c: {unit: kg/s}}\n"
+        f"T: m*{x}'^2/2 + m*{y}'^2/2\nV: k*{x}^2/2 + {half.format(f'{sum_}^2')}\n"
+        f"dissipation: c*{rate}^2/2 + c*{x}'^2/2\n"
+    )
+    assert errors(good) == []
+    square = draw.choice([sum_, rate])
+    [only] = errors(good.replace(f"{square}^2", square))
+    term = only.hint.removeprefix("write ").partition(": ")[0]
+    assert f"{square}^2" in term
+    assert term in good
+
+
 def test_terms_that_are_wrong_for_themselves_are_mended_one_by_one():
     written = (
         "coordinates: {x: {unit: m}, theta: {unit: rad}}\n"
