@@ -29,6 +29,14 @@ _WITHOUT_COLON = regex(
 )
 _ATTRIBUTE = regex(r"(?P<key>\w+)\s+(?:=\s*)?(?P<value>[^=:;\s][^:;]*)")
 _PROSE = frozenset({"title", "source", "description", "symbol"})
+#: Braces that belong to a text, as in `\sqrt{k}`; YAML would end a text in a list there.
+_INNER = regex(r"(?<=[\w^\ue001])\{[^{},:#\n\[\]]*\}")
+_HIDDEN = str.maketrans("{}", "\ue000\ue001")
+_SHOWN = str.maketrans("\ue000\ue001", "{}")
+_TAKEN = regex("[\ue000\ue001]")
+_WITH_BRACES = "inside { } and [ ] a text with braces stands in quotes"
+#: Of one such group in another, or behind another.
+_DEEPEST = 8
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
@@ -50,7 +58,7 @@ def compose(text: SourceText) -> tuple[DocumentNode, list[Diagnostic]]:
     """
     composer = _Composer(text)
     try:
-        for event in yaml.parse(text.source.text, Loader=_LOADER):
+        for event in yaml.parse(composer.hidden, Loader=_LOADER):
             composer.take(event)
     except yaml.YAMLError as error:
         from lagcli.reader.yaml_errors import explain
@@ -62,6 +70,14 @@ def compose(text: SourceText) -> tuple[DocumentNode, list[Diagnostic]]:
             Diagnostic("the file is empty", where, "a problem has 'coordinates' at least")
         )
     return composer.root, composer.diagnostics
+
+
+def without_wrong_texts(mistakes: list[Diagnostic]) -> list[Diagnostic]:
+    """The mistakes, but for a text that lacks quotes and would be wrong in quotes too."""
+    spans = [each.span for each in mistakes if each.message != _WITH_BRACES]
+    return [one for one in mistakes if one.message != _WITH_BRACES or not any(
+        one.span.line == other.line and one.span.column <= other.column < one.span.end_column
+        for other in spans)]  # fmt: skip
 
 
 def _one_of(key: Scalar, first: DocumentNode, second: DocumentNode) -> str:
@@ -95,6 +111,11 @@ class _Composer:
 
     def __init__(self, text: SourceText) -> None:
         self.text = text
+        self.hidden = text.source.text  # with other characters for such braces
+        is_latex = re.search(r"\\[A-Za-z]", self.hidden) and not _TAKEN.search(self.hidden)
+        for _ in range(_DEEPEST if is_latex else 0):
+            self.hidden = _INNER.sub(lambda found: found[0].translate(_HIDDEN), self.hidden)
+        self._shown = _SHOWN if is_latex else {}
         self.root: DocumentNode | None = None
         self.diagnostics: list[Diagnostic] = []
         self._stack: list[_Open] = []
@@ -115,11 +136,13 @@ class _Composer:
                         "leave out '---': one problem, one file",
                     )
             case yaml.ScalarEvent():
-                tagged = self._has_tag(event)
+                broken, value = self._has_tag(event), event.value.translate(self._shown)
+                if self._in_flow and not event.style and value != event.value:
+                    quoted = value.replace("\\", r"\\").replace('"', r"\"")
+                    self._report(start, end, _WITH_BRACES, f'write "{quoted}"')
                 node = Scalar(
-                    self.text, start, end, event.value, event.style or "", self._in_flow,
-                    size=1 + len(event.value), anchored=event.anchor is not None,
-                    broken=tagged,
+                    self.text, start, end, value, event.style or "", self._in_flow,
+                    size=1 + len(value), anchored=event.anchor is not None, broken=broken,
                 )  # fmt: skip
                 self._add(node, event.anchor)
             case yaml.AliasEvent():

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.diagnostics import Diagnostic, ProblemError, Source, Span
 from lagcli.expression import Name, walk
 from lagcli.problem_data import Problem
-from lagcli.reader.compose import compose
+from lagcli.reader.compose import compose, without_wrong_texts
 from lagcli.reader.contacts import declare_contacts, read_contacts
 from lagcli.reader.dynamics import (
     check_energies,
@@ -156,6 +156,7 @@ def _composed(
     root, diagnostics = compose(SourceText.of(source))
     file = FileReader(diagnostics=diagnostics)
     problem = _read(file, source, root)
+    file.diagnostics[:] = without_wrong_texts(file.diagnostics)
     if problem is not None and not file.diagnostics:
         file.diagnostics += dimension_mistakes(problem, _reading if alone else None) or slips(
             problem

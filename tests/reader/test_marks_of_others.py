@@ -6,6 +6,7 @@ import random
 
 import pytest
 
+from lagcli.reader import read_problem
 from tests.reader.test_habits import messages, text
 
 UNREAD = "this line is none of the file"
@@ -123,12 +124,38 @@ def test_a_comment_of_another_language_is_named(mark, above):
 
 
 @pytest.mark.parametrize(
+    ("formula", "plain"),
+    [
+        (r"\sqrt{k/m}", "sqrt(k/m)"),
+        (r"\sqrt{\frac{k}{m}}", "sqrt(k/m)"),
+        (r"\frac{1}{2} \sqrt{\frac{k}{m}}", "1/2*sqrt(k/m)"),
+    ],
+)
+def test_latex_in_brackets_is_read_as_one_text(formula, plain):
+    lines = f"expect:\n  equations: [m*x'' + k*x = 0]\n  modes: [{formula}]\n"
+    [found] = read_problem("p", (text(V="k*x^2/2") + lines).encode()).diagnostics
+    assert found.hint == f"write {plain}"
+    assert found.span.line == (text(V="k*x^2/2") + lines).count("\n")
+    twice = lines.replace("m*x''", r"m \ddot{x}").replace("[m ", "\n    - m ").replace(" 0]", " 0")
+    [both] = read_problem("p", (text(V="k*x^2/2") + twice).encode()).diagnostics
+    assert f"m*x'' + k*x = 0; in line {found.span.line + 1} write {plain}" in both.hint
+
+
+def test_latex_in_brackets_that_is_right_in_quotes():
+    wrong = text(coordinates=r"{x: {symbol: \xi_{1}}}")
+    [found] = messages(wrong)
+    assert "quotes" in found
+    quoted = found.partition("write ")[2]
+    assert messages(wrong.replace(r"\xi_{1}", quoted)) == []
+
+
+@pytest.mark.parametrize(
     ("written", "hint"),
     [
         ("[problem]\ncoordinates = x\n", "a key is written without brackets"),
         ("<problem>x</problem>\n", "without tags"),
         (text(V="k\\,x"), "write k*x"),
-        (text(forces="{x: m*\\ddot{x}}"), "put the formula in quotes"),
+        (text(forces="{x: m*\\max{x, 1}}"), "put the formula in quotes"),
         (text(T="m*x'[t]^2/2"), "write m*x'^2/2"),
         (text(T="m*der(x)^2/2"), "write m*x'^2/2"),
         (text(V="std::pow(x, 2)"), "write x^2"),
