@@ -5,8 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import cast
 
+from lagcli.algebra.build import free_of
+from lagcli.algebra.vanishing_factors import squares_divided_by
 from lagcli.document import Block, Bracket, Equations, Integral, Label, Row, equations_of
 from lagcli.expression import ZERO, Call, Diff, Expression, Name, Negative, Product, walk
+from lagcli.mechanics.conditions import conditions as conditions_of
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, difference, names, says, shows
 from lagcli.mechanics.hamiltonian_form import hamiltonian_form
@@ -46,6 +49,11 @@ def canonical_equations(explainer: Explainer, section: Section) -> Iterator[Bloc
         ", they give",
     )
     yield shows(H, _hamiltonian(explainer) or explainer.readable.as_written(function))
+    system = explainer.system
+    moving = (system.t, *system.q, *system.momenta)
+    divisors = [d for d in squares_divided_by([function]) if free_of(d, moving)]
+    if regular := conditions_of(divisors, system.order):
+        yield says("for ", *conditions(regular), ".")
     below = derivation.hamiltonian.folds_below
     if below is not None:
         yield says("Where ", explainer.readable.as_written(below), " < 0, the Legendre "

@@ -98,7 +98,9 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
         if discovery.stopped:
             yield says("No symmetry was found and proved, and the search was not complete.")
         else:
-            yield says("They have only the solution 0: within this ansatz there is no symmetry.")
+            for_which = "For general values of the parameters they"
+            they = for_which if _is_special_somewhere(explainer) else "They"
+            yield says(f"{they} have only the solution 0: within this ansatz there is no symmetry.")
         return
     charges = [each for each in found if each.source != "momentum equation"]
     if charges:
