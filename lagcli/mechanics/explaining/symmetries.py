@@ -202,7 +202,7 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
 
 def _in_general(explainer: Explainer) -> Iterator[Block]:
     """That special values of the parameters are left out."""
-    if _is_special_somewhere(explainer):
+    if len(explainer.derivation.discovery.charges) > 1 and _is_special_somewhere(explainer):
         yield says("The following is for general values of the parameters.")
 
 
