@@ -134,12 +134,13 @@ def _answer(answer: Answer, *, is_open: bool) -> Iterator[Block]:
             yield says("It is")
             yield shows(Name("value") if subject is None else subject, value)
         case Ranges(unknown=unknown, ranges=tuple(ranges)):
+            at_the_start = "" if is_open else ", or a root coincides with the initial state"
             yield says(
                 "The answer can change only at values of ",
                 Name(unknown),
-                " for which two roots along the motion coincide, or a root coincides with the "
-                "initial state. One motion was examined at each of these values and one between "
-                "neighbours. The condition holds for ",
+                f" for which two roots along the motion coincide{at_the_start}. One motion was "
+                "examined at each of these values and one between neighbours. The condition "
+                "holds for ",
                 *_ranges(unknown, ranges),
                 ".",
             )
