@@ -20,9 +20,9 @@ from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
 
-#: An entry of a map in braces that YAML reads as a key: `t; 1`, `mass= m`, `t :1`, `x 1`, `y x`.
 #: Keys that stand beside the equation of a constraint.
 _BESIDE_EQUATION = ("multiplier", "holds_while", "on_loss", "acts_as", "lambda")
+#: An entry of a map in braces that YAML reads as a key: `t; 1`, `mass= m`, `t :1`, `x 1`, `y x`.
 _WITHOUT_COLON = regex(
     r"(?P<key>[^\W\d]\w*'*)(?:\s*[;=](?!>)\s*|\s*:(?=\S)|\s+(?=[.\d])|\s+(?=[-\w.+*/^'()]+$))"
     r"(?P<value>[^:;]+)"

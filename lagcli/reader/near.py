@@ -19,6 +19,11 @@ _AT = {
     ("log", "1"): ("0", "1"),
     ("sqrt", "1"): ("1", "1/2"),
 }
+#: The derivatives of functions elsewhere.
+_SLOPES = {
+    "sin": "cos({0})", "cos": "-sin({0})", "tan": "1/cos({0})^2", "exp": "exp({0})",
+    "log": "1/({0})", "sqrt": "1/(2*sqrt({0}))", "sinh": "cosh({0})", "cosh": "sinh({0})",
+}  # fmt: skip
 
 
 @record
@@ -66,13 +71,6 @@ def near(text: str, values: Mapping[str, Near]) -> Near:
     functions: dict[str, Callable[..., Near]] = {name: partial(_called, name) for name in FUNCTIONS}
     found: Near = evaluated(formula, values, functions, lambda number: Near(str(number)))
     return found
-
-
-#: The derivatives of functions elsewhere.
-_SLOPES = {
-    "sin": "cos({0})", "cos": "-sin({0})", "tan": "1/cos({0})^2", "exp": "exp({0})",
-    "log": "1/({0})", "sqrt": "1/(2*sqrt({0}))", "sinh": "cosh({0})", "cosh": "sinh({0})",
-}  # fmt: skip
 
 
 def _called(name: str, *inner: Near) -> Near:

@@ -47,7 +47,7 @@ def _symmetry(file: FileReader, key: Scalar, value: DocumentNode) -> Symmetry:
     before = len(file.diagnostics)
     usual = _usual_change(key.label, coordinates) or _shift(coordinates[:1])
     changes: dict[str, Expression] = {}
-    for name, change in _entries(file, key, value):
+    for name, change in _entries(file, key, value, usual):
         if name.label == "gauge" and isinstance(change, Scalar) and change.value in _WORDS:
             file.error("'gauge' is a formula", change.span, "leave it out: it is found")
         elif name.label in {*coordinates, "t", "gauge"}:
@@ -68,9 +68,12 @@ def _symmetry(file: FileReader, key: Scalar, value: DocumentNode) -> Symmetry:
 
 
 def _entries(
-    file: FileReader, key: Scalar, value: DocumentNode
+    file: FileReader, key: Scalar, value: DocumentNode, usual: str
 ) -> list[tuple[Scalar, DocumentNode]]:
-    """The changes by name; none and a mistake where the value is a transformation or no map."""
+    """The changes by name; none and a mistake where the value is a transformation or no map.
+
+    The `usual` ones are proposed where it names none.
+    """
     what = f"the symmetry '{key.label}'"
     coordinates = [*file.scope.of_kind("coordinate")]
     is_map = isinstance(value, Mapping) and not texts_of(value)
@@ -83,7 +86,6 @@ def _entries(
         return []
     if isinstance(value, Mapping) and is_map:
         if not value.entries:
-            usual = _usual_change(key.label, coordinates) or _shift(coordinates[:1])
             file.error(f"{what} changes nothing", value.span, f"write {key.label}: {usual}")
         if small := _changes_meant(file, value):
             hint = f"write {small}: the change per unit of the parameter"
@@ -91,9 +93,8 @@ def _entries(
             return []
         return [*file.entries(value, what)]
     changed = [name for name in re.findall(r"\w+", said) if name in {*coordinates, "t"}]
-    usual = _shift(changed or coordinates)
-    if not changed or "time" in key.label:
-        usual = _usual_change(key.label, coordinates) or usual
+    if changed and "time" not in key.label:
+        usual = _shift(changed)
     items = [*map(source_of, getattr(value, "items", ()))]
     if len(items) == len(coordinates) and not {*items} <= {*coordinates}:  # [-y, x]
         usual = f"{{{', '.join(map('{}: {}'.format, coordinates, items))}}}"
@@ -142,7 +143,7 @@ def _usual_change(word: str, coordinates: list[str]) -> str:
 
 
 def _name_meant(symmetry: str, name: str, coordinates: list[str]) -> str:
-    """What is written for a name of a symmetry that is no coordinate."""
+    """What is written for a name of a symmetry that is not a coordinate."""
     known = [*coordinates, "t", "gauge"]
     bare = re.sub(r"^(?:\\?[dD]elta[_ ]?|d|δ|Δ) ?(?=.)", "", name)
     if bare in {*coordinates, "t"}:

@@ -35,8 +35,6 @@ _PRODUCT = regex(
     rf"(?<![\w.}}]){_ONE}\s*{_DOT}\s*{_ONE}(?![\w'(])"
     rf"|(?<![\w.])(?:\w+\.)?dot\(\s*{_ONE}\s*,\s*{_ONE}\s*\)"
 )
-
-
 #: The components of a position, a velocity and a momentum.
 _USUAL = {"r": "{}", "v": "{}'", "p": "p_{}"}
 
