@@ -261,23 +261,20 @@ def _structure(
             if size(value - s.bracket(a, b)) > 1e-9 * (1 + size(value)):
                 return None
 
-    by_energy = columns > count + 1
-    of_energy = next(
-        (
-            c for c in range(count)
-            if all(size(s.values[c] - s.state.laws.energy) < _SMALL for s in tried)
-        ),
-        None,
-    )  # fmt: skip
+    numbers = range(count if columns > count + 1 else 0)
+    of_energy = [
+        c for c in numbers
+        if all(size(s.values[c] - s.state.laws.energy) < _SMALL for s in tried)
+    ]  # fmt: skip
 
     def constants(energy: int) -> list[list[list[arb]]]:
         whole = [[[arb(0)] * (count + 1) for _ in range(count)] for _ in range(count)]
         for (a, b), given in found.items():
             rates = [*(given[count + 1 :] or [arb(0)] * count), arb(0)]
             bracket = [c + energy * rate for c, rate in zip(given, rates, strict=False)]
-            if by_energy and of_energy is not None:  # it is a constant there
-                bracket[count] += energy * bracket[of_energy]
-                bracket[of_energy] = arb(0)
+            for c in of_energy:  # it is a constant there
+                bracket[count] += energy * bracket[c]
+                bracket[c] = arb(0)
             whole[a][b] = bracket
             whole[b][a] = [-c for c in bracket]
         return whole
