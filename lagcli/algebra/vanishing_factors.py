@@ -93,10 +93,15 @@ def in_sines(value: Expr) -> Expr:
     )
 
 
+def can_vanish(expression: Expr) -> bool:
+    """Whether it is not known to have a sign, and not known to be other than 0."""
+    return sign(expression) not in (1, -1) and sign(expression**2) != 1
+
+
 def may_vanish(expression: Expr) -> list[Expr]:
-    """The factors that are 0 for some values of their symbols, as far as is known."""
+    """The factors with symbols that are not known to be other than 0."""
     factors = (f for f, power in factors_of(expression) if power > 0 and f.free_symbols)
-    return [f for f in factors if sign(f**2) != 1]
+    return [f for f in factors if can_vanish(f)]
 
 
 def squares_divided_by(values: Iterable[Expr]) -> list[Expr]:

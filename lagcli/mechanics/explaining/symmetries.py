@@ -209,12 +209,12 @@ def _in_general(explainer: Explainer) -> Iterator[Block]:
 def _is_special_somewhere(explainer: Explainer) -> bool:
     """Whether there may be values at which charges vanish or coincide, or brackets vanish.
 
-    A parameter of L or of forces may be 0, or a root or a rate, as a of sin(a t), or all
+    A parameter of what is given may be 0, or a root or a rate, as a of sin(a t), or all
     coefficients of a charge.
     """
     system, charges = explainer.system, explainer.derivation.discovery.charges
-    L, *forces = given_formulas(explainer.dynamics)
-    used = {p for formula in (L, *forces) for p in formula.free_symbols} & {*system.parameters}
+    given = given_formulas(explainer.dynamics)
+    used = {p for formula in given for p in formula.free_symbols} & {*system.parameters}
     moving = (system.t, *system.q, *system.qdot)
     return any(sign(p) not in (1, -1) for p in used) or any(
         real_where(each, system)

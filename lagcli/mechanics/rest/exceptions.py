@@ -13,8 +13,8 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.decimals import written
 from lagcli.algebra.factors import factors_of
 from lagcli.algebra.place import NO_VALUE
-from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import SolvedSystem, solve_system
+from lagcli.algebra.vanishing_factors import can_vanish, may_vanish
 from lagcli.expression import Expression
 
 _MOST_OPEN = 8  # parameters that may be 0, each of which is put to 0 in turn
@@ -32,7 +32,7 @@ def without_unknowns(
     if any(e.atoms(AppliedUndef) for e in conditions):
         return None
     found = _factors_without(conditions, unknowns)
-    if found or not all(map(_can_vanish, conditions)):
+    if found or not all(map(can_vanish, conditions)):
         return found
     decided = _decided_by_parameters(conditions, unknowns)
     return _at_zero(conditions, unknowns) if decided == () else decided
@@ -89,14 +89,14 @@ def _at_zero(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> tuple[Ex
     vanish together; None where there may be other exceptions.
     """
     known = {p for e in conditions for p in e.free_symbols} - {*unknowns}
-    open_ = sorted(filter(_can_vanish, known), key=str)
+    open_ = sorted(filter(can_vanish, known), key=str)
     alone = [p for p in open_[:_MOST_OPEN] if _holds_without(conditions, [p], unknowns)]
     if not alone:
         together = len(open_) > 1 and _holds_without(conditions, open_, unknowns)
         return _each_for_itself(conditions, unknowns) if together else ()
     with_all = []
     for e in conditions:
-        factors = [f for f, k in factors_of(simplify(e)) if k > 0 and _can_vanish(f)]
+        factors = [f for f, k in factors_of(simplify(e)) if k > 0 and can_vanish(f)]
         if {*alone} <= {*factors}:
             with_all.append(sympy.Mul(*(f for f in factors if f not in alone)))
     return (sympy.Mul(*alone),) if _exclude_each_other(with_all) else None
@@ -109,7 +109,7 @@ def _each_for_itself(
     found = []
     for e in conditions:
         factor = sympy.Mul(*_perhaps_zero(e, unknowns))
-        if _can_vanish(simplify(e / factor)):
+        if can_vanish(simplify(e / factor)):
             return None
         found.append(factor)
     return tuple(dict.fromkeys(found))
@@ -130,10 +130,6 @@ def _exclude_each_other(expressions: Sequence[Expr]) -> bool:
     """Whether they vanish together nowhere, as sin(a) and cos(a)."""
     squares = simplify(sympy.Add(*(e**2 for e in expressions)))
     return bool(squares.is_number and squares != 0)
-
-
-def _can_vanish(e: Expr) -> bool:
-    return sign(e) not in (1, -1) and sign(e**2) != 1
 
 
 def unless_written(
@@ -178,7 +174,5 @@ def _common_factors(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> l
 def _perhaps_zero(condition: Expr, unknowns: Sequence[Symbol]) -> list[Expr]:
     """The factors without unknowns that can vanish."""
     # each by itself: sin(a) (g cos(a) + X'' sin(a)) is a sum with cos(a)^2 when multiplied out
-    found = (each for part in sympy.Mul.make_args(condition) for each in factors_of(part))
-    return list(
-        dict.fromkeys(f for f, k in found if k > 0 and free_of(f, unknowns) and _can_vanish(f))
-    )
+    found = (f for part in sympy.Mul.make_args(condition) for f in may_vanish(part))
+    return list(dict.fromkeys(f for f in found if free_of(f, unknowns)))
