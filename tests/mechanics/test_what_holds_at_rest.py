@@ -53,11 +53,13 @@ def test_a_surface_does_not_pull(sign, place, stable):
 def test_conditions_that_a_parameter_makes_void(seed):
     """F = k times something, in all coordinates: at k = 0 no force acts."""
     source = random.Random(f"void {seed}")
-    a, b = source.sample(["x^2 - c*y", "x*(y - c)", "x^2 + y^2 - 2*c*x", "y^2 - x"], 2)
+    p, q, r = source.randint(1, 3), source.randint(1, 2), source.randint(3, 5)
+    a = source.choice([f"(x - {p}*c)^2 + {q}*x*y", f"{q}*cos(x) - {p}*c^2", f"{p}*(x^2 - c^2)^2"])
+    b = f"{r}*(y - c)^2"
     file = "coordinates: [x, y]\nparameters: {{k: , c: , g: POSITIVE}}\nT: (x'^2 + y'^2)/2\nV: {}"
     states = {
         of: equilibria(derive(file.format(V).replace("POSITIVE", "{assume: positive}")).dynamics)
-        for of, V in {"all": f"k*({a}) + k*({b})^2", "not all": f"k*({a})^2 + g*x^2"}.items()
+        for of, V in {"all": f"k*({a}) + k*({b})", "not all": f"k*({a}) + k*({b}) + g*x^2"}.items()
     }
     assert to_grammar(states["all"].void) == "k"
     assert states["not all"].void is None
