@@ -38,9 +38,57 @@ def said(text, title, *also):
     return words(explain(derive(text), also), title)
 
 
+def candidate(text):
+    return next(c for c in derive(text).noether.charges if c.source == "candidate")
+
+
 def number(expression, at):
     value = expression.xreplace({s: at[s.name] for s in expression.free_symbols})
     return float(value)
+
+
+# -- special values -------------------------------------------------------------------------------
+
+# V, and what must vanish for L_z = m (x y' - y x') to be conserved: one of these sets of parameters
+BREAKING = {
+    "c*x^3": [["c"]],
+    "c*x*y + c*d*x": [["c"]],
+    "c*(a*x + b*y)": [["c"], ["a", "b"]],
+    "c*x*sin(a*t)": [["c"], ["a"]],
+    "c*f(x)": [["c"], []],
+    "a*x + b*y": [["a", "b"]],
+}
+
+
+@pytest.mark.parametrize("V", BREAKING)
+def test_not_conserved_unless_names_what_alone_makes_the_rate_vanish(V):
+    functions = "functions: {f: [x]}\n" * ("f(x)" in V)
+    text = (
+        f"coordinates: [x, y]\nparameters: [m, a, b, c, d]\n{functions}"
+        f"T: m*(x'^2 + y'^2)/2\nV: {V} + (x^2 + y^2)^2\nsymmetries: {{turn: {{x: -y, y: x}}}}\n"
+    )
+    charge = candidate(text)
+    for vanishing in BREAKING[V]:
+        zeros = {s: 0 for s in charge.rate.free_symbols if s.name in vanishing}
+        assert not vanishing or charge.rate.xreplace(zeros) == 0
+    told = said(text, "Conserved quantities")
+    only = len(BREAKING[V]) == 1 == len(BREAKING[V][0])
+    assert (f"It is not conserved unless {BREAKING[V][0][0]} = 0, because" in told) is only
+    assert ("It is not conserved in general, because" in told) is (len(BREAKING[V]) > 1)
+
+
+@pytest.mark.parametrize("power", [2, 3])
+def test_a_change_that_is_a_total_derivative_for_special_values_does_not_conserve_Q(power):
+    """The charge is Q - G there."""
+    text = (
+        "coordinates: [x, y]\nparameters: [m, k, s]\nT: m*(x'^2 + y'^2)/2\n"
+        f"V: k*(x^2 + y^2)/2 + s*x*y^{power}\nsymmetries: {{two: {{x: x', y: -y'}}}}\n"
+    )
+    charge = candidate(text)
+    assert charge.rate.xreplace({s: 0 for s in charge.rate.free_symbols if s.name == "s"}) != 0
+    told = said(text, "Conserved quantities")
+    because = "because of a change of L that is not a total time derivative unless s = 0:"
+    assert f"It is not conserved, {because}" in told
 
 
 # -- the energy -----------------------------------------------------------------------------------

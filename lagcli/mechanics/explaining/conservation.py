@@ -15,9 +15,15 @@ from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, listed, says, shows
 from lagcli.mechanics.impacts import when_constant
 from lagcli.mechanics.noether import NoetherCharge
-from lagcli.mechanics.rest.exceptions import void_where
+from lagcli.mechanics.rest.exceptions import void_only_where, void_where
 from lagcli.mechanics.total_derivative import euler_operator
-from lagcli.statements.wording import TRIVIAL, capitalized, enumerated, exceptions
+from lagcli.statements.wording import (
+    CHANGE_OF_L,
+    TRIVIAL,
+    capitalized,
+    enumerated,
+    exceptions,
+)
 
 
 def energy(explainer: Explainer) -> Iterator[Block]:
@@ -122,11 +128,15 @@ def _rate(explainer: Explainer) -> Iterator[Block]:
 
 
 def _unless(explainer: Explainer, *rates: sympy.Expr) -> list[Part]:
-    """The values of the parameters for which rates vanish."""
+    """The values of the parameters for which rates vanish; in general, where others may."""
     system = explainer.system
     moving = sorted({s for r in rates for s in r.free_symbols} - {*system.parameters}, key=str)
     factor = void_where(rates, moving, explainer.dynamics.lagrange.mass_matrix)
-    return [] if factor is None else exceptions([written(factor, system.order)])
+    if factor is None:
+        return []
+    if not void_only_where(rates, factor, moving):
+        return [" in general"]
+    return exceptions([written(factor, system.order)])
 
 
 def _unchanged(explainer: Explainer) -> list[Part]:
@@ -311,11 +321,11 @@ def _candidate(explainer: Explainer, charge: NoetherCharge) -> Iterator[Block]:
             yield from _work(explainer, charge, with_gauge=with_gauge)
         yield from _struck(explainer, charge)
     else:
-        rates = [] if charge.rate is None else [charge.rate]
-        if gauge is None and not (explainer.constraints or explainer.forced or explainer.damped):
-            rates = euler_operator(changed, explainer.system)  # 0 where there is a G
-        yield says("It is not conserved", *_unless(explainer, *rates),
-                   f", because of {charge.broken_by}:")  # fmt: skip
+        special = [] if charge.rate is None else _unless(explainer, charge.rate)
+        total: list[Part] = []
+        if not special and charge.broken_by == CHANGE_OF_L:
+            total = _unless(explainer, *euler_operator(changed, explainer.system))
+        yield says("It is not conserved", *special, f", because of {charge.broken_by}", *total, ":")
         if charge.rate is not None:
             yield shows(Name(letters.Q.name, 1), explainer.readable.on_surface(charge.rate))
 

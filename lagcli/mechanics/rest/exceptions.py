@@ -159,6 +159,31 @@ def void_where(
     return sympy.Mul(*common) if common else None
 
 
+def void_only_where(conditions: Sequence[Expr], void: Expr, unknowns: Sequence[Symbol]) -> bool:
+    """Whether nothing else makes all conditions void: not (a x + b y) sin(c), with a = b = 0.
+
+    Nor a special choice of an unspecified function.
+    """
+    known = {*may_vanish(void)}
+    return any(
+        known.issuperset(may_vanish(coefficient))
+        for condition in conditions
+        for coefficient in _coefficients(condition, unknowns)
+    )
+
+
+def _coefficients(condition: Expr, unknowns: Sequence[Symbol]) -> list[Expr]:
+    """Those of what does not vanish for special parameters, as sin(w t), or functions."""
+    open_ = filter(can_vanish, condition.free_symbols - {*unknowns})
+    at_zero = dict.fromkeys(open_, S.Zero)
+    found: dict[Expr, Expr] = {}
+    for term in sympy.Add.make_args(sympy.expand(condition)):
+        coefficient, moving = term.as_independent(*unknowns, as_Add=False)
+        if not moving.atoms(AppliedUndef) and moving.xreplace(at_zero) != 0:
+            found[moving] = found.get(moving, S.Zero) + coefficient
+    return [c for c in map(simplify, found.values()) if c != 0]
+
+
 def _is_weightless(parameter: Expr, masses: Sequence[Sequence[Expr]]) -> bool:
     """Whether a row of the mass matrix vanishes with a parameter."""
     rows = (row for row in masses if any(row))
