@@ -65,6 +65,20 @@ def test_conditions_that_a_parameter_makes_void(seed):
     assert states["not all"].void is None
 
 
+@pytest.mark.parametrize(("force", "void"), [("0", "W"), ("k*x*W", "W"), ("k*x", None)])
+def test_a_drive_that_a_parameter_switches_off(force, void):
+    """A body on a turning table: at W = 0 the table rests and, without a force, everything on it."""
+    text = f"""
+coordinates: [x, y, u, v]
+parameters: [m, k, W]
+T: m*(x'^2 + y'^2 + u'^2 + v'^2)/2
+forces: {{x: "{force}"}}
+constraints: {{a: x' - u' = -W*y, b: y' - v' = W*x}}
+"""
+    states = equilibria(derive(text).dynamics)
+    assert (None if states.void is None else to_grammar(states.void)) == void
+
+
 @pytest.mark.parametrize(("kind", "told"), [("tension", "Taut"), ("normal", "In contact")])
 def test_a_string_hangs_down(kind, told):
     text = f"""

@@ -277,11 +277,11 @@ class RestConditions:
     @property
     def void(self) -> Expr | None:
         """What may be 0, and every position that the constraints allow is an equilibrium then."""
-        fixed = all(is_zero(e.drift) is True for e in self.dynamics.constraints.equations)
-        if self.depends_on_time or not fixed:
+        if self.depends_on_time:
             return None
+        drifts = (e.drift for e in self.dynamics.constraints.equations)
         masses = self.dynamics.lagrange.mass_matrix
-        return void_where(self._forces_along, self.system.q, masses)
+        return void_where((*self._forces_along, *drifts), self.system.q, masses)
 
     @property
     def edge(self) -> tuple[str, ...]:
