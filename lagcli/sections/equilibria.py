@@ -20,12 +20,12 @@ from lagcli.statements.stability import at_the_limit, holding, stability
 from lagcli.statements.wording import (
     State,
     alike_blocks,
+    at_special_values,
     capitalized,
     conditions,
     listed,
     none_found,
     repeating,
-    where_void,
 )
 
 if TYPE_CHECKING:
@@ -72,7 +72,7 @@ def blocks(section: EquilibriaSection, _: Answers) -> Iterator[Block]:
         yield Paragraph(_stability(equilibrium, states))
     if section.equilibria and section.where:
         yield Paragraph((f"They were sought only{section.where}.",))
-    yield from where_void("an equilibrium", section.void)
+    yield from at_special_values("an equilibrium", section)
     if section.periods:
         yield Paragraph(tuple(repeating(section.periods)))
     if section.equilibria and not section.complete:

@@ -16,9 +16,7 @@ _LINEAR = ", since the equations of motion are linear and "
 _BOUNDED = "all their solutions are then bounded"
 _DRIFT = "apart from a slow drift along the family "
 _THEOREM = "(Kelvin, Tait and Chetaev)"
-_MOVING = (
-    "What is set in motion gains no kinetic energy; this does not decide whether it stays near."
-)
+_MOVING = "This does not decide whether what is set in motion stays near."
 
 
 def stability(

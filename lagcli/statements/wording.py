@@ -24,6 +24,7 @@ from lagcli.expression import (
 )
 from lagcli.notation.letters import names_in, own
 from lagcli.statements.answers import (
+    EquilibriaSection,
     ModesOfFrequency,
     QuantityUnit,
     SpecialValue,
@@ -34,6 +35,7 @@ from lagcli.statements.motions import (
     Irreducible,
     OneFreedom,
     SteadyMotion,
+    SteadySection,
 )
 from lagcli.statements.plus_minus import turns_alike
 from lagcli.statements.questions import Answer, Solutions
@@ -396,10 +398,15 @@ def exceptions(vanishing: Sequence[Expression]) -> list[Part]:
     return parts
 
 
-def where_void(what: str, void: Expression | None) -> Iterator[Paragraph]:
-    """For which values of the parameters all positions are `what`."""
-    if void is not None:
-        yield Paragraph(("Where ", *_compared(void, " = "), f" every position is {what}."))
+def at_special_values(what: str, section: EquilibriaSection | SteadySection) -> Iterator[Paragraph]:
+    """For which values of the parameters all positions are `what`, or more than are listed."""
+    if section.void is not None:
+        yield Paragraph(("Where ", *_compared(section.void, " = "), f" every position is {what}."))
+    if section.complete and section.degenerate:
+        parts: list[Part] = []
+        for each in section.degenerate:
+            parts += [" or " if parts else "Where ", *_compared(each, " = ")]
+        yield Paragraph((*parts, " there may be others."))
 
 
 def linear_equations(

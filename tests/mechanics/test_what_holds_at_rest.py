@@ -12,7 +12,8 @@ from lagcli.mechanics.steady.statement import steady_motions
 from lagcli.statements.stability import holding
 
 from .derived import derive
-from .formulas import normal
+from .formulas import formula, normal
+from .test_sentences import said
 
 
 def found(text: str):
@@ -63,6 +64,29 @@ def test_conditions_that_a_parameter_makes_void(seed):
     }
     assert to_grammar(states["all"].void) == "k"
     assert states["not all"].void is None
+
+
+@pytest.mark.parametrize(
+    ("shape", "degenerate"),
+    [
+        ("(k - c)*x^2/2 + g*y^2", "k - c"),
+        ("k*x^2 - k*cos(y) + c*(y - 1)^4*x^2", None),
+        ("k*c*x^4 + g*cosh(y)", "k;c"),
+        ("k*x^2*y^2 + g*(x^2 + y^2)", None),
+        ("k*(x - g)^2 + c*(y - g)^2", "k;c"),
+    ],
+)
+def test_a_condition_that_a_parameter_makes_void(shape, degenerate):
+    """Where one of several holds everywhere, more than the listed positions may be at rest."""
+    text = (
+        "coordinates: [x, y]\nparameters: {k: , c: , g: {assume: positive}}\n"
+        f"T: (x'^2 + y'^2)/2\nV: {shape}\n"
+    )
+    states = equilibria(derive(text).dynamics)
+    found = {normal(e) for e in states.degenerate}
+    assert found == {formula(e) for e in (degenerate or "").split(";") if e}
+    told = said(text, "Equilibria", "equilibria")
+    assert ("there may be others" in told) is (degenerate is not None)
 
 
 @pytest.mark.parametrize(("force", "void"), [("0", "W"), ("k*x*W", "W"), ("k*x", None)])

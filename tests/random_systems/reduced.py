@@ -54,7 +54,8 @@ def _one_freedom(judge, one, state, names):
     judge.same("reduction", one["energy"], h, names, "energy")
     table = names | {one["constant"]: h}
     v = state.v[judge.motion.coordinates.index(one["coordinate"])]
-    judge.same("reduction", one["rate"], 1 / abs(v), table, "dt/dq")
+    if v:  # at rest dt/dq has no value
+        judge.same("reduction", one["rate"], 1 / abs(v), table, "dt/dq")
     for text in one["turning_points"] or []:
         try:
             there = table | {one["coordinate"]: read(text)(table), one["coordinate"] + "'": mpf(0)}

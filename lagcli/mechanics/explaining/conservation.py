@@ -129,14 +129,15 @@ def _rate(explainer: Explainer) -> Iterator[Block]:
 
 def _unless(explainer: Explainer, *rates: sympy.Expr) -> list[Part]:
     """The values of the parameters for which rates vanish; in general, where others may."""
-    system = explainer.system
-    moving = sorted({s for r in rates for s in r.free_symbols} - {*system.parameters}, key=str)
-    factor = void_where(rates, moving, explainer.dynamics.lagrange.mass_matrix)
-    if factor is None:
+    system, open_ = explainer.system, [r for r in rates if r != 0]
+    if not open_:
         return []
-    if not void_only_where(rates, factor, moving):
+    moving = sorted({s for r in open_ for s in r.free_symbols} - {*system.parameters}, key=str)
+    masses = explainer.dynamics.lagrange.mass_matrix
+    factor = void_where(open_, moving, masses)
+    if not void_only_where(open_, factor, moving, masses):
         return [" in general"]
-    return exceptions([written(factor, system.order)])
+    return [] if factor is None else exceptions([written(factor, system.order)])
 
 
 def _unchanged(explainer: Explainer) -> list[Part]:

@@ -30,8 +30,14 @@ from lagcli.statements.explanation import ExplanationStep
 from lagcli.statements.plus_minus import once, unlike
 from lagcli.statements.registry import find_section
 from lagcli.statements.stability import at_the_limit, holding, stability
+from lagcli.statements.wording import (
+    at_special_values,
+    constraints_named,
+    place_rows,
+    repeating,
+    unless,
+)
 from lagcli.statements.wording import conditions as inequalities
-from lagcli.statements.wording import constraints_named, place_rows, repeating, unless, where_void
 
 if TYPE_CHECKING:
     from lagcli.mechanics.rest.equilibria import RestPoints
@@ -151,7 +157,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says(firm, *kept, limit)
     if _one_sided(explainer):
         yield from _where_a_contact_pulls(explainer)
-    yield from where_void("an equilibrium", states.void)
+    yield from at_special_values("an equilibrium", states)
     if states.periods:
         yield says(*repeating(states.periods))
     if found and states.where:

@@ -98,8 +98,7 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
         if discovery.stopped:
             yield says("No symmetry was found and proved, and the search was not complete.")
         else:
-            for_which = "For general values of the parameters they"
-            they = for_which if _is_special_somewhere(explainer) else "They"
+            they = "For general values of the parameters they" if _given(explainer) else "They"
             yield says(f"{they} have only the solution 0: within this ansatz there is no symmetry.")
         return
     charges = [each for each in found if each.source != "momentum equation"]
@@ -213,15 +212,19 @@ def _is_special_somewhere(explainer: Explainer) -> bool:
     coefficients of a charge.
     """
     system, charges = explainer.system, explainer.derivation.discovery.charges
-    given = given_formulas(explainer.dynamics)
-    used = {p for formula in given for p in formula.free_symbols} & {*system.parameters}
     moving = (system.t, *system.q, *system.qdot)
-    return any(sign(p) not in (1, -1) for p in used) or any(
+    return any(sign(p) not in (1, -1) for p in _given(explainer)) or any(
         real_where(each, system)
         or any(_rates(each.charge, system.t))
         or all(sign(c) not in (1, -1) for c in _coefficients(each.charge, moving))
         for each in charges
     )
+
+
+def _given(explainer: Explainer) -> set[Symbol]:
+    """The parameters of what is given."""
+    formulas = given_formulas(explainer.dynamics)
+    return {p for e in formulas for p in e.free_symbols} & {*explainer.system.parameters}
 
 
 def _coefficients(formula: Expr, moving: Sequence[Symbol]) -> list[Expr]:

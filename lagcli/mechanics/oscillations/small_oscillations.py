@@ -116,6 +116,7 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
         reason=TIMED if rest.depends_on_time else "",
         at_all_times=rest.depends_on_time,
         void=_void(oscillations, order) if places else None,
+        degenerate=tuple(written(e, order) for e in (rest.degenerate if places else ())),
         edge=() if places else rest.edge,
         where=rest.restricted_to,
         open=open_,

@@ -159,14 +159,28 @@ def void_where(
     return sympy.Mul(*common) if common else None
 
 
-def void_only_where(conditions: Sequence[Expr], void: Expr, unknowns: Sequence[Symbol]) -> bool:
+def degenerate_where(
+    conditions: Sequence[Expr], unknowns: Sequence[Symbol], masses: Sequence[Sequence[Expr]]
+) -> list[Expr]:
+    """What may be 0, each by itself, and some of the conditions hold everywhere then, not all."""
+    void = _common_factors([e for e in conditions if e != 0], unknowns)
+    found = (f for e in conditions if e != 0 for f in _perhaps_zero(e, unknowns) if f not in void)
+    return [f for f in dict.fromkeys(found) if not _is_weightless(f, masses)]
+
+
+def void_only_where(
+    conditions: Sequence[Expr],
+    void: Expr | None,
+    unknowns: Sequence[Symbol],
+    masses: Sequence[Sequence[Expr]],
+) -> bool:
     """Whether nothing else makes all conditions void: not (a x + b y) sin(c), with a = b = 0.
 
     Nor a special choice of an unspecified function.
     """
-    known = {*may_vanish(void)}
+    known = may_vanish(S.One if void is None else void)
     return any(
-        known.issuperset(may_vanish(coefficient))
+        all(f in known or _is_weightless(f, masses) for f in may_vanish(coefficient))
         for condition in conditions
         for coefficient in _coefficients(condition, unknowns)
     )

@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 
 import sympy
-from sympy import Expr, S
+from sympy import Expr, S, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
@@ -34,7 +34,7 @@ from lagcli.mechanics.reduction.steady import SteadyMotions
 from lagcli.mechanics.reduction.steady_motion import Steady
 from lagcli.mechanics.rest.characteristic import Characteristic
 from lagcli.mechanics.rest.equilibria import RestPoints
-from lagcli.mechanics.rest.exceptions import unless_written, void_where
+from lagcli.mechanics.rest.exceptions import degenerate_where, unless_written, void_where
 from lagcli.mechanics.rest.family import Family
 from lagcli.mechanics.rest.linearization import Linearization, Matrix
 from lagcli.mechanics.stability.judge import GRAZES, judge
@@ -133,6 +133,7 @@ class _SteadyStatement:
                 resting=resting,
                 unless=() if found else unless_written(steady.unless, self.order),
                 void=self._void if found else None,
+                degenerate=self._degenerate if found else (),
                 # nor those along a closed contact
                 where=(steady.rest.restricted_to if steady.rest.points or not found else "")
                 + while_open(steady.full.problem.contacts),
@@ -148,10 +149,22 @@ class _SteadyStatement:
         steady = self.steady
         if steady.acting or steady.full.problem.contacts:
             return None
-        unknowns = (*steady.system.q, *steady.routh.momenta)
-        masses = steady.routh.given.dynamics.lagrange.mass_matrix
-        void = void_where(steady.balance, unknowns, masses)
+        void = void_where(*self._balance)
         return None if void is None else written(void, self.order)
+
+    @property
+    def _degenerate(self) -> tuple[Expression, ...]:
+        """What may be 0, and some conditions hold at all positions and momenta then."""
+        if self.steady.acting:
+            return ()
+        return tuple(written(e, self.order) for e in degenerate_where(*self._balance))
+
+    @property
+    def _balance(self) -> tuple[Sequence[Expr], Sequence[Symbol], Sequence[Sequence[Expr]]]:
+        """What vanishes in a steady motion, its unknowns, and the mass matrix."""
+        steady = self.steady
+        unknowns = (*steady.system.q, *steady.routh.momenta)
+        return steady.balance, unknowns, steady.routh.given.dynamics.lagrange.mass_matrix
 
     @property
     def _is_kinked(self) -> bool:
@@ -308,7 +321,7 @@ class _SteadyStatement:
         return S.One if found is None else found
 
     def _rests_at_equality(self, motion: Steady) -> bool:
-        """Whether all rates and momenta are a root of what must be positive at a place."""
+        """Whether all rates and momenta are a root of what must be positive."""
         open_ = [c for c in map(deciding, motion.positive) if sign(c) is None]
         if (
             not motion.mirrored
@@ -317,7 +330,7 @@ class _SteadyStatement:
         ):
             return False
         parts = [f for f, _ in factors_of(open_[0]) if sign(f) is None]
-        if len(parts) != 1 or free_of(parts[0], self.steady.system.q):
+        if len(parts) != 1:
             return False
         values = (motion.values.get(p, p) for p in self.routh.momenta)
         squares = [simplify(v**2) for v in (*values, *motion.rates.values())]
