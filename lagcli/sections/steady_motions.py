@@ -41,6 +41,7 @@ from lagcli.statements.steady import (
     the_equilibria,
 )
 from lagcli.statements.wording import (
+    at_special_values,
     capitalized,
     conditions,
     constraints_give,
@@ -105,6 +106,7 @@ def blocks(section: SteadySection, answers: Answers) -> Iterator[Block]:
     yield from in_moving_frames(section)
     if section.motions:
         yield from other_motions(section)
+        yield from at_special_values("one of a steady motion", section)
 
 
 def _motion(motion: SteadyMotion, alike: Sequence[SteadyMotion] = ()) -> Iterator[Block]:

@@ -274,8 +274,8 @@ class EquilibriaSection:
     else all solve that each of `open` is 0 (where these are not long).  Where there are none, there
     may be some for values of the parameters for which each of `unless` vanishes; None: for special
     values that are not known; and at the `edge` 0 of coordinates that are assumed positive.  Where
-    some are listed, every position is one for parameters for which `void` vanishes, and there may
-    be others where one of `degenerate` does.
+    some are listed, every position is one for parameters for which one of `void` vanishes, and
+    there may be more where one of `degenerate` does.
     `where` restricts what was sought, in words.  They are not listed where they are `everywhere`.
     They repeat in coordinates with `periods`, of which one is listed.
     """
@@ -287,7 +287,7 @@ class EquilibriaSection:
     at_all_times: bool = False
     open: tuple[Expression, ...] = ()
     unless: tuple[Expression, ...] | None = ()
-    void: Expression | None = None
+    void: tuple[Expression, ...] = ()
     degenerate: tuple[Expression, ...] = ()
     edge: tuple[str, ...] = ()
     where: str = ""

@@ -166,8 +166,8 @@ class SteadySection:
     They are dU_eff/dq minus what is `acting`: "forces", "constraints", along which they are taken.
     `momenta` are the cyclic coordinates whose momenta are constant.  Where there are no motions,
     there may be some for parameters for which each of `unless` vanishes; None: for special values.
-    Where some are listed, every position is one of them for parameters for which `void` vanishes,
-    and there may be others where one of `degenerate` does.
+    Where some are listed, every position is one of them for parameters for which one of `void`
+    vanishes, and there may be more where one of `degenerate` does.
     What is not `complete` was not sought where each of `singular_where` vanishes.
     `where` restricts what was sought, in words; of what is `resting` the conditions are of rest.
     All hold in each of the `frames`, too: velocities that are common to all in terms of one.
@@ -187,7 +187,7 @@ class SteadySection:
     reason: str = ""
     momenta: tuple[str, ...] = ()
     unless: tuple[Expression, ...] | None = ()
-    void: Expression | None = None
+    void: tuple[Expression, ...] = ()
     degenerate: tuple[Expression, ...] = ()
     singular_where: tuple[Expression, ...] = ()
     where: str = ""

@@ -9,14 +9,13 @@ from lagcli.document import Block, Paragraph
 from lagcli.expression import Name
 from lagcli.statements.answers import EquilibriaSection, ModesSection, Section
 from lagcli.statements.motions import SteadySection
-from lagcli.statements.wording import Part, at_special_values
+from lagcli.statements.wording import Part
 
 
 def other_motions(section: SteadySection) -> Iterator[Paragraph]:
     """That not all steady motions are listed, and where none was sought."""
     if section.where:
         yield Paragraph((f"They were sought only{section.where}.",))
-    yield from at_special_values("one of a steady motion", section)
     if section.complete:
         return
     parts: list[Part] = []

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
+from itertools import chain
 
 from lagcli.document import Block, Equations, Formula, Label, Matrix, Paragraph, Row, equations_of
 from lagcli.expression import (
@@ -400,13 +401,15 @@ def exceptions(vanishing: Sequence[Expression]) -> list[Part]:
 
 def at_special_values(what: str, section: EquilibriaSection | SteadySection) -> Iterator[Paragraph]:
     """For which values of the parameters all positions are `what`, or more than are listed."""
-    if section.void is not None:
-        yield Paragraph(("Where ", *_compared(section.void, " = "), f" every position is {what}."))
-    if section.complete and section.degenerate:
-        parts: list[Part] = []
-        for each in section.degenerate:
-            parts += [" or " if parts else "Where ", *_compared(each, " = ")]
-        yield Paragraph((*parts, " there may be others."))
+    more = section.degenerate if section.complete else ()
+    ends = (
+        (section.void, f" every position is {what}."),
+        (more, " there may be more than are listed."),
+    )
+    for vanishing, end in ends:
+        parts = [(" or " if k else "Where ", *_compared(x, " = ")) for k, x in enumerate(vanishing)]
+        if parts:
+            yield Paragraph((*chain.from_iterable(parts), end))
 
 
 def linear_equations(

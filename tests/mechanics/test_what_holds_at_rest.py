@@ -62,8 +62,8 @@ def test_conditions_that_a_parameter_makes_void(seed):
         of: equilibria(derive(file.format(V).replace("POSITIVE", "{assume: positive}")).dynamics)
         for of, V in {"all": f"k*({a}) + k*({b})", "not all": f"k*({a}) + k*({b}) + g*x^2"}.items()
     }
-    assert to_grammar(states["all"].void) == "k"
-    assert states["not all"].void is None
+    assert [*map(to_grammar, states["all"].void)] == ["k"]
+    assert states["not all"].void == ()
 
 
 @pytest.mark.parametrize(
@@ -71,9 +71,9 @@ def test_conditions_that_a_parameter_makes_void(seed):
     [
         ("(k - c)*x^2/2 + g*y^2", "k - c"),
         ("k*x^2 - k*cos(y) + c*(y - 1)^4*x^2", None),
-        ("k*c*x^4 + g*cosh(y)", "k;c"),
+        ("k*c*x^4 + g*cosh(y)", "k*c"),
         ("k*x^2*y^2 + g*(x^2 + y^2)", None),
-        ("k*(x - g)^2 + c*(y - g)^2", "k;c"),
+        ("k*(x - g)^2 + c*(y - g)^2", "k*c"),
     ],
 )
 def test_a_condition_that_a_parameter_makes_void(shape, degenerate):
@@ -86,10 +86,10 @@ def test_a_condition_that_a_parameter_makes_void(shape, degenerate):
     found = {normal(e) for e in states.degenerate}
     assert found == {formula(e) for e in (degenerate or "").split(";") if e}
     told = said(text, "Equilibria", "equilibria")
-    assert ("there may be others" in told) is (degenerate is not None)
+    assert ("there may be more than are listed" in told) is (degenerate is not None)
 
 
-@pytest.mark.parametrize(("force", "void"), [("0", "W"), ("k*x*W", "W"), ("k*x", None)])
+@pytest.mark.parametrize(("force", "void"), [("0", ["W"]), ("k*x*W", ["W"]), ("k*x", [])])
 def test_a_drive_that_a_parameter_switches_off(force, void):
     """A body on a turning table: at W = 0 the table rests and, without a force, everything on it."""
     text = f"""
@@ -100,7 +100,7 @@ forces: {{x: "{force}"}}
 constraints: {{a: x' - u' = -W*y, b: y' - v' = W*x}}
 """
     states = equilibria(derive(text).dynamics)
-    assert (None if states.void is None else to_grammar(states.void)) == void
+    assert [*map(to_grammar, states.void)] == void
 
 
 @pytest.mark.parametrize(("kind", "told"), [("tension", "Taut"), ("normal", "In contact")])

@@ -134,10 +134,10 @@ def _unless(explainer: Explainer, *rates: sympy.Expr) -> list[Part]:
         return []
     moving = sorted({s for r in open_ for s in r.free_symbols} - {*system.parameters}, key=str)
     masses = explainer.dynamics.lagrange.mass_matrix
-    factor = void_where(open_, moving, masses)
-    if not void_only_where(open_, factor, moving, masses):
+    void = void_where(open_, moving, masses)
+    if not void_only_where(open_, void, moving, masses):
         return [" in general"]
-    return [] if factor is None else exceptions([written(factor, system.order)])
+    return exceptions([written(sympy.Mul(*void), system.order)] if void else [])
 
 
 def _unchanged(explainer: Explainer) -> list[Part]:

@@ -112,6 +112,7 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         )
     elif conditions:
         yield vanishing(conditions)
+    yield from at_special_values("an equilibrium", states)
     if any(each.kinked for each in found or ()):
         yield says("Where a force jumps, it takes every value between those on the two sides.")
     if contacts:
@@ -157,7 +158,6 @@ def equilibria(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says(firm, *kept, limit)
     if _one_sided(explainer):
         yield from _where_a_contact_pulls(explainer)
-    yield from at_special_values("an equilibrium", states)
     if states.periods:
         yield says(*repeating(states.periods))
     if found and states.where:

@@ -35,6 +35,7 @@ from lagcli.statements.steady import (
 )
 from lagcli.statements.wording import (
     POTENTIALS,
+    at_special_values,
     capitalized,
     conditions,
     constraints_give,
@@ -151,6 +152,7 @@ def _wanted(found: SteadySection) -> list[Expression]:
 def _steady_states(explainer: Explainer, found: SteadySection) -> Iterator[Block]:
     if wanted := _wanted(found):
         yield vanishing(wanted)
+    yield from at_special_values("one of a steady motion", found)
     if found.everywhere:
         yield says(f"Here {found.reason}.")
     elif found.motions is None:

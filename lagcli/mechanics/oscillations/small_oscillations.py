@@ -50,7 +50,7 @@ from lagcli.mechanics.rest.equilibria import (
     TIMED,
     RestPoints,
 )
-from lagcli.mechanics.rest.exceptions import unless_written
+from lagcli.mechanics.rest.exceptions import alternatives_written, unless_written
 from lagcli.mechanics.rest.held import HeldCombination, held
 from lagcli.mechanics.rest.linearization import Linearization, Matrix
 from lagcli.mechanics.rest.rest_conditions import RestPoint
@@ -115,8 +115,8 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
         complete=oscillations.complete,
         reason=TIMED if rest.depends_on_time else "",
         at_all_times=rest.depends_on_time,
-        void=_void(oscillations, order) if places else None,
-        degenerate=tuple(written(e, order) for e in (rest.degenerate if places else ())),
+        void=alternatives_written(_void(oscillations) if places else [], order),
+        degenerate=alternatives_written(rest.degenerate if places else [], order),
         edge=() if places else rest.edge,
         where=rest.restricted_to,
         open=open_,
@@ -124,14 +124,13 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
     )
 
 
-def _void(oscillations: SmallOscillations, order: Sequence[str]) -> Expression | None:
+def _void(oscillations: SmallOscillations) -> list[Expr]:
     """What may be 0, and every position is an equilibrium then, without contacts or friction."""
     rest = oscillations.rest
     limited = len(oscillations.held) > 1 or any(
         place.held.firmly for place in oscillations.places or ()
     )
-    void = None if limited or rest.restricted_to else rest.void
-    return None if void is None else written(void, order)
+    return [] if limited or rest.restricted_to else rest.void
 
 
 def modes(dynamics: Dynamics) -> ModesSection:

@@ -132,6 +132,12 @@ def _exclude_each_other(expressions: Sequence[Expr]) -> bool:
     return bool(squares.is_number and squares != 0)
 
 
+def alternatives_written(factors: Sequence[Expr], order: Sequence[str]) -> tuple[Expression, ...]:
+    """Of what one vanishes: the product, as q B; each for itself where one is a sum."""
+    apart = factors if any(f.is_Add for f in factors) else [sympy.Mul(*factors)] * bool(factors)
+    return tuple(written(e, order) for e in apart)
+
+
 def unless_written(
     vanishing: Sequence[Expr] | None, order: Sequence[str]
 ) -> tuple[Expression, ...] | None:
@@ -152,11 +158,13 @@ def _factors_without(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
 
 def void_where(
     conditions: Sequence[Expr], unknowns: Sequence[Symbol], masses: Sequence[Sequence[Expr]]
-) -> Expr | None:
-    """What may be 0, and then all conditions hold everywhere; not what the mass matrix needs."""
+) -> list[Expr]:
+    """What may be 0, each by itself, and all conditions hold everywhere then.
+
+    Not what the mass matrix needs.
+    """
     open_ = [e for e in conditions if e != 0]
-    common = [f for f in _common_factors(open_, unknowns) if not _is_weightless(f, masses)]
-    return sympy.Mul(*common) if common else None
+    return [f for f in _common_factors(open_, unknowns) if not _is_weightless(f, masses)]
 
 
 def degenerate_where(
@@ -170,7 +178,7 @@ def degenerate_where(
 
 def void_only_where(
     conditions: Sequence[Expr],
-    void: Expr | None,
+    void: Sequence[Expr],
     unknowns: Sequence[Symbol],
     masses: Sequence[Sequence[Expr]],
 ) -> bool:
@@ -178,9 +186,8 @@ def void_only_where(
 
     Nor a special choice of an unspecified function.
     """
-    known = may_vanish(S.One if void is None else void)
     return any(
-        all(f in known or _is_weightless(f, masses) for f in may_vanish(coefficient))
+        all(f in void or _is_weightless(f, masses) for f in may_vanish(coefficient))
         for condition in conditions
         for coefficient in _coefficients(condition, unknowns)
     )

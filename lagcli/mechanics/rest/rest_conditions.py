@@ -280,9 +280,9 @@ class RestConditions:
         return with_a_value(found, given_formulas(self.dynamics))
 
     @property
-    def void(self) -> Expr | None:
+    def void(self) -> list[Expr]:
         """What may be 0, and every position that the constraints allow is an equilibrium then."""
-        return None if self.depends_on_time else void_where(*self._balance)
+        return [] if self.depends_on_time else void_where(*self._balance)
 
     @property
     def degenerate(self) -> list[Expr]:

@@ -34,7 +34,12 @@ from lagcli.mechanics.reduction.steady import SteadyMotions
 from lagcli.mechanics.reduction.steady_motion import Steady
 from lagcli.mechanics.rest.characteristic import Characteristic
 from lagcli.mechanics.rest.equilibria import RestPoints
-from lagcli.mechanics.rest.exceptions import degenerate_where, unless_written, void_where
+from lagcli.mechanics.rest.exceptions import (
+    alternatives_written,
+    degenerate_where,
+    unless_written,
+    void_where,
+)
 from lagcli.mechanics.rest.family import Family
 from lagcli.mechanics.rest.linearization import Linearization, Matrix
 from lagcli.mechanics.stability.judge import GRAZES, judge
@@ -132,8 +137,8 @@ class _SteadyStatement:
                 momenta=cyclic,
                 resting=resting,
                 unless=() if found else unless_written(steady.unless, self.order),
-                void=self._void if found else None,
-                degenerate=self._degenerate if found else (),
+                void=alternatives_written(self._void if found else [], self.order),
+                degenerate=alternatives_written(self._degenerate if found else [], self.order),
                 # nor those along a closed contact
                 where=(steady.rest.restricted_to if steady.rest.points or not found else "")
                 + while_open(steady.full.problem.contacts),
@@ -144,20 +149,17 @@ class _SteadyStatement:
         )
 
     @property
-    def _void(self) -> Expression | None:
+    def _void(self) -> list[Expr]:
         """What may be 0, and U_eff is constant then at any momenta."""
         steady = self.steady
         if steady.acting or steady.full.problem.contacts:
-            return None
-        void = void_where(*self._balance)
-        return None if void is None else written(void, self.order)
+            return []
+        return void_where(*self._balance)
 
     @property
-    def _degenerate(self) -> tuple[Expression, ...]:
+    def _degenerate(self) -> list[Expr]:
         """What may be 0, and some conditions hold at all positions and momenta then."""
-        if self.steady.acting:
-            return ()
-        return tuple(written(e, self.order) for e in degenerate_where(*self._balance))
+        return [] if self.steady.acting else degenerate_where(*self._balance)
 
     @property
     def _balance(self) -> tuple[Sequence[Expr], Sequence[Symbol], Sequence[Sequence[Expr]]]:
