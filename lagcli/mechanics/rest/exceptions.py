@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import sympy
 from sympy import Expr, S, Symbol
@@ -197,12 +197,20 @@ def _coefficients(condition: Expr, unknowns: Sequence[Symbol]) -> list[Expr]:
     """Those of what does not vanish for special parameters, as sin(w t), or functions."""
     open_ = filter(can_vanish, condition.free_symbols - {*unknowns})
     at_zero = dict.fromkeys(open_, S.Zero)
+    return [
+        simplify(coefficient)
+        for moving, coefficient in _by_unknowns(condition, unknowns).items()
+        if not moving.atoms(AppliedUndef) and moving.xreplace(at_zero) != 0
+    ]
+
+
+def _by_unknowns(condition: Expr, unknowns: Sequence[Symbol]) -> dict[Expr, Expr]:
+    """The coefficients of the different functions of the unknowns that it is a sum of."""
     found: dict[Expr, Expr] = {}
     for term in sympy.Add.make_args(sympy.expand(condition)):
         coefficient, moving = term.as_independent(*unknowns, as_Add=False)
-        if not moving.atoms(AppliedUndef) and moving.xreplace(at_zero) != 0:
-            found[moving] = found.get(moving, S.Zero) + coefficient
-    return [c for c in map(simplify, found.values()) if c != 0]
+        found[moving] = found.get(moving, S.Zero) + coefficient
+    return {moving: c for moving, c in found.items() if c != 0}
 
 
 def _is_weightless(parameter: Expr, masses: Sequence[Sequence[Expr]]) -> bool:
@@ -218,7 +226,26 @@ def _common_factors(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> l
 
 
 def _perhaps_zero(condition: Expr, unknowns: Sequence[Symbol]) -> list[Expr]:
-    """The factors without unknowns that can vanish."""
+    """The factors without unknowns that can vanish.
+
+    Those of a sum are common to its coefficients; to factor it took 20 s of a triple pendulum's.
+    """
+    found: dict[Expr, None] = {}
     # each by itself: sin(a) (g cos(a) + X'' sin(a)) is a sum with cos(a)^2 when multiplied out
-    found = (f for part in sympy.Mul.make_args(condition) for f in may_vanish(part))
-    return list(dict.fromkeys(f for f in found if free_of(f, unknowns)))
+    for part in sympy.Mul.make_args(condition):
+        if free_of(part, unknowns):
+            found |= dict.fromkeys(may_vanish(part))
+        elif (power := part.as_base_exp())[1].is_positive:
+            found |= dict.fromkeys(_common_to(_by_unknowns(power[0], unknowns).values()))
+    return [*found]
+
+
+def _common_to(coefficients: Iterable[Expr]) -> list[Expr]:
+    """The factors of all coefficients that can vanish."""
+    common: list[Expr] | None = None
+    for each in coefficients:
+        factors = may_vanish(simplify(each))
+        common = factors if common is None else [f for f in common if f in factors]
+        if not common:
+            break
+    return common or []
