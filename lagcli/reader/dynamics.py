@@ -46,16 +46,16 @@ def check_energies(file: FileReader, entries: dict[str, tuple[Scalar, DocumentNo
     for whole, others in (("L", "TV"), ("H", "LTV")):
         both = [key for key in others if whole in given and key in given]
         if both:
-            related = ((given[whole].span, f"{whole} is given here"),)
-            message = f"both {whole} and {both[0]} are given"
-            message = f"{whole}, T and V are given" if both[1:] else message
+            message = f"{', '.join([whole, *both[:-1]])} and {both[-1]} are given"
             hint = "give L, or H" if "L" in both else f"give {whole}, or T and V"
             at = both[0]
             if both[1:] and "L" not in both:
-                at, related = whole, ((given[both[0]].span, f"{both[0]} is given here"),)
+                at = whole
                 hint = "leave out L: it is T - V" if whole == "L" else "leave out H: it is derived"
             if whole == "H" and both == ["V"]:
                 hint = "leave it out where H has its formula, or give T and V"
+            rest = (key for key in (whole, *both) if key != at)
+            related = tuple((given[key].span, f"{key} is given here") for key in rest)
             file.error(message, given[at].span, hint, related)
             if whole != "H" or both != ["V"]:  # H: p^2/(2*m) + V has other mistakes
                 file.scope.refused += both  # as in L: T - V

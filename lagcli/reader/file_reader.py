@@ -62,7 +62,6 @@ YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
 _WORDS = frozenset({"none", "null", *YES_OR_NO})
 _FREQUENCIES = "write [sqrt(g/l)]"
 _RELATION = regex("[=<>≤≥]")
-_OF_RELATIONS = frozenset({"holds_while", "where", "always", "reaches"})
 #: An entry of a map that has no colon, and the sections in which it is no equation.
 _ASSIGNED = regex(r"(?P<key>[^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]?>|:?=|→)\s*(?P<value>[^=<>]+?)\s*")
 _ASSIGNABLE = frozenset({"initial", "forces", "definitions", "simulation"})
@@ -213,7 +212,7 @@ class FileReader:
         beside = [
             key for key, value in entries
             if key.label in attributes[1:] and isinstance(value, Scalar) and value.value
-            and (key.label in _OF_RELATIONS or not _RELATION.search(value.value))
+            and (key.label == "holds_while" or not _RELATION.search(value.value))
         ]  # fmt: skip
         if not beside:
             yield from entries
@@ -224,8 +223,6 @@ class FileReader:
             f"{key}: {as_items(value) if key in LISTS else source_of(value)}"
             for key, value in inner
         )
-        if {key.label for key, _ in entries} == {"where"}:
-            given += f", for: {next(iter(self.scope.free), 'x')}"
         message = f"'{beside[0].label}' stands inside the braces of one entry of {what}"
         whole = f"write {own[0].label if own else 'name'}: {{{given}}}"
         several = len(own) > 1 or any(isinstance(value, Mapping) for _, value in entries)

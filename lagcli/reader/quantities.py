@@ -26,7 +26,7 @@ from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.suggest import closest, did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
+    from collections.abc import Collection, Container, Iterator
 
     from lagcli.diagnostics import Span
     from lagcli.reader.file_reader import FileReader
@@ -57,6 +57,7 @@ _CALLED = regex(r"(\w+)\(\s*([^\W\d][\w, ]*?)\s*\)")
 _OF_TIME = regex(r"(\w+)\(t\)")
 _ONE_NAME = regex(r"write (\w+)(?:, without .*)?")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
+_ASSUMED = ("assume", "value")
 
 
 def read_coordinates(file: FileReader, node: DocumentNode) -> tuple[Coordinate, ...]:
@@ -108,8 +109,9 @@ def read_parameters(
         else:
             attributes = _attributes(file, node, key, "parameter", _PARAMETER_ATTRIBUTES)
         value = None
-        if sign := _sign(attributes.get("value")):
-            hint = f"write {{assume: {sign}}}"
+        if sign := _sign(attributes.get("value"), file.scope.kinds):
+            rest = (f", {k}: {source_of(v)}" for k, v in attributes.items() if k not in _ASSUMED)
+            hint = f"write {key.label}: {{assume: {sign}{''.join(rest)}}}"
             file.error(f"an assumption stands under 'assume' of '{key.label}'", key.span, hint)
         elif isinstance(given := attributes.get("value"), Scalar) and _RANGE.fullmatch(given.value):
             hint = f"write one; several are run by lagcli sweep --vary {key.label}=1,2,3"
@@ -397,17 +399,19 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
             said["assume"] = cast("Assumption", text.value)
         elif text is not None:
             meant = [a for a in _ASSUMPTIONS if text.value and a.startswith(text.value)][:1]
-            sign = _sign(text)
+            sign = _sign(text, ())
             hint = f"write {sign}" if sign else did_you_mean(text.value, _ASSUMPTIONS)
             hint = hint or f"write {''.join(meant) or 'one of ' + ', '.join(_ASSUMPTIONS)}"
             file.error(f"unknown assumption '{text.value}'", text.span, hint)
     return said
 
 
-def _sign(node: DocumentNode | None) -> str:
-    """`positive` for `> 0` and `x > 0`; nothing for other texts."""
-    if not isinstance(node, Scalar):
+def _sign(node: DocumentNode | None, known: Container[str]) -> str:
+    """`positive` for `positive`, `> 0` and `x > 0`; nothing for other texts and known names."""
+    if not isinstance(node, Scalar) or node.value in known:
         return ""
+    if (word := node.value.strip().casefold()) in _ASSUMPTIONS:
+        return word
     if assumed := re.search(r"\(.*\b(positive|negative|nonnegative|real)\s*=\s*True", node.value):
         return assumed[1]
     found = re.fullmatch(r"\s*\w*\s*(\W+?)\s*0?\s*", node.value)

@@ -19,29 +19,25 @@ from lagcli.reader.by_coordinate import by_name, state_meant
 from lagcli.reader.foreign.words import momentum_meant
 from lagcli.reader.habits import advised, is_angle, key_meant, meanings, name_meant
 from lagcli.reader.headings import PLACE, RATE, state_of_launch, state_without_headings
-from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, range_end, source_of
+from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, WITHOUT_HYPHENS, range_end, source_of
 from lagcli.reader.names import derivative_order
-from lagcli.reader.nodes import Mapping, Scalar
+from lagcli.reader.nodes import Mapping, Scalar, Sequence
 from lagcli.reader.number_units import run_mistake
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import INITIAL, NUMBERS, POSITION, QUESTION, Role
-from lagcli.reader.suggest import did_you_mean
+from lagcli.reader.suggest import closest, did_you_mean
 
 if TYPE_CHECKING:
     from lagcli.reader.file_reader import FileReader
     from lagcli.reader.nodes import DocumentNode
+    from lagcli.reader.scope import Scope
 
 _QUESTION_ATTRIBUTES = ("where", "for", "value", "in_terms_of", "always", "reaches")
-_PARTNERS = {
-    "where": "for",
-    "always": "for",
-    "reaches": "for",
-    "for": "where",
-    "value": "in_terms_of",
-    "in_terms_of": "value",
-}
+#: The two keys of a question: what it is about, and what is wanted.
+_FORMS = {"where": "for", "always": "for", "reaches": "for", "value": "in_terms_of"}
 _SIMULATION_ATTRIBUTES = ("until", "accuracy", "method")
 
+_RELATION = regex("[=<>≤≥]")
 #: An event for an end: `x = 0`, `y < 0`.
 _ENDS = regex(r"([^<>=≤≥]+)(?:[<>=]=?|≤|≥)([^<>=≤≥]+)")
 
@@ -142,28 +138,116 @@ def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
         hint = ALREADY_FOUND
     elif words and not any("=" in word for word in words):
         hint = f"leave it out: equations, frequencies and charges are found; or {hint}"
-    for key, value in file.named(node, "find", ("", *_QUESTION_ATTRIBUTES), hint):
+    items = node.items if isinstance(node, Sequence) else [node]
+    first = items[0].entries if items and isinstance(items[0], Mapping) else []
+    if _is_one(first):
+        own = [key.label for key, _ in first if key.label not in _QUESTION_ATTRIBUTES]
+        whole = f"{own[0] if len(own) == 1 else 'name'}: {{{_whole(_meant(first, file.scope))}}}"
+        hint = f"write {whole}" if isinstance(node, Mapping) else f"write {{{whole}}}"
+        if isinstance(node, Mapping):
+            file.error("a question has a name, and its keys stand in braces", node.span, hint)
+            return ()
+    elif first and isinstance(node, Sequence):
+        hint = WITHOUT_HYPHENS
+    for key, value in file.entries(node, "find", hint):
         what = f"the question '{key.label}'"
+        entries = value.entries if isinstance(value, Mapping) else []
+        given = [part.label for part, _ in entries]
+        if given and {*given} not in [{*form} for form in _FORMS.items()]:
+            meant = _meant(entries, file.scope)
+            whole = f"write {key.label}: {{{_whole(meant)}}}"
+            file.error(_misfit(given, meant, what), key.span, whole)
+            continue
         found = file.attributes(value, what, _QUESTION_ATTRIBUTES)
         parts = {name: part for name, (_, part) in found.items()}
-        if parts.keys() == {"where", "for"}:
+        if "where" in parts:
             questions += _where(file, key, parts["where"], parts["for"])
-        elif parts.keys() == {"value", "in_terms_of"}:
+        elif "value" in parts:
             questions.append(_rewrite(file, key, parts["value"], parts["in_terms_of"]))
-        elif parts.keys() == {"always", "for"}:
+        elif "always" in parts:
             questions += _lasting(file, key, parts["always"], parts["for"])
-        elif parts.keys() == {"reaches", "for"}:
+        elif "reaches" in parts:
             questions += _reaching(file, key, parts["reaches"], parts["for"])
-        elif "where" in parts and "value" in parts:
-            file.error(f"{what} has both 'where' and 'value'", key.span, hint)
-        elif missing := _PARTNERS.get(next(iter(parts), "")):
-            [(given, part), *_] = parts.items()
-            value_ = f"[{unknown}]" if missing == "in_terms_of" else unknown
-            whole = f"write {key.label}: {{{given}: {source_of(part)}, {missing}: {value_}}}"
-            file.error(f"{what} has no '{missing}'", key.span, whole)
-        elif isinstance(value, Mapping) and not value.entries:
+        elif isinstance(value, Mapping):
             file.error(f"{what} is empty", key.span, hint)
     return tuple(questions)
+
+
+def _is_one(entries: list[tuple[Scalar, DocumentNode]]) -> bool:
+    """Whether entries are the parts of one question, not questions by their names."""
+    given = {key.label: source_of(each) for key, each in entries if not isinstance(each, Mapping)}
+    laws = [each for each in given.values() if _RELATION.search(each)]
+    is_pair = len(given) == 2 and len(laws) == 1
+    return len(given) == len(entries) and (is_pair or any(map(given.get, _QUESTION_ATTRIBUTES)))
+
+
+def _whole(question: dict[str, str]) -> str:
+    return ", ".join(map(": ".join, question.items()))
+
+
+def _misfit(given: list[str], meant: dict[str, str], what: str) -> str:
+    """What is wrong with the keys of a question, which should be others."""
+    unknown = ", ".join(f"'{each}'" for each in given if each not in _QUESTION_ATTRIBUTES)
+    if unknown:
+        return f"unknown key{'s' * (',' in unknown)} {unknown} in {what}"
+    kept, other = (
+        [key for key in given if (key in meant) == is_meant] for is_meant in (True, False)
+    )
+    if kept and other:
+        return f"{what} has both '{kept[0]}' and '{other[0]}'"
+    return f"{what} has no '{next(key for key in meant if key not in given)}'"
+
+
+def _meant(entries: list[tuple[Scalar, DocumentNode]], scope: Scope) -> dict[str, str]:
+    """`where: N = 0` and `for: theta` for a question with other keys, by what stands there.
+
+    A relation is what it is about, and a name beside it what is wanted; without a relation it is a
+    formula in other terms.  What is not given is an example.
+    """
+    parts: list[tuple[str, str]] = []
+    for key, value in entries:
+        label, written = key.label, source_of(value)
+        is_name = label not in _QUESTION_ATTRIBUTES and label.rstrip("'") in scope.kinds
+        if _RELATION.search(label) or not written or (is_name and _RELATION.search(written)):
+            texts = re.split(r"\s(?:where|when|if|at|for)\s", f"{label} where {written}")
+            parts += [("", each.strip()) for each in texts if each.strip()]  # N = 0: theta
+        else:
+            parts.append(("where", f"{label} = {written}") if is_name else (label, written))
+    laws = [x for x in parts if _RELATION.search(x[1])]
+    if not any(key_meant(label, ("in_terms_of",)) for label, _ in parts):
+        laws += [x for x in parts if _FORMS.get(x[0]) == "for"]
+    label, law = laws[0] if laws else ("", "")
+    rest = sorted((x for x in parts if x not in laws[:1]), key=lambda x: x[0] != "for")
+    words = re.findall(r"[^\W\d]\w*'?", " ".join(text for _, text in rest))
+    kinds = {name: scope.kinds.get(name.rstrip("'")) for name in words}
+    name = next((x for x, kind in kinds.items() if kind in {"coordinate", "parameter"}), "")
+    free = [*scope.free, "x"]
+    unknown = next((x for x in free if x in re.findall(r"\w+", law)), free[0])
+    if not laws and [text for _, text in rest] == [name] and _rank(rest[0]) > 1:  # solve: theta
+        return {"where": f"{name if kinds[name] == 'coordinate' else unknown}' = 0", "for": name}
+    if not laws or (any(kinds.values()) and not name):
+        formula = min(rest, key=_rank)
+        formula = ("", f"{unknown}'") if _rank(formula) > 2 else formula
+        others = [text.strip("[]{} ") for _, text in rest if text != formula[1]]
+        terms = ", ".join(text for text in others if not text.isdigit()) or unknown
+        return {"value": formula[1], "in_terms_of": f"[{terms}]"}
+    about = closest(label, ("always", "reaches"), 0.7)
+    is_bound = re.search("[<>≤≥]", law) and kinds.get(name) == "parameter"
+    about = about or ("always" if is_bound else "where")
+    if about == "where":
+        law = re.sub(r"\s*(?:[<>]=?|[≤≥]|==?)\s*", " = ", law)
+    elif kinds.get(name) != "parameter":
+        name = next(scope.of_kind("parameter"), "m")
+    return {about: law, "for": name or next((x for key, x in rest if key == "for"), unknown)}
+
+
+def _rank(part: tuple[str, str]) -> int:
+    """0 for the key `value`, 1 for other formulas, 2 for names, 3 for the terms of a formula."""
+    label, text = part
+    meant = key_meant(label, ("value", "in_terms_of"))
+    if meant or label == "for" or text[:1] == "[":
+        return 0 if meant == "value" else 3
+    return 2 if text.rstrip("'").isidentifier() else 1
 
 
 def _where(

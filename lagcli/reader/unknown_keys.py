@@ -141,8 +141,6 @@ def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[
     other = "" if is_time else word.casefold()  # the time is not T
     alike = [name for name in names if name.casefold() == other]
     meant = alike[0] if len(alike) == 1 else key_meant(word, names)
-    if meant == "where" and "value" in names and written and not re.search("[=<>]", written):
-        meant = "value"
     if meant:
         return meant, f"the key is {meant}"
     if advice := _advice(word, written, what, names):

@@ -72,9 +72,9 @@ FILES = [
         "did you mean 'canonical'",
     ),
     # H instead of T and V.
-    (after("H: p_x^2/2\n"), "5:1", "both H and T"),
-    ("coordinates: [x]\nL: x'^2\nH: p_x^2\n", "2:1", "both H and L"),
-    ("coordinates: [x]\nV: x^2\nH: p_x^2\n", "2:1", "both H and V"),
+    (after("H: p_x^2/2\n"), "5:1", "H and T are given"),
+    ("coordinates: [x]\nL: x'^2\nH: p_x^2\n", "2:1", "H and L are given"),
+    ("coordinates: [x]\nV: x^2\nH: p_x^2\n", "2:1", "H and V are given"),
     ("coordinates: [x]\nH: p_x^2/2 + x'\n", "2:14", "the velocity x' cannot stand in H"),
     ("coordinates: [x]\ndefinitions: {v: x'}\nH: p_x^2/2 + v\n", "3:14", "contains a velocity"),
     ("coordinates: [x]\nH: p_y^2/2\n", "2:4", "unknown name 'p_y' in H"),
@@ -105,7 +105,7 @@ FILES = [
     ("coordinates: x\nT: 1\n", "1:14", "write [x]"),
     ("coordinates: [x]\n", "1:1", "no kinetic energy"),
     ("coordinates: [x]\npoints: {p: {position: [x]}}\n", "2:10", "no mass"),
-    (after("L: x\n"), "5:1", "both L and T"),
+    (after("L: x\n"), "5:1", "L and T are given"),
     # Names.
     ("coordinates: [x, x]\nT: x'^2\n", "1:18", "declared twice"),
     ("coordinates: [sin]\nT: 1\n", "1:15", "cannot be declared"),
@@ -297,10 +297,10 @@ def test_line_ends_and_byte_order_mark_change_no_place(name):
 
 
 def test_an_assumption_in_the_place_of_a_value_is_told_how_it_is_written():
-    text = b"coordinates: [x]\nparameters: {m: positive}\nT: m*x'^2/2\n"
+    text = b"coordinates: [x]\nparameters: {m: positive, k: real}\nT: m*x'^2/2\nV: k*x\n"
     (mistake,) = read_problem("f.yaml", text).diagnostics
-    assert (mistake.span.line, mistake.span.column) == (2, 17)
-    assert mistake.hint == "an assumption is written {assume: positive}"
+    assert (mistake.span.line, mistake.span.column) == (2, 14)
+    assert mistake.hint == "write m: {assume: positive}; write k: {assume: real}"
 
 
 def test_letters_that_nothing_declares_are_one_mistake():

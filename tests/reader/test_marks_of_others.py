@@ -242,7 +242,10 @@ def test_paper_mathematica_modelica_and_word(written, hint):
     ("written", "hint"),
     [
         (text(coordinates="[Function('x')(t)]"), "write x"),
-        (text(parameters="\n  m: Symbol('m', positive=True)\n  k: 2"), "write {assume: positive}"),
+        (
+            text(parameters="\n  m: Symbol('m', positive=True)\n  k: 2"),
+            "write m: {assume: positive}",
+        ),
         (text(method="LagrangesMethod"), "leave it out"),
         (text(definitions="{f: 'lambda x: k*x'}"), "write k*x"),
         (text(initial="Matrix([1, 0])"), "write {x: 1, x': 0"),

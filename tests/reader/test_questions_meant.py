@@ -1,0 +1,79 @@
+"""Questions in other keys: the hint is the question that stands there, by its values."""
+
+import random
+
+import pytest
+
+from lagcli.reader import read_problem
+
+PROBLEM = """\
+coordinates: [r, theta]
+parameters: {m: 1, g: 9.81, R: 1}
+T: m*(r'^2 + r^2*theta'^2)/2
+V: m*g*r*cos(theta)
+constraints: {surface: {equation: r = R, multiplier: N}}
+find:
+  angle: """
+FORMS = [
+    ("where", "N = 0", "for", "theta"),
+    ("where", "theta'^2 = g/R", "for", "g"),
+    ("always", "N >= 0", "for", "R"),
+    ("reaches", "theta = pi", "for", "m"),
+    ("value", "theta'^2 + g/R", "in_terms_of", "[theta]"),
+]
+WORDS = "when solve condition equation variable unknown in at find of gives eq key what".split()
+
+
+def read(question):
+    return read_problem("f.yaml", f"{PROBLEM}{{{question}}}\n".encode())
+
+
+def told(question):
+    (mistake,) = read(question).diagnostics
+    assert (mistake.span.line, mistake.span.column) == (7, 3)
+    return mistake.hint
+
+
+@pytest.mark.parametrize(("about", "law", "wanted", "name"), FORMS)
+def test_the_values_tell_the_keys(about, law, wanted, name):
+    good = f"{about}: {law}, {wanted}: {name}"
+    assert read(good).problem is not None
+    drawn = random.Random(good)
+    for _ in range(6):
+        one, other = drawn.sample(WORDS, 2)
+        entries = [f"{one if about != 'reaches' else about}: {law}", f"{other}: {name}"]
+        drawn.shuffle(entries)
+        assert told(", ".join(entries)) == f"write angle: {{{good}}}"
+    assert told(f"{about}: {law}, {drawn.choice(WORDS)}: {name}") == f"write angle: {{{good}}}"
+    assert told(f"{good}, guess: 1") == f"write angle: {{{good}}}"
+
+
+@pytest.mark.parametrize(
+    ("question", "meant"),
+    [
+        ("where: N = 0, value: theta", "where: N = 0, for: theta"),
+        ("where: N = 0, in_terms_of: [theta]", "where: N = 0, for: theta"),
+        ("N = 0: theta", "where: N = 0, for: theta"),
+        ("theta: N = 0", "where: N = 0, for: theta"),
+        ("N: 0, for: theta", "where: N = 0, for: theta"),
+        ("theta where N = 0", "where: N = 0, for: theta"),
+        ("condition: N < 0, for: theta", "where: N = 0, for: theta"),
+        ("for: theta", "where: theta' = 0, for: theta"),
+        ("maximize: theta", "where: theta' = 0, for: theta"),
+        ("always: N >= 0", "always: N >= 0, for: m"),
+        ("where: theta'^2, in terms of: theta", "value: theta'^2, in_terms_of: [theta]"),
+        ("value: theta'^2, for: theta", "value: theta'^2, in_terms_of: [theta]"),
+        ("value: theta'^2, in_terms_of: theta, r", "value: theta'^2, in_terms_of: [theta, r]"),
+    ],
+)
+def test_other_forms(question, meant):
+    assert told(question) == f"write angle: {{{meant}}}"
+    assert read(meant).problem is not None
+
+
+@pytest.mark.parametrize("question", ["when: N = 0, solve: theta", "where: N = 0, for: theta"])
+@pytest.mark.parametrize("begin", ["{%s}", "[{%s}]"])
+def test_a_question_without_a_name(question, begin):
+    text = PROBLEM.replace("\n  angle: ", f" {begin % question}\n")
+    (mistake,) = read_problem("f.yaml", text.encode()).diagnostics
+    assert "name: {where: N = 0, for: theta}" in mistake.hint
