@@ -187,14 +187,15 @@ def _joined(group: list[Diagnostic]) -> Diagnostic:
     names: list[str] = []
     for before, each in pairwise(group):
         line = f"in line {each.span.line} " if each.span.line != before.span.line else ""
+        named = [*{*_QUOTED.findall(each.message)} - {*_QUOTED.findall(before.message)}]
         if each.hint not in hints:
             advice = re.sub(r"^.*?: (?=write |give )", "", each.hint, flags=re.DOTALL)
-            hints[each.hint] = line + advice
+            is_subject = not line and len(named) == 1 and each.message.startswith(named[0])
+            hints[each.hint] = (f"for {named[0]} " if is_subject else line) + advice
         elif line:
             lines.append(str(each.span.line))
         else:
-            named = {*_QUOTED.findall(each.message)} - {*_QUOTED.findall(before.message)}
-            names += named if len(named) == 1 else ()
+            names += named if len(named) == 1 else []
     more = ["and so on"] if len(hints) > _SHOWN else []
     more += [f"for {', '.join(names)} the same"] if names else []
     more += [f"in line{'s' * bool(lines[1:])} {', '.join(lines)} the same"] if lines else []
