@@ -29,7 +29,6 @@ _KINDS = {
     "F4": "momenta and new momenta",
 }
 _FOUND = "leave it out: momenta, energy and charges are found"
-_WRITE = "write name: {Q: p_x, p_Q: -x}"
 
 #: `{A, B}`, also with its index and its value: `\\{A, B\\}_{PB} = C`.
 _PAIR = regex(
@@ -47,7 +46,8 @@ def read_observables(file: FileReader, node: DocumentNode) -> dict[str, Expressi
     given = items[0].value.strip() if items and isinstance(items[0], Scalar) else ""
     given = given if re.search(r"[-+*/^(]|^\w+$", given) else ""
     words = {each.value for each in items if isinstance(each, Scalar)}
-    hint = _FOUND if words and words <= FOUND else f"write A: {given or 'x*p_y - y*p_x'}"
+    product = "x*p_y - y*p_x" if {"x", "y"} <= file.scope.kinds.keys() else "x*p_x"
+    hint = _FOUND if words and words <= FOUND else f"write A: {given or product}"
     for key, value in file.entries(node, "observables", hint):
         what = f"the observable '{key.label}'"
         expression = file.expression(value, what, BRACKETED)
@@ -151,53 +151,70 @@ def read_transformations(
     file: FileReader, node: DocumentNode
 ) -> tuple[CanonicalTransformation, ...]:
     """New variables in the old ones, with a generating function or without."""
-    entries = list(file.entries(node, "canonical_transformations", _WRITE))
+    entries = list(file.entries(node, "canonical_transformations", _example(file, "name", {})))
     if entries and all(isinstance(value, Scalar) for _, value in entries):
         message = f"'{entries[0][0].label}' is a new variable, not the name of a transformation"
-        file.error(message, entries[0][0].span, f"write name: {{{_renamed(entries)}}}")
+        names = _new_momenta([key.label for key, _ in entries])
+        inner = ((names.get(key.label, key.label), source_of(value)) for key, value in entries)
+        whole = ", ".join(map(": ".join, inner))
+        file.error(message, entries[0][0].span, f"write name: {{{whole}}}")
         return ()
     return tuple(_transformation(file, key, value) for key, value in entries)
 
 
-def _renamed(entries: list[tuple[Scalar, DocumentNode]]) -> str:
-    """`Q: p_x, p_Q: -x` for `Q: p_x, P: -x`, the new momenta in the order of the coordinates."""
-    momenta = [key.label for key, _ in entries if re.fullmatch(r"P(_?\w+)?|p_\w+", key.label)]
-    new = [key.label for key, _ in entries if key.label not in {*momenta, *_KINDS}]
-    names = {p: f"p_{q}" for p, q in zip(momenta, new, strict=False)}
-    return ", ".join(f"{names.get(key.label, key.label)}: {source_of(v)}" for key, v in entries)
+def _new_momenta(labels: list[str]) -> dict[str, str]:
+    """`p_Q` for the `P` beside `Q`, `p_Q1` for the `P1` beside `Q1`; nothing where one is left."""
+    momenta = [
+        each for each in labels if re.fullmatch(r"P(_\w+|\d*)|p_\w+", each)
+        and f"p_{each}" not in labels and each.removeprefix("p_") not in {*labels} - {each}
+    ]  # fmt: skip
+    new = [x for x in labels if x not in {*momenta, *_KINDS} and f"p_{x}" not in labels]
+    new = [x for x in new if not x.startswith("p_")]
+    pairs = zip(momenta, new, strict=True) if len(momenta) == len(new) else ()
+    return {p: f"p_{next((x for x in new if x[1:] == p[1:]), q)}" for p, q in pairs}
+
+
+def _example(file: FileReader, name: str, given: dict[str, str]) -> str:
+    """`write swap: {Q: p_q, p_Q: -q}` in the names of the file; `as in` for another one."""
+    old = [*file.scope.of_kind("coordinate")] or ["x"]
+    new = [*dict.fromkeys(each.removeprefix("p_") for each in given if each not in _KINDS)]
+    if len(new) != len(old):
+        new = [f"Q_{k}" for k, _ in enumerate(old, 1)] if old[1:] else ["Q"]
+    pairs = zip(new, old, strict=True)
+    whole = {key: each for Q, q in pairs for key, each in ((Q, f"p_{q}"), (f"p_{Q}", f"-{q}"))}
+    begin = "write" if given.items() <= whole.items() else "as in"
+    return f"{begin} {name}: {{{', '.join(map(': '.join, whole.items()))}}}"
 
 
 def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> CanonicalTransformation:
     what = f"the transformation '{key.label}'"
-    entries = list(file.entries(node, what, _WRITE))
+    given_ = node.entries if isinstance(node, Mapping) else []
+    example = _example(file, key.label, {name.label: source_of(each) for name, each in given_})
+    entries = list(file.entries(node, what, example))
     if not isinstance(node, Mapping):
         return CanonicalTransformation(name=key.label, coordinates={}, momenta={}, span=key.span)
-    labels = {name.label for name, _ in entries} - _KINDS.keys()
-    capital = [name for name, _ in entries if re.fullmatch(r"P_?\d*", name.label)]
-    if (
-        capital
-        and 2 * len(capital) == len(labels)
-        and not any(each.startswith("p_") for each in labels)
-    ):
-        message = f"'{capital[0].label}' is not the name of a new momentum"
-        file.error(message, capital[0].span, f"write {key.label}: {{{_renamed(entries)}}}")
-        return CanonicalTransformation(name=key.label, coordinates={}, momenta={}, span=key.span)
+    names = _new_momenta([name.label for name, _ in entries])
+    for name, _ in entries:
+        if name.label in names:
+            message = f"'{name.label}' is not the name of a new momentum"
+            file.error(message, name.span, f"write {names[name.label]}")
+    labels = {names.get(name.label, name.label) for name, _ in entries} - _KINDS.keys()
     coordinates: dict[str, Expression] = {}
     momenta: dict[str, Expression] = {}
     generating: list[tuple[Scalar, DocumentNode]] = []
     for name, value in entries:
-        label = name.label
+        label = names.get(name.label, name.label)
         if label in _KINDS:
             generating.append((name, value))
             continue
-        expression = file.expression(value, f"the new variable '{label}'", FUNCTION)
+        expression = file.expression(value, f"the new variable '{name.label}'", FUNCTION)
         rest = label.removeprefix("p_")
         if rest != label and rest in labels:
             momenta[rest] = expression
             continue
-        _check_new(file, name, what)
+        _check_new(file, name, what, example)
         coordinates[label] = expression
-    _check_complete(file, key, what, coordinates, momenta, entries)
+    _check_complete(file, key, what, coordinates, momenta, entries, example)
     given: dict[str, Any] = {}
     with file.scope.also(coordinates, "coordinate"):
         for place, (name, value) in enumerate(generating):
@@ -212,7 +229,7 @@ def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> Canoni
     )
 
 
-def _check_new(file: FileReader, name: Scalar, what: str) -> None:
+def _check_new(file: FileReader, name: Scalar, what: str, example: str) -> None:
     """A new coordinate, whose momentum gets the prefix p_, needs a name of its own."""
     label, scope = name.label, file.scope
     wrong = name_mistake(label)
@@ -222,7 +239,7 @@ def _check_new(file: FileReader, name: Scalar, what: str) -> None:
     elif label.startswith("p_") and scope.coordinate_of_momentum(label) is None:
         coordinate = label.removeprefix("p_")
         message = f"{what} has a momentum '{label}' and no coordinate '{coordinate}'"
-        file.error(message, name.span, _WRITE)
+        file.error(message, name.span, example)
     elif taken is not None or scope.coordinate_of_momentum(label) is not None:
         kind = scope.kinds.get(taken or "", "momentum")
         message = f"the new variable '{taken or label}' is a {kind} of the file already"
@@ -236,12 +253,13 @@ def _check_complete(
     coordinates: dict[str, Expression],
     momenta: dict[str, Expression],
     entries: list[tuple[Scalar, DocumentNode]],
+    example: str,
 ) -> None:
     spans = {name.label: name.span for name, _ in entries}
     for name in coordinates:
         if name not in momenta and not name.startswith("p_"):
             message = f"the momentum 'p_{name}' of '{name}' is missing in {what}"
-            file.error(message, spans[name], _WRITE)
+            file.error(message, spans[name], example)
             return
     number = sum(1 for _ in file.scope.of_kind("coordinate"))
     if file.scope.refused:
@@ -251,7 +269,7 @@ def _check_complete(
         message = (
             f"{what} has {len(coordinates) or 'no'} new coordinate{plural}, the file has {number}"
         )
-        file.error(message, key.span, _WRITE)
+        file.error(message, key.span, example)
 
 
 def _generating(file: FileReader, kind: str, node: DocumentNode, new: Iterable[str]) -> Expression:

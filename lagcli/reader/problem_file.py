@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -39,6 +40,7 @@ from lagcli.reader.quantities import (
     read_parameters,
 )
 from lagcli.reader.questions import read_find, read_initial, read_simulation
+from lagcli.reader.regex import regex
 from lagcli.reader.restrictions import declare_constraints, read_constraints
 from lagcli.reader.scenery import read_scenery
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
@@ -58,6 +60,8 @@ if TYPE_CHECKING:
     from lagcli.expression import Expression
 
 
+#: A name that begins with x.
+_X = regex(r"(?<![^\W\d_])x")
 #: The sections without whose names no formula is checked.
 _OF_NAMES = frozenset({"coordinates", "parameters", "functions", "definitions"})
 
@@ -156,7 +160,8 @@ def _composed(
     root, diagnostics = compose(SourceText.of(source))
     file = FileReader(diagnostics=diagnostics)
     problem = _read(file, source, root)
-    file.diagnostics[:] = without_wrong_texts(file.diagnostics)
+    found = without_wrong_texts(file.diagnostics)
+    file.diagnostics[:] = found if _X.search(source.text) else _in_own_names(found, file.scope.free)
     if problem is not None and not file.diagnostics:
         file.diagnostics += dimension_mistakes(problem, _reading if alone else None) or slips(
             problem
@@ -164,6 +169,17 @@ def _composed(
     elif any(each.is_error for each in file.diagnostics):
         problem = None
     return root, problem, file.diagnostics
+
+
+def _in_own_names(found: list[Diagnostic], coordinates: list[str]) -> list[Diagnostic]:
+    """The mistakes with `p_q` and `-q` for the `p_x` and `-x` of an example, where x is unknown."""
+    mended = []
+    for each in found:
+        words = {*re.findall(r"[^\W\d]\w*", each.hint.replace("p_", ""))}
+        own = next((q for q in coordinates if q not in words and not words & {"y", "z"}), "x")
+        hint = re.sub(r"(?<!\w)(p_)?x(?!\w)", rf"\g<1>{own}", each.hint)
+        mended.append(replace(each, hint=hint))
+    return mended
 
 
 def _reading(source: Source) -> tuple[Problem | None, list[Diagnostic]]:

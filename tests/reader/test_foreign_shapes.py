@@ -236,10 +236,36 @@ def test_a_bracket_without_its_name_is_told_it(shape):
     assert read_problem("p", mended.encode()).diagnostics == ()
 
 
-@pytest.mark.parametrize("shape", ["{Q: p_x, P: -x}", "{name: {Q: p_x, P: -x}}"])
-def test_a_new_momentum_is_named_after_its_coordinate(shape):
-    found = only_mistake(f"{PHASE}canonical_transformations: {shape}\n")
-    assert "name: {Q: p_x, p_Q: -x}" in found.hint
+@pytest.mark.parametrize(
+    ("shape", "hint"),
+    [
+        ("{Q: p_q, P: -q}", "write name: {Q: p_q, p_Q: -q}"),
+        ("{swap: {Q: p_q, P: -q}}", "write p_Q"),
+        ("{swap: {Q: p_q, p_P: -q}}", "write p_Q"),
+        ("{swap: {Q: p_q}}", "write swap: {Q: p_q, p_Q: -q}"),
+        ("{swap: {R: q^2}}", "as in swap: {R: p_q, p_R: -q}"),
+        ("[Q]", "write name: {Q: p_q, p_Q: -q}"),
+    ],
+)
+def test_a_transformation_is_told_in_the_names_of_the_file(shape, hint):
+    phase = PHASE.replace("x", "q")
+    assert only_mistake(f"{phase}canonical_transformations: {shape}\n").hint == hint
+
+
+def test_several_new_momenta_are_named_after_their_coordinates():
+    phase = "coordinates: [q, s]\nH: p_q^2/2 + p_s^2/2\n"
+    new = "{Q2: s, Q1: p_q, P1: -q, P2: p_s}"
+    found = only_mistake(f"{phase}canonical_transformations: {{swap: {new}}}\n")
+    assert found.hint == "write p_Q1; for 'P2' write p_Q2"
+    found = only_mistake(f"{phase}canonical_transformations: {{swap: {{Q: q, p_Q: p_q}}}}\n")
+    assert found.hint == "as in swap: {Q_1: p_q, p_Q_1: -q, Q_2: p_s, p_Q_2: -s}"
+
+
+@pytest.mark.parametrize("name", ["theta", "q", "s_1"])
+def test_an_example_has_the_coordinate_of_the_file(name):
+    written = f"coordinates: [{name}]\nT: {name}'^2/2\nmomenta: [p]\n"
+    assert only_mistake(written).hint == f"leave out the key: momenta are named p_{name}"
+    assert "p_x" in only_mistake(written + "title: along x\n").hint
 
 
 @pytest.mark.parametrize("name", ["omega", "w_0", "Ω"])
@@ -469,7 +495,7 @@ OTHERS = [
     (text(points="{P: {position: [x], mass: m, forces: [k*x]}}"), "did you mean 'force'?"),
     (text(expect="{degrees_of_freedom: [x]}"), "write 1"),
     (text(find="{a: {where: m*x'' = -k*x, for: x''}}"), "accelerations are found"),
-    (text(observables="[angular momentum]"), "write {A: x*p_y - y*p_x}"),
+    (text(observables="[angular momentum]"), "write {A: x*p_x}"),
     (text(unit_system="SI"), "write parameters: {m: {unit: kg}}"),
     (text(damping_ratio="0.05"), "dissipation: c*x'^2/2"),
     ("Energy\n" + text(), "a heading is a comment, which begins with '#': # Energy"),
