@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import TYPE_CHECKING, Any
 
 from lagcli.diagnostics import Diagnostic, Span
@@ -202,6 +202,7 @@ def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> Canoni
     coordinates: dict[str, Expression] = {}
     momenta: dict[str, Expression] = {}
     generating: list[tuple[Scalar, DocumentNode]] = []
+    is_complete = True
     for name, value in entries:
         label = names.get(name.label, name.label)
         if label in _KINDS:
@@ -212,9 +213,14 @@ def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> Canoni
         if rest != label and rest in labels:
             momenta[rest] = expression
             continue
-        _check_new(file, name, what, example)
+        before = len(file.diagnostics)
+        _check_new(file, name, what, labels, example)
+        is_complete &= len(file.diagnostics) == before
         coordinates[label] = expression
-    _check_complete(file, key, what, coordinates, momenta, entries, example)
+    number = sum(1 for _ in file.scope.of_kind("coordinate"))
+    if is_complete and len(coordinates) != number and not file.scope.refused:
+        counted = f"{len(coordinates) or 'no'} new coordinate{'s' * (len(coordinates) != 1)}"
+        file.error(f"{what} has {counted}, the file has {number}", key.span, example)
     given: dict[str, Any] = {}
     with file.scope.also(coordinates, "coordinate"):
         for place, (name, value) in enumerate(generating):
@@ -229,8 +235,10 @@ def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> Canoni
     )
 
 
-def _check_new(file: FileReader, name: Scalar, what: str, example: str) -> None:
-    """A new coordinate, whose momentum gets the prefix p_, needs a name of its own."""
+def _check_new(
+    file: FileReader, name: Scalar, what: str, labels: Collection[str], example: str
+) -> None:
+    """A new coordinate needs a name of its own, and its momentum, with the prefix p_."""
     label, scope = name.label, file.scope
     wrong = name_mistake(label)
     taken = next((n for n in (label, f"p_{label}") if n in scope.kinds), None)
@@ -244,32 +252,9 @@ def _check_new(file: FileReader, name: Scalar, what: str, example: str) -> None:
         kind = scope.kinds.get(taken or "", "momentum")
         message = f"the new variable '{taken or label}' is a {kind} of the file already"
         file.error(message, name.span, "choose another name")
-
-
-def _check_complete(
-    file: FileReader,
-    key: Scalar,
-    what: str,
-    coordinates: dict[str, Expression],
-    momenta: dict[str, Expression],
-    entries: list[tuple[Scalar, DocumentNode]],
-    example: str,
-) -> None:
-    spans = {name.label: name.span for name, _ in entries}
-    for name in coordinates:
-        if name not in momenta and not name.startswith("p_"):
-            message = f"the momentum 'p_{name}' of '{name}' is missing in {what}"
-            file.error(message, spans[name], example)
-            return
-    number = sum(1 for _ in file.scope.of_kind("coordinate"))
-    if file.scope.refused:
-        return
-    if len(coordinates) != number and not any(name.startswith("p_") for name in coordinates):
-        plural = "" if len(coordinates) == 1 else "s"
-        message = (
-            f"{what} has {len(coordinates) or 'no'} new coordinate{plural}, the file has {number}"
-        )
-        file.error(message, key.span, example)
+    elif f"p_{label}" not in labels:
+        message = f"the momentum 'p_{label}' of '{label}' is missing in {what}"
+        file.error(message, name.span, example)
 
 
 def _generating(file: FileReader, kind: str, node: DocumentNode, new: Iterable[str]) -> Expression:

@@ -138,64 +138,55 @@ def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
         hint = ALREADY_FOUND
     elif words and not any("=" in word for word in words):
         hint = f"leave it out: equations, frequencies and charges are found; or {hint}"
-    items = node.items if isinstance(node, Sequence) else [node]
-    first = items[0].entries if items and isinstance(items[0], Mapping) else []
-    if _is_one(first):
-        own = [key.label for key, _ in first if key.label not in _QUESTION_ATTRIBUTES]
-        whole = f"{own[0] if len(own) == 1 else 'name'}: {{{_whole(_meant(first, file.scope))}}}"
-        hint = f"write {whole}" if isinstance(node, Mapping) else f"write {{{whole}}}"
-        if isinstance(node, Mapping):
-            file.error("a question has a name, and its keys stand in braces", node.span, hint)
-            return ()
-    elif first and isinstance(node, Sequence):
+    first = next(iter(getattr(node, "items", [node])), None)
+    entries = first.entries if isinstance(first, Mapping) else []
+    if entries and isinstance(node, Sequence):
         hint = WITHOUT_HYPHENS
+    if _is_one(entries):
+        own = [key.label for key, _ in entries if key.label not in _QUESTION_ATTRIBUTES]
+        meant = _meant(entries, file.scope)
+        whole = f"{own[0] if len(own) == 1 else 'name'}: {_braced(meant)}"
+        hint = f"write {{{whole}}}"
+        if isinstance(node, Mapping):
+            message = "a question has a name, and its keys stand in braces"
+            file.error(message, node.span, f"write {whole}")
+            return ()
+    readers = {"where": _where, "always": _lasting, "reaches": _reaching, "value": _rewrite}
     for key, value in file.entries(node, "find", hint):
         what = f"the question '{key.label}'"
         entries = value.entries if isinstance(value, Mapping) else []
         given = [part.label for part, _ in entries]
-        if given and {*given} not in [{*form} for form in _FORMS.items()]:
+        forms = [form for form in _FORMS.items() if {*form} == {*given}]
+        if given and not forms and not any(map(str.isdigit, given)):  # 9,81
             meant = _meant(entries, file.scope)
-            whole = f"write {key.label}: {{{_whole(meant)}}}"
-            file.error(_misfit(given, meant, what), key.span, whole)
+            names = [f"'{each}'" for each in given if each not in _QUESTION_ATTRIBUTES]
+            wrong = [f"{what} has no '{each}'" for each in meant if each not in given]
+            wrong += [f"{what} has other keys than {' and '.join(meant)}"]
+            unknown = f"unknown key{'s' * bool(names[1:])} {', '.join(names)} in {what}"
+            whole = f"write {key.label}: {_braced(meant)}"
+            file.error(unknown if names else wrong[0], key.span, whole)
             continue
         found = file.attributes(value, what, _QUESTION_ATTRIBUTES)
-        parts = {name: part for name, (_, part) in found.items()}
-        if "where" in parts:
-            questions += _where(file, key, parts["where"], parts["for"])
-        elif "value" in parts:
-            questions.append(_rewrite(file, key, parts["value"], parts["in_terms_of"]))
-        elif "always" in parts:
-            questions += _lasting(file, key, parts["always"], parts["for"])
-        elif "reaches" in parts:
-            questions += _reaching(file, key, parts["reaches"], parts["for"])
-        elif isinstance(value, Mapping):
+        if not given and isinstance(value, Mapping):
             file.error(f"{what} is empty", key.span, hint)
+        for about, wanted in forms if found.keys() >= {*given} else ():
+            questions += readers[about](file, key, found[about][1], found[wanted][1])
     return tuple(questions)
 
 
 def _is_one(entries: list[tuple[Scalar, DocumentNode]]) -> bool:
     """Whether entries are the parts of one question, not questions by their names."""
     given = {key.label: source_of(each) for key, each in entries if not isinstance(each, Mapping)}
-    laws = [each for each in given.values() if _RELATION.search(each)]
-    is_pair = len(given) == 2 and len(laws) == 1
+    is_pair = len(given) == 2 == 1 + sum(map(bool, map(_RELATION.search, given.values())))
     return len(given) == len(entries) and (is_pair or any(map(given.get, _QUESTION_ATTRIBUTES)))
 
 
-def _whole(question: dict[str, str]) -> str:
-    return ", ".join(map(": ".join, question.items()))
-
-
-def _misfit(given: list[str], meant: dict[str, str], what: str) -> str:
-    """What is wrong with the keys of a question, which should be others."""
-    unknown = ", ".join(f"'{each}'" for each in given if each not in _QUESTION_ATTRIBUTES)
-    if unknown:
-        return f"unknown key{'s' * (',' in unknown)} {unknown} in {what}"
-    kept, other = (
-        [key for key in given if (key in meant) == is_meant] for is_meant in (True, False)
+def _braced(question: dict[str, str]) -> str:
+    """A question in one line; a text with commas in quotes."""
+    parts = (
+        f"{key}: " + re.sub(r"^(?![\[\"]).*,.*$", r'"\g<0>"', x) for key, x in question.items()
     )
-    if kept and other:
-        return f"{what} has both '{kept[0]}' and '{other[0]}'"
-    return f"{what} has no '{next(key for key in meant if key not in given)}'"
+    return f"{{{', '.join(parts)}}}"
 
 
 def _meant(entries: list[tuple[Scalar, DocumentNode]], scope: Scope) -> dict[str, str]:
@@ -207,6 +198,9 @@ def _meant(entries: list[tuple[Scalar, DocumentNode]], scope: Scope) -> dict[str
     parts: list[tuple[str, str]] = []
     for key, value in entries:
         label, written = key.label, source_of(value)
+        written = re.sub(r"^(['\"])(.*)\1$", r"\2", written)
+        if label in _QUESTION_ATTRIBUTES and not written:
+            continue
         is_name = label not in _QUESTION_ATTRIBUTES and label.rstrip("'") in scope.kinds
         if _RELATION.search(label) or not written or (is_name and _RELATION.search(written)):
             texts = re.split(r"\s(?:where|when|if|at|for)\s", f"{label} where {written}")
@@ -217,19 +211,20 @@ def _meant(entries: list[tuple[Scalar, DocumentNode]], scope: Scope) -> dict[str
     if not any(key_meant(label, ("in_terms_of",)) for label, _ in parts):
         laws += [x for x in parts if _FORMS.get(x[0]) == "for"]
     label, law = laws[0] if laws else ("", "")
-    rest = sorted((x for x in parts if x not in laws[:1]), key=lambda x: x[0] != "for")
+    free = [*scope.free, "x"]
+    unknown = next((x for x in free if x in re.findall(r"\w+", law)), free[0])
+    rest = [x for x in parts if x not in laws[:1]] or [("for", unknown)]
+    rest.sort(key=lambda x: x[0] != "for")
     words = re.findall(r"[^\W\d]\w*'?", " ".join(text for _, text in rest))
     kinds = {name: scope.kinds.get(name.rstrip("'")) for name in words}
     name = next((x for x, kind in kinds.items() if kind in {"coordinate", "parameter"}), "")
-    free = [*scope.free, "x"]
-    unknown = next((x for x in free if x in re.findall(r"\w+", law)), free[0])
     if not laws and [text for _, text in rest] == [name] and _rank(rest[0]) > 1:  # solve: theta
         return {"where": f"{name if kinds[name] == 'coordinate' else unknown}' = 0", "for": name}
     if not laws or (any(kinds.values()) and not name):
         formula = min(rest, key=_rank)
         formula = ("", f"{unknown}'") if _rank(formula) > 2 else formula
         others = [text.strip("[]{} ") for _, text in rest if text != formula[1]]
-        terms = ", ".join(text for text in others if not text.isdigit()) or unknown
+        terms = ", ".join(text for text in others if text and not text.isdigit()) or unknown
         return {"value": formula[1], "in_terms_of": f"[{terms}]"}
     about = closest(label, ("always", "reaches"), 0.7)
     is_bound = re.search("[<>≤≥]", law) and kinds.get(name) == "parameter"
@@ -319,12 +314,14 @@ def _parameter(file: FileReader, node: DocumentNode) -> Name | None:
     return name
 
 
-def _rewrite(file: FileReader, key: Scalar, value: DocumentNode, terms: DocumentNode) -> Question:
+def _rewrite(
+    file: FileReader, key: Scalar, value: DocumentNode, terms: DocumentNode
+) -> list[Question]:
     expression = file.expression(value, f"the question '{key.label}'", QUESTION)
     names = [file.name(item, "an item of 'in_terms_of'", _VARIABLE)
              for item in file.items(terms, "'in_terms_of'", "write [x]")]  # fmt: skip
     known = tuple(name for name in names if name is not None)
-    return Rewrite(name=key.label, value=expression, in_terms_of=known, span=key.span)
+    return [Rewrite(name=key.label, value=expression, in_terms_of=known, span=key.span)]
 
 
 def read_simulation(file: FileReader, node: DocumentNode) -> SimulationDefaults:
