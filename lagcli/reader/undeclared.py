@@ -30,26 +30,16 @@ _SHOWN = 3
 _LONGEST = 80
 _SHAPE = regex(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
 _SHAPE_OF_SECTION = regex(r"'?(\w+)'? must be an? (?:map|list)\b.*")
-_EACH_KEY = "the key is {}"
-#: Other words for keys, constants and states outside of their sections; the hint for all.
-_TOGETHER = (
-    (re.compile(r"unknown key ('.*') in the problem: the key is (\w+)"), _EACH_KEY),
-    (
-        re.compile(r"unknown key ('.*') in the problem: a constant .* parameters: \{(.*)\}"),
-        "constants stand under parameters: write parameters: {{{}}}",
-    ),
-    (
-        re.compile(r"unknown key ('.*') in the problem: the state .* initial: \{(.*)\}"),
-        "the state at t = 0 stands under initial: write initial: {{{}}}",
-    ),
-    (
-        re.compile(r"unknown key ('.*') in the problem: a formula .* definitions: \{(.*)\}"),
-        "a formula with a name stands under definitions: write definitions: {{{}}}",
-    ),
-    (
-        re.compile(r"unknown key ('.*') in the problem: forces stand .* forces: \{(.*)\}"),
-        "forces stand by coordinate: write forces: {{{}}}",
-    ),
+#: Other words for keys, constants and states outside of their sections: one hint for all.
+_TOGETHER = tuple(
+    regex(rf"unknown key ('.*') in the problem: {hint}")
+    for hint in (
+        r"the key is (\w+)",
+        r"a constant stands under parameters: write parameters: \{(.*)\}",
+        r"the state at t = 0 stands under initial: write initial: \{(.*)\}",
+        r"a formula with a name stands under definitions: write definitions: \{(.*)\}",
+        r"forces stand by coordinate: write forces: \{(.*)\}",
+    )
 )
 _OTHER_KEY = regex(r"unknown keys? (?P<key>'\w+') in .*: the key is (?P<meant>\w+)")
 _NAME = regex(r"unknown name '(\w+)' in (.*)")
@@ -80,8 +70,8 @@ def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
     """
     kept: dict[tuple[str, str], Diagnostic] = {}
     found = list(_with_value(diagnostics))
-    for form, advice in _TOGETHER:
-        found = _together(found, form, advice)
+    for form in _TOGETHER:
+        found = _together(found, form)
     for each in found:
         wrong = _KEY.fullmatch(each.message)
         place = wrong["place"] if wrong else _ORDER.sub(r"\1 \3", each.message)
@@ -190,8 +180,8 @@ def _joined(group: list[Diagnostic]) -> Diagnostic:
         named = [*{*_QUOTED.findall(each.message)} - {*_QUOTED.findall(before.message)}]
         if each.hint not in hints:
             advice = re.sub(r"^.*?: (?=write |give )", "", each.hint, flags=re.DOTALL)
-            is_subject = not line and len(named) == 1 and each.message.startswith(named[0])
-            hints[each.hint] = (f"for {named[0]} " if is_subject else line) + advice
+            is_told = len(named) != 1 or named[0][1:-1] in advice or "the unit '" in each.message
+            hints[each.hint] = (line if line or is_told else f"for {named[0]} ") + advice
         elif line:
             lines.append(str(each.span.line))
         else:
@@ -223,23 +213,23 @@ def _with_value(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
         yield last
 
 
-def _together(
-    diagnostics: list[Diagnostic], form: re.Pattern[str], advice: str
-) -> list[Diagnostic]:
+def _together(diagnostics: list[Diagnostic], form: re.Pattern[str]) -> list[Diagnostic]:
     """The mistakes, with one for all keys of the problem that have advice of one form."""
     found = [(each, form.fullmatch(f"{each.message}: {each.hint}")) for each in diagnostics]
     words = [(each, match[1], match[2]) for each, match in found if match]
     if not words[1:]:
         return diagnostics
-    keys = ", ".join(dict.fromkeys(meant for _, _, meant in words))
-    if advice == _EACH_KEY:
-        keys = words[0][2]
+    first, _, key = words[0]
+    begin, brace, _ = first.hint.replace("a constant stands", "constants stand").partition("{")
+    hint = f"{begin}{{{', '.join(dict.fromkeys(meant for *_, meant in words))}}}"
+    if not brace:
+        hint = f"the key is {key}"
         for (before, *_), (each, _, meant) in pairwise(words):
             is_below = each.span.line > before.span.line
-            keys += f"; {f'in line {each.span.line} ' * is_below}it is {meant}"
+            hint += f"; {f'in line {each.span.line} ' * is_below}it is {meant}"
     message = f"unknown keys {', '.join(word for _, word, _ in words)} in the problem"
-    whole = replace(words[0][0], message=message, hint=advice.format(keys))
-    kept = (whole if each is words[0][0] else each for each, _ in found)
+    whole = replace(first, message=message, hint=hint)
+    kept = (whole if each is first else each for each, _ in found)
     return [each for each in kept if all(each is not other for other, *_ in words[1:])]
 
 
