@@ -70,7 +70,10 @@ def boundary_integral(expression: Expr, system: System) -> Expr | None:
 def _from_start(slope: Expr, variable: Symbol, later: Sequence[Symbol]) -> Expr | None:
     """The integral of a slope by its variable, from where it is regular: from 0, or else 1."""
     for value in (sympy.S.Zero, sympy.S.One):
-        fixed = slope.xreplace({x: _within(x, value) for x in later})
+        try:
+            fixed = slope.xreplace({x: _within(x, value) for x in later})
+        except TypeError:  # of SymPy for cosh(zoo)
+            continue
         start = _within(variable, value)
         if _finite(fixed) and _finite(fixed.xreplace({variable: start})):
             whole = antiderivative(fixed, variable)

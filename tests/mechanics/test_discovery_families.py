@@ -246,6 +246,18 @@ def test_linear_equations_whose_coefficients_change_have_five(L):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("sign", ["-", "+"])
+@pytest.mark.parametrize("changing", ["/t^4", "/t^2", "/(t + 1)^4"])
+def test_the_square_of_a_strength_of_either_sign_serves_as_a_positive_one(sign, changing):
+    """k and -k are the same file: sin(k/t) needs no |k|."""
+    made = derive(f"coordinates: [x]\nparameters: [k]\nL: x'^2/2 {sign} k^2*x^2{changing}/2\n")
+    assert made.discovery.stopped == []
+    kept = digits_of(made)
+    assert len(kept) == 5
+    assert min(kept.values()) > 20
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("B", ["b/t", "b/(2*c + t)"])
 @pytest.mark.parametrize("V", ["0", "k*(x^2 + y^2)/(2*t^2)"])
 def test_a_field_that_falls_as_the_time_leaves_eight(B, V):

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from fractions import Fraction
+from itertools import permutations
 from typing import TypeAlias
 
 import sympy
@@ -258,6 +259,10 @@ class Atoms:
                 return self.to_sympy(above) / self.to_sympy(below)
             case Power(base=base, exponent=exponent):
                 return sympy.Pow(self.to_sympy(base), self.to_sympy(exponent))
+            case Call(function="sqrt", arguments=(radicand,)) if apart := self._roots_apart(
+                radicand
+            ):
+                return apart
             case Call(function="sqrt", arguments=(Quotient(numerator=a, denominator=b),)):
                 above, below = self.to_sympy(a), self.to_sympy(b)
                 if above.is_nonnegative:
@@ -275,6 +280,28 @@ class Atoms:
             self._names = self._named()
             return self.to_sympy(node)
         raise TypeError(f"no expression for {node!r}")
+
+    def _roots_apart(self, radicand: Expression) -> Expr | None:
+        """sqrt(a) sqrt(b)^(+-1) of sqrt(a b^(+-1)), where these roots were put in.
+
+        For negative a and b they differ, so no other proof would find them equal.
+        """
+        signed = [
+            g.expression.base
+            for g in self.field.generators
+            if g.kind == "root"
+            and g.expression.is_Pow
+            and g.expression.exp == sympy.S.Half
+            and g.expression.base.is_nonnegative is None
+        ]
+        if len(signed) < 2:
+            return None
+        whole = self.to_sympy(radicand)
+        for a, b in permutations(signed, 2):
+            for power in (1, -1):
+                if sympy.expand(whole - a * b**power) == 0:
+                    return sympy.sqrt(a) * sympy.sqrt(b) ** power
+        return None
 
     def _named(self) -> bool:
         """Let every symbol inside the generators be found by its name."""

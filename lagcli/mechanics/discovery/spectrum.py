@@ -235,31 +235,31 @@ def _quadratic(b: Expr, c: Expr) -> list[Exponent]:
     # without a word on the sign, c > b^2/4 is taken: both forms are the same functions
     inside = simplify(c - b**2 / 4)
     if inside.is_negative or (c.could_extract_minus_sign() and not c.is_positive):
-        root = _root(simplify(-inside))
+        root = frequency_of(simplify(-inside))
         return [Exponent(simplify(-b / 2 + root), sympy.S.Zero),
                 Exponent(simplify(-b / 2 - root), sympy.S.Zero)]  # fmt: skip
-    return [Exponent(simplify(-b / 2), _root(inside))]
+    return [Exponent(simplify(-b / 2), frequency_of(inside))]
 
 
 def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
     """lambda^4 + b lambda^2 + c = 0: i (sqrt(b + 2s) +- sqrt(b - 2s))/2 where c = s^2."""
-    s = _root(c)
+    s = frequency_of(c)
     if s.has(sympy.Pow) and any(p.exp.is_Rational and p.exp.q > 1 for p in s.atoms(sympy.Pow)):
-        inside = _root(simplify(b**2 / 4 - c))
+        inside = frequency_of(simplify(b**2 / 4 - c))
         squares = [simplify(b / 2 + inside), simplify(b / 2 - inside)]
         return [exponent for x in squares for exponent in _quadratic(sympy.S.Zero, x)]
-    one, inside = _root(simplify(b + 2 * s)), simplify(b - 2 * s)
+    one, inside = frequency_of(simplify(b + 2 * s)), simplify(b - 2 * s)
     if inside.is_negative:
-        growth, frequency = _root(-inside) / 2, simplify(one / 2)
+        growth, frequency = frequency_of(-inside) / 2, simplify(one / 2)
         return [Exponent(simplify(sign * growth), frequency) for sign in (1, -1)]
-    other = _root(inside)
+    other = frequency_of(inside)
     return [
         Exponent(sympy.S.Zero, simplify((one + other) / 2)),
         Exponent(sympy.S.Zero, simplify((one - other) / 2)),
     ]
 
 
-def _root(square: Expr) -> Expr:
+def frequency_of(square: Expr) -> Expr:
     """A root without a modulus: either sign serves for sine and cosine.
 
     sqrt(k/m) is sqrt(k*m)/m where the sign of m is open: one root, whose square is exact.
@@ -267,7 +267,7 @@ def _root(square: Expr) -> Expr:
     factored = sympy.factor(square)
     above, below = factored.as_numer_denom()
     if below.free_symbols and not below.is_nonnegative:
-        return simplify(_root(above * below) / below)
+        return simplify(frequency_of(above * below) / below)
     root = sympy.sqrt(factored)
     roots = [p for p in root.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q == 2]
     radicands = [p.base for p in roots if not p.base.is_number]

@@ -25,7 +25,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of
-from lagcli.mechanics.discovery.spectrum import Exponent, differences, exponents
+from lagcli.mechanics.discovery.spectrum import Exponent, differences, exponents, frequency_of
 
 _MOST_OPERATIONS = 200  # measured: at most 25
 
@@ -148,12 +148,12 @@ def _elementary(I: Expr, t: Symbol, p: Expr) -> list[Expr]:  # noqa: E741
     if I == 0:
         return [sympy.S.One, t]
     if free_of(I, [t]):
-        if I.is_negative:
-            inside = sympy.sqrt(-I) * t
+        if I.is_nonpositive:
+            inside = frequency_of(-I) * t
             if p.has(sympy.tanh, sympy.coth, sympy.cosh, sympy.sinh):
                 return [sympy.cosh(inside), sympy.sinh(inside)]
             return [sympy.exp(inside), sympy.exp(-inside)]
-        return [sympy.sin(sympy.sqrt(I) * t), sympy.cos(sympy.sqrt(I) * t)]
+        return [sympy.sin(frequency_of(I) * t), sympy.cos(frequency_of(I) * t)]
     Q = simplify(sympy.sqrt(sympy.factor(1 / I))).replace(sympy.Abs, lambda e: e)
     _, Q = Q.as_independent(t, as_Add=False)
     if Q.is_polynomial(t) and sympy.degree(Q, t) == 2:
@@ -171,15 +171,15 @@ def _of_square(K: Expr, Q: Expr, t: Symbol) -> list[Expr]:
     square = simplify(K + D / 4)
     if D == 0:
         linear = sympy.factor(Q.diff(t))
-        if square.is_negative:
-            inside = 2 * sympy.sqrt(-square) / linear
+        if square.is_nonpositive:
+            inside = 2 * frequency_of(-square) / linear
             return [linear * sympy.exp(inside), linear * sympy.exp(-inside)]
-        inside = 2 * sympy.sqrt(square) / linear
+        inside = 2 * frequency_of(square) / linear
         return [linear * sympy.sin(inside), linear * sympy.cos(inside)]
     if not (D.is_positive and square.is_positive):
         return []
     root = sympy.sqrt(D)
-    angle = simplify(2 * sympy.sqrt(square) / root) * sympy.atan(simplify(Q.diff(t) / root))
+    angle = simplify(2 * frequency_of(square) / root) * sympy.atan(simplify(Q.diff(t) / root))
     return [sympy.sqrt(Q) * sympy.sin(angle), sympy.sqrt(Q) * sympy.cos(angle)]
 
 
