@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import chain, combinations, islice
-from math import prod
+from math import isclose, pi, prod
 
 from lagcli.diagnostics import Diagnostic, Severity, Span
 from lagcli.dimensions.demands import LAGRANGIAN
@@ -26,6 +26,8 @@ _ENERGIES: tuple[Form, ...] = (ENERGY, {"m": Fraction(2), "s": Fraction(-2)}, {"
 #: A term longer than this is quoted by its beginning.
 _QUOTED = 40
 _NAMES_IN_HINT = 5
+#: Of a half turn: the largest denominator of an angle in units of pi.
+_DEGREES = 180
 #: Wrong units that are looked for at once, and the sets of them that are tried.
 _MOST_UNITS, _MOST_SETS = 3, 60
 
@@ -320,6 +322,11 @@ class _Checker:
             factor = prod(meaning_of(n).factor ** float(power) for n, power in unit.factors)
             factor /= system.factor({str(base): power for base, power in form.items()})
             better = str(system.unit(form))
+        turns = Fraction(factor / pi).limit_denominator(_DEGREES)
+        if not isclose(turns * pi, factor, rel_tol=1e-12):
+            turns = Fraction(0)
+        elif better.startswith("1/"):  # a rate of an angle
+            better = f"rad{better[1:]}"
         if not numbers or better == written:
             return ""
         whole = [f"unit: {better}"]
@@ -327,7 +334,11 @@ class _Checker:
             if not isinstance(number, Number):
                 return ""
             sign = "-" * isinstance(given[key], Negative)
-            whole.append(f"{key}: {sign}{float(number.value) * factor:.10g}")
+            value = f"{float(number.value) * factor:.10g}"
+            if exact := Fraction(number.value) * turns:
+                times_ = f"{exact.numerator}*" * (exact.numerator > 1)
+                value = f"{times_}pi" + f"/{exact.denominator}" * (exact.denominator > 1)
+            whole.append(f"{key}: {sign}{value}")
         return f"write {', '.join(whole)}"
 
 

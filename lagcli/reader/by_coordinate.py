@@ -8,7 +8,7 @@ from collections.abc import Set as AbstractSet
 from typing import TYPE_CHECKING
 
 from lagcli.reader.foreign.vector_products import along_z, vector_product
-from lagcli.reader.foreign.words import Vocabulary, rate_meant
+from lagcli.reader.foreign.words import Vocabulary, momentum_meant, rate_meant
 from lagcli.reader.misshapen import as_list, behind_words, is_sentence, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
@@ -58,7 +58,7 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
     written = node.text.source.text[node.start : node.end].strip("[] \n")
     written = behind_words(written, scope.kinds)
     pairs_given = _GIVEN.findall(written) or _SIDE_BY_SIDE.findall(written)
-    stated = [(coordinate_meant(name.removesuffix("''"), scope), value)
+    stated = [(coordinate_meant(name.removesuffix("''"), names), value)
               for name, value in pairs_given]  # fmt: skip
     if stated and (stated[1:] or isinstance(node, Sequence) or stated[0][0] in names):
         return _pairs(stated, braces=len(stated) > 1 or isinstance(node, Sequence))
@@ -126,7 +126,7 @@ def _of_equations(node: Sequence, names: list[str]) -> list[tuple[str, str]]:
         meant = state_meant(left.strip(), names) if sign else ""
         if not meant or not right.strip():
             return []
-        found.append((meant, right.strip()))
+        found.append((meant.removesuffix("''"), right.strip()))
     return found
 
 
@@ -143,14 +143,15 @@ def _values(node: DocumentNode, scope: Scope) -> list[str]:
     return [part.strip() for each in values for part in each.split(";")]
 
 
-def coordinate_meant(name: str, scope: Scope) -> str:
+def coordinate_meant(name: str, coordinates: list[str]) -> str:
     """The coordinate of a force that is called `F`, `F_x` or `Q_x`; the velocity v."""
-    coordinates = list(scope.of_kind("coordinate"))
     bare = re.sub(r"^[FQf]_?", "", name)
     if bare in coordinates:
         return bare
     if not bare and len(coordinates) == 1:
         return coordinates[0]
+    if momentum := momentum_meant(name, coordinates):
+        return momentum
     if bare.isdigit() and 0 < int(bare) <= len(coordinates):
         by_index = (x for x in coordinates if re.search(rf"\D{bare}$", x))
         return next(by_index, coordinates[int(bare) - 1])

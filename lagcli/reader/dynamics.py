@@ -13,7 +13,7 @@ from lagcli.reader.growth import growth
 from lagcli.reader.habits import colon_advice, is_angle, key_meant
 from lagcli.reader.headings import forces_without_headings, without_headings
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
-from lagcli.reader.misshapen import as_list, source_of
+from lagcli.reader.misshapen import as_list, named_formulas, source_of
 from lagcli.reader.names import depends_on_time, derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
@@ -131,9 +131,8 @@ def declare_definitions(file: FileReader, node: DocumentNode) -> list[tuple[Scal
         written = [each.value for each in lines if isinstance(each, Scalar)]
         file.scope.refused.append("")
         hint = colon_advice(written[0]) if written else hint
-        several = re.findall(r"(\w+)\s*=\s*(.*?)(?=[\s,;]+\w+\s*=|$)", "; ".join(written))
-        if several[1:]:
-            hint = f"write {{{', '.join(map(': '.join, several))}}}"
+        if len(several := named_formulas(node)) > 1:
+            hint = f"write {{{', '.join(map(': '.join, several.items()))}}}"
         file.scope.refused += [line.partition("=")[0].strip() for line in written]
     if found := without_headings(node, ()):
         file.error(f"'{found[0].label}' in definitions is not a formula", found[0].span, found[1])
@@ -342,9 +341,8 @@ def _force(file: FileReader, node: DocumentNode, name: str, length: int) -> tupl
 def _is_name_of(label: str, file: FileReader) -> bool:
     """Whether a word is the name of a force, and not of a coordinate in another spelling."""
     coordinates = list(file.scope.of_kind("coordinate"))
-    is_known = (
-        label in coordinates or coordinate_meant(label.rstrip("'"), file.scope) in coordinates
-    )
+    meant = coordinate_meant(label.rstrip("'"), coordinates).rstrip("'")
+    is_known = label in coordinates or meant in coordinates
     return not (is_known or did_you_mean(label, coordinates) or file.scope.refused)
 
 
@@ -389,8 +387,9 @@ def read_by_coordinate(
         return {}
     for key, value in entries:
         if file.scope.kinds.get(key.label) != "coordinate":
-            along = coordinate_meant(key.label.rstrip("'"), file.scope)
+            along, prime, _ = coordinate_meant(key.label, coordinates).partition("'")
             hint = f"write {along}" if along in coordinates else ""
+            hint = f"leave it out: {role.why}" if hint and prime and role.order == 0 else hint
             hint = hint or did_you_mean(key.label, coordinates)
             pointed = ", or as 'force' of a point" if section == "forces" else ""
             moved = [x for x in coordinates if re.search(rf"(?<!\w){x}'", source_of(value))]

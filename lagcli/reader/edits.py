@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.reader.habits import KEYS
+from lagcli.reader.misplaced import names_in
 from lagcli.reader.misshapen import pieces
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, entries_in, nodes_in
 from lagcli.reader.regex import regex
@@ -75,6 +76,7 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
         found = [edits + _elsewhere(name[1], edits[0], written) * is_text for edits in found]
     is_own = is_node(start, end, root, written) and not _SECTION.fullmatch(whole)
     return sorted(found, key=lambda edits: (
+        edits[0].start < edits[0].end or not edits[1:],  # not an entry that is moved
         not is_own or edits[0].start != start or edits[0].end < end, -_likeness(edits, written)
     ))  # fmt: skip
 
@@ -121,6 +123,11 @@ def _placed(
         if edits:  # none where its section is no map
             yield edits
         return
+    if section and entry is not None and entry[0].label != section[1]:
+        around = next(each for each in nodes_in(root) if entry in getattr(each, "entries", ()))
+        beside = section[1] in names_in(around)
+        if beside and (edits := _into_section(section[1], section[2], text, around)):
+            yield [*edits, _without(start, end, text, root)]
     end = start + len(written[start:end].rstrip())
     before = part[: start - end - 1]  # g: 9 of g: 9,81
     if written[:start].endswith(f"{before},") and part.endswith(f".{written[start:end]}"):

@@ -127,7 +127,7 @@ class ExpectReader:
         items = [each.value for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
         told = [each.partition("=") for each in items or pieces(written, ",;")]
         named = [(_known_as(name.strip(), known), value.strip()) for name, _, value in told]
-        if all(name in known and value for name, value in named):
+        if all(name and value for name, value in named):
             hint = f"write {{{', '.join(map(': '.join, named))}}}"
         elif items and len(items) <= len(known):
             pairs = ", ".join(f"{name}: {item}" for name, item in zip(known, items, strict=False))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
+from lagcli.reader.by_coordinate import state_meant
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression, sides_of
 from lagcli.reader.friction_meant import friction_meant
 from lagcli.reader.growth import growth
@@ -30,6 +31,7 @@ from lagcli.reader.misshapen import (
     as_text,
     by_its_name,
     entries_of,
+    named_formulas,
     one_sum,
     source_of,
     texts_of,
@@ -45,7 +47,7 @@ from lagcli.reader.text import Mistake
 from lagcli.reader.unknown_keys import unknown_key
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Container, Iterable, Iterator
 
     from lagcli.problem_data import Inequality
     from lagcli.reader.positions import Excerpt
@@ -65,6 +67,8 @@ _RELATION = regex("[=<>≤≥]")
 #: An entry of a map that has no colon, and the sections in which it is no equation.
 _ASSIGNED = regex(r"(?P<key>[^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]?>|:?=|→)\s*(?P<value>[^=<>]+?)\s*")
 _ASSIGNABLE = frozenset({"initial", "forces", "definitions", "simulation"})
+#: Sections whose entries have names of the user's, which stand in no formula.
+_OF_FREE_NAMES = frozenset("brackets contacts find points symmetries".split())
 _NO_EQUATION = Equation(ZERO, ZERO)
 
 
@@ -153,12 +157,16 @@ class FileReader:
                 and all(isinstance(x, Mapping) for x in node.items)
                 and ("…" in hint or not hint.startswith("write {"))
             ):
-                flow = node.text.source.text[node.start : node.end].strip()
-                hint = f"write {{{flow[1:-1]}}}" if flow[:1] == "[" else WITHOUT_HYPHENS
+                inner = ", ".join(map(entries_of, node.items))
+                is_flow = node.text.source.text[node.start] == "["
+                hint = f"write {{{inner}}}" if is_flow else WITHOUT_HYPHENS
             first = node.items[0] if isinstance(node, Sequence) and node.items else None
             labels = {key.label for key, _ in getattr(first, "entries", ())}
             if first is not None and labels and labels <= SECTIONS.keys():
                 hint = f"each has a name: write name: {{{entries_of(first)}}}, without '-'"
+            given = named_formulas(node) if what in _OF_FREE_NAMES else {}
+            if given and hint.startswith("write ") and not given.keys() & self.scope.kinds.keys():
+                hint = f"write {{{', '.join(map(': '.join, given.items()))}}}"
             # behind its key a map has braces: forces: {x: -c*x'}
             hint = re.sub(r"^write ([^{}]+: [^{}]+)$", r"write {\1}", hint)
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
@@ -232,8 +240,10 @@ class FileReader:
             return
         yield from ((k, v) for k, v in entries if k in own and isinstance(v, Scalar))
 
-    def items(self, node: DocumentNode, what: str, hint: str = "") -> list[DocumentNode]:
-        """The items of a list; a mistake when it is none."""
+    def items(
+        self, node: DocumentNode, what: str, hint: str = "", keys: Container[str] | None = None
+    ) -> list[DocumentNode]:
+        """The items of a list, maps where `keys` are theirs; a mistake when it is none."""
         if isinstance(node, Sequence):
             return node.items
         if isinstance(node, Scalar):
@@ -247,8 +257,16 @@ class FileReader:
                 return []
             listed = not hint or hint.startswith("write [")
             hint = f"write {as_list(node.value)}" if listed and node.value.strip() else hint
+        elif isinstance(node, Mapping) and keys is not None:
+            maps = [v for k, v in node.entries if isinstance(v, Mapping) and k.label not in keys]
+            whole = maps if len(maps) == len(node.entries) else [node]
+            hint = f"write [{', '.join(map(source_of, whole))}]"
         elif isinstance(node, Mapping) and hint in {"", "write [one, another]", _FREQUENCIES}:
-            hint = f"write [{', '.join(source_of(value) for _, value in node.entries)}]"
+            coordinates = [*self.scope.of_kind("coordinate")]
+            rates = [state_meant(key.label, coordinates) for key, _ in node.entries]
+            left = (f"{each} = " * each.endswith("''") for each in rates)
+            listed_ = (side + source_of(v) for side, (_, v) in zip(left, node.entries, strict=True))
+            hint = f"write [{', '.join(listed_)}]"
         self.error(f"{what} must be a list, not {kind(node)}", node.span, hint)
         return []
 

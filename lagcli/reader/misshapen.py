@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Container, Iterable
+from fractions import Fraction
 from typing import get_args
 
 from lagcli.notation.greek import BY_NAME as GREEK
@@ -29,7 +30,6 @@ FOUND = frozenset(
     "energy momentum momenta charges".split()
 )
 
-SEVERAL = "one value each, with a name of its own; several are run by lagcli sweep --vary"
 ALREADY_FOUND = (
     "leave it out: equilibria, frequencies and charges are found by "
     "lagcli solve FILE --show equilibria,modes,charges"
@@ -38,6 +38,11 @@ FRICTION = "a friction force -c*x' is written dissipation: c*x'^2/2"
 WITHOUT_HYPHENS = "leave out the '-' before each key"
 
 
+#: `0:0.1:1`, also without the step.
+RANGE = regex(
+    r"\s*[\[(]?\s*(-?[\d.]*\d)\s*(?:\.\.+|…|to|bis|:|–)\s*(?:(-?[\d.]*\d)\s*:\s*)?"
+    r"(-?[\d.]*\d)\s*[\])]?\s*"
+)
 #: `x = l*sin(a)`, several of them.
 _ASSIGNED_PARTS = regex(r"(\w+)\s*=\s*(.*?)(?=[\s,;]+\w+\s*=|\s*$)")
 _EQUATION = regex(r"\s*(?:\w+\.)?(?:Eq|Equality|Equal)\s*[(\[](.*)[)\]]\s*")
@@ -72,6 +77,12 @@ def as_equation(text: str) -> str:
     found = _EQUATION.fullmatch(text)
     sides = pieces(found[1], ",") if found else []
     return " = ".join(map(str.strip, sides)) if len(sides) == 2 else text
+
+
+def named_formulas(node: DocumentNode) -> dict[str, str]:
+    """`x*y` by `a` for each `a = x*y` in a text or a list; empty for others."""
+    lines = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+    return dict(_ASSIGNED_PARTS.findall("; ".join(lines)))
 
 
 def as_list(written: str) -> str:
@@ -158,8 +169,8 @@ def one_sum(node: DocumentNode, what: str) -> str:
         cases = [re.sub(r",?\s*(?:otherwise|else)\b:?", "", each).strip() for each in written]
         whole = without_cases(" else ".join(cases)) if len(cases) == 2 else ""
         return f"write {whole}" if "sign(" in whole else CASE
-    if what.startswith("the value of"):
-        return SEVERAL
+    if what.startswith("the value of") and written:
+        return f"write {written[0]}; {swept(what.split(chr(39))[1], node)}"
     if what.startswith("the definition of") and isinstance(node, Sequence) and written:
         name = what.split("'")[1]
         parts = (f"{name}_{axis}: {each}" for axis, each in zip("xyz", written, strict=False))
@@ -262,7 +273,29 @@ def _as_attributes(node: DocumentNode, written: str, names: tuple[str, ...]) -> 
     if len(units) == 1 and len(listed) == 2:
         [number] = [each for each in listed if each not in units]
         return f"write {{value: {number}, unit: {units[0]}}}"
-    return SEVERAL
+    return f"one value each, with a name of its own; {swept('name', node)}"
+
+
+def values_of(node: DocumentNode) -> str:
+    """`1,2,3` for a list of values, `0:1:5` for a range in five steps; nothing for others."""
+    if isinstance(node, Sequence):
+        return ",".join(map(source_of, node.items))
+    found = RANGE.fullmatch(node.value) if isinstance(node, Scalar) else None
+    if found is None:
+        return ""
+    first, *middle, last = (each for each in found.groups() if each)
+    if not middle:
+        count = int(last) - int(first) + 1 if (first + last).lstrip("-").isdigit() else 0
+        return f"{first}:{last}:{count if count > 2 else 'COUNT'}"
+    steps = (Fraction(last) - Fraction(first)) / (Fraction(middle[0]) or -1)
+    if steps.denominator == 1 and steps > 0:
+        return f"{first}:{last}:{steps + 1}"
+    return f"{first}:{middle[0]}:{last}"
+
+
+def swept(name: str, values: DocumentNode) -> str:
+    """How a parameter is given several values."""
+    return f"several are run by lagcli sweep FILE --vary {name}={values_of(values)}"
 
 
 def key_by_shape(value: DocumentNode, problem: Mapping) -> str | None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import Name, walk
 from lagcli.problem_data import BracketQuestion, CanonicalTransformation
-from lagcli.reader.misshapen import FOUND, source_of
+from lagcli.reader.misshapen import FOUND, named_formulas, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import PHASE_SPACE, name_mistake
@@ -42,12 +42,12 @@ HAMILTONIAN = "H"
 def read_observables(file: FileReader, node: DocumentNode) -> dict[str, Expression]:
     """Functions of q, p and t, each of which may use earlier ones."""
     found = {}
-    items = getattr(node, "items", [node])
-    given = items[0].value.strip() if items and isinstance(items[0], Scalar) else ""
-    given = given if re.search(r"[-+*/^(]|^\w+$", given) else ""
-    words = {each.value for each in items if isinstance(each, Scalar)}
+    words = [v.value.strip() for v in getattr(node, "items", [node]) if isinstance(v, Scalar)]
+    formulas = [each for each in words if re.search(r"[-+*/^(]|^\w+$", each)]
     product = "x*p_y - y*p_x" if {"x", "y"} <= file.scope.kinds.keys() else "x*p_x"
-    hint = _FOUND if words and words <= FOUND else f"write A: {given or product}"
+    named = named_formulas(node) or dict(zip("ABCDEF", formulas or [product], strict=False))
+    hint = f"write {', '.join(map(': '.join, named.items()))}"
+    hint = _FOUND if words and {*words} <= FOUND else hint
     for key, value in file.entries(node, "observables", hint):
         what = f"the observable '{key.label}'"
         expression = file.expression(value, what, BRACKETED)

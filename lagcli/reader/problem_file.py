@@ -149,6 +149,12 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
     sections = [(key.span.line, key.label) for key, _ in entries]
     shaped = one_for_shapes(declared, sections)
     found = one_for_habit(shaped, [line for line, _ in sections])
+    if re.fullmatch(r"[^\s<>:]+\.ya?ml", source.name):  # a command can be typed as it stands
+        command = re.compile(r"(?<=lagcli )(\w+) FILE\b")
+        found = tuple(
+            replace(each, hint=command.sub(lambda m: f"{m[1]} {source.name}", each.hint))
+            for each in found
+        )
     has_errors = any(diagnostic.is_error for diagnostic in found)
     return ProblemReading(source, None if has_errors else problem, found)
 

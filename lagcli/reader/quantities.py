@@ -18,12 +18,13 @@ from lagcli.reader.habits import (
 )
 from lagcli.reader.headings import without_headings
 from lagcli.reader.listed_names import as_names
-from lagcli.reader.misshapen import entries_of, source_of
+from lagcli.reader.misshapen import RANGE, entries_of, named_formulas, source_of, swept
 from lagcli.reader.names import NO_VALUE
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.suggest import closest, did_you_mean
+from lagcli.record import replace
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Container, Iterator
@@ -44,7 +45,6 @@ class _Said(TypedDict, total=False):
 
 _COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
 _PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
-_RANGE = regex(r"\s*[\[(]?\s*(-?[\d.]*\d)\s*(?:\.\.+|…|to|bis|:|–)\s*-?[\d.:]+\s*[\])]?\s*")
 #: A number with words behind it.
 _NUMBER_WITH_WORDS = regex(
     r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)(?:\s*[(:;,]|\s+[-–—]|\s)\s*"
@@ -54,6 +54,7 @@ _WORDS = regex(r"[^\W\d_]{4,}(?: [^\W\d_]+)*")
 #: `G M` and `G*M` before a value, the name GM.
 _PRODUCT = regex(r"^[^\W\d](?:[ *][^\W\d])+(?=\s*[=:])")
 _CALLED = regex(r"(\w+)\(\s*([^\W\d][\w, ]*?)\s*\)")
+_FORMULA = "a formula, without arguments, stands under definitions"
 _OF_TIME = regex(r"(\w+)\(t\)")
 _ONE_NAME = regex(r"write (\w+)(?:, without .*)?")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
@@ -108,13 +109,15 @@ def read_parameters(
             attributes = {"value": node}
         else:
             attributes = _attributes(file, node, key, "parameter", _PARAMETER_ATTRIBUTES)
-        value = None
+        value, before = None, len(file.diagnostics)
         if sign := _sign(attributes.get("value"), file.scope.kinds):
             rest = (f", {k}: {source_of(v)}" for k, v in attributes.items() if k not in _ASSUMED)
             hint = f"write {key.label}: {{assume: {sign}{''.join(rest)}}}"
             file.error(f"an assumption stands under 'assume' of '{key.label}'", key.span, hint)
-        elif isinstance(given := attributes.get("value"), Scalar) and _RANGE.fullmatch(given.value):
-            hint = f"write one; several are run by lagcli sweep --vary {key.label}=1,2,3"
+        elif isinstance(given := attributes.get("value"), Scalar) and (
+            found := RANGE.fullmatch(given.value)
+        ):
+            hint = f"write {found[1]}; {swept(key.label, given)}"
             file.error(f"'{key.label}' has a range for its value", given.span, hint)
         elif isinstance(given, Scalar) and is_described(given.value, file.scope.kinds):
             described.append((key, given))
@@ -123,6 +126,10 @@ def read_parameters(
         elif "value" in attributes:
             what = f"the value of '{key.label}'"
             value = file.expression(attributes["value"], what, VALUES)
+        if isinstance(node, Mapping):
+            unit = source_of(attributes["unit"]) if "unit" in attributes else ""
+            found_ = file.diagnostics[before:]
+            file.diagnostics[before:] = [replace(x, hint=_in_map(x.hint, unit)) for x in found_]
         integer = "integer" in attributes and file.yes_or_no(attributes["integer"], "integer")
         said = _said(file, attributes)
         parameters.append(
@@ -132,10 +139,17 @@ def read_parameters(
         key, first = described[0]
         others = ", ".join(each.label for each, _ in described[1:])
         hint = f"write {{description: {source_of(first)}}}"
+        hint = hint if first is dict(declared)[key] else _in_map(hint)
         message = f"the value of '{key.label}' is a text, not a number"
         file.error(message, first.span, f"{hint}, and so for {others}" if others else hint)
     _check_cycles(file, parameters)
     return tuple(parameters)
+
+
+def _in_map(hint: str, unit: str = "") -> str:
+    """`write value: 1, unit: m` for `write {value: 1, unit: m}`, which stands in braces already."""
+    bare = re.sub(r"write \{((?:value|unit|assume|description): [^{}]*)\}$", r"write \1", hint)
+    return re.sub(rf"write value: (.*), unit: {re.escape(unit)}$", r"write \1", bare)
 
 
 def _in_order(node: DocumentNode | None) -> str:
@@ -153,12 +167,15 @@ def _indexed(name: str, node: DocumentNode | None) -> str:
         given = [(key.label, value) for key, value in node.entries]
     elif isinstance(node, Sequence):
         given = [(str(place), value) for place, value in enumerate(node.items, start=1)]
-    if len(given) < 2 or not all(index.isdigit() for index, _ in given):
+    if node is None or len(given) < 2 or not all(index.isdigit() for index, _ in given):
         return ""
     if not all(isinstance(value, Scalar) and is_constant("x", value.value) for _, value in given):
         return ""
+    bare = re.findall(rf"(?<![\w.]){re.escape(name)}(?![\w\[{{(])", given[0][1].text.source.text)
+    if isinstance(node, Sequence) and bare[1:]:  # the name itself stands in formulas
+        return f"write {name}: {source_of(given[0][1])}; {swept(name, node)}"
     written = ", ".join(f"{name}_{index}: {source_of(value)}" for index, value in given)
-    return f"write {written}; several are run by lagcli sweep --vary"
+    return f"write {written}" + f"; {swept(name, node)}" * isinstance(node, Sequence)
 
 
 def _with_words(text: str, known: Collection[str]) -> str:
@@ -191,7 +208,10 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
     first = next(iter(file.scope.of_kind("coordinate")), "r")
     alone = [(each, first) for each in items if each.isidentifier()]
     named = ", ".join(map("{0[0]}: [{0[1]}]".format, called or alone or [("U", "r")]))
-    for key, value in file.entries(node, "functions", f"write {named}"):
+    hint = f"write {{{named}}}"
+    if formulas := named_formulas(node):
+        hint = f"{_FORMULA}: write definitions: {{{', '.join(map(': '.join, formulas.items()))}}}"
+    for key, value in file.entries(node, "functions", hint):
         call = _CALLED.fullmatch(key.label)
         name = call[1] if call else key.label
         if not file.declare(name, "function", key.span):
@@ -200,7 +220,8 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
         if call or given:
             hint = f"write {name}: [{call[2]}]" if call else f"write [{given}]"
             if not re.fullmatch(r"(?!\d)[\w\s,]*", given):
-                hint = f"a formula, without arguments, stands under definitions: {name}: {given}"
+                whole = f"write definitions: {{{name}: {given}}}"
+                hint = f"{_FORMULA}: {whole}"
             file.error(f"{what} must be a list", (key if call else value).span, hint)
             file.scope.arity[name] = call[2].count(",") + 1 if call else 1
             continue

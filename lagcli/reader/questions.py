@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 _QUESTION_ATTRIBUTES = ("where", "for", "value", "in_terms_of", "always", "reaches")
 #: The two keys of a question: what it is about, and what is wanted.
 _FORMS = {"where": "for", "always": "for", "reaches": "for", "value": "in_terms_of"}
+_NO_ACCELERATION = "leave it out: a state has x and x'"
 _SIMULATION_ATTRIBUTES = ("until", "accuracy", "method")
 
 _RELATION = regex("[=<>≤≥]")
@@ -85,6 +86,9 @@ def _state_name(
         return None
     if letters not in coordinates:
         meant = state_meant(key.label, coordinates)
+        if meant.endswith("''"):
+            file.error(f"{meant} in initial is an acceleration", key.span, _NO_ACCELERATION)
+            return None
         hint = f"write {meant}" if meant else did_you_mean(letters, coordinates)
         if meant.endswith("'") and not re.search(r"[0\s]", key.label):
             hint = f"the velocity of {meant[:-1]} is {meant}"
@@ -113,13 +117,12 @@ def _state_name(
             hint = "leave it out: it follows from its definition"
         elif kind == "parameter":
             entry = f"{letters}: {source_of(value)}"
-            hint = f"a constant stands under parameters: write parameters: {{{entry}}}"
+            hint = f"constants stand under parameters: write parameters: {{{entry}}}"
         file.error(f"'{key.label}' in initial is not a coordinate", key.span, hint)
         return None
     primes = sum(2 if prime == "″" else 1 for prime in key.label[len(letters) :])
     if primes > 1:
-        message = f"{key.label} in initial is an acceleration"
-        file.error(message, key.span, "leave it out: a state has x and x'")
+        file.error(f"{key.label} in initial is an acceleration", key.span, _NO_ACCELERATION)
         return None
     return Name(letters, primes)
 

@@ -113,10 +113,11 @@ def equation(what: str, role: Role) -> Shape:
 
 def list_of(item: Shape, hint: str = "") -> Shape:
     """A list."""
+    keys = item.schema.get("properties")
 
     def read(reader: ExpectReader, node: DocumentNode, path: Path) -> tuple[Any, ...]:
         found = []
-        for place, each in enumerate(reader.file.items(node, f"'{path[-1]}'", hint)):
+        for place, each in enumerate(reader.file.items(node, f"'{path[-1]}'", hint, keys)):
             reader.spans[(*path, str(place))] = each.span
             found.append(item.read(reader, each, (*path, str(place))))
         return tuple(found)

@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Known, KnownRow, Trajectory
+from lagcli.reader.misshapen import entries_of
 from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.nodes import Mapping as Map
 from lagcli.reader.scope import ALONG, CONSTANTS, MOTION, Role
@@ -101,7 +102,13 @@ class TrajectoryReader:
     def _rows(self, node: DocumentNode, section: str, words: tuple[str, ...]) -> list[KnownRow]:
         """Maps of columns, with words that say when."""
         rows = []
-        for place, item in enumerate(self.file.items(node, f"'{section}'")):
+        by_time = [
+            f"{{t: {key.label}, {entries_of(value)}}}"
+            for key, value in getattr(node, "entries", ())
+            if section == "at" and isinstance(value, Map)
+        ]
+        hint, keys = f"write [{', '.join(by_time)}]" * bool(by_time), None if by_time else words
+        for place, item in enumerate(self.file.items(node, f"'{section}'", hint, keys)):
             self.spans["trajectory", section, str(place)] = item.span
             found: dict[str, Scalar] = {}
             known: list[Known] = []

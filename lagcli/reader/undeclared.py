@@ -30,18 +30,15 @@ _SHOWN = 3
 _LONGEST = 80
 _SHAPE = regex(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
 _SHAPE_OF_SECTION = regex(r"'?(\w+)'? must be an? (?:map|list)\b.*")
-#: Other words for keys, constants and states outside of their sections: one hint for all.
-_TOGETHER = tuple(
-    regex(rf"unknown key ('.*') in the problem: {hint}")
-    for hint in (
-        r"the key is (\w+)",
-        r"a constant stands under parameters: write parameters: \{(.*)\}",
-        r"the state at t = 0 stands under initial: write initial: \{(.*)\}",
-        r"a formula with a name stands under definitions: write definitions: \{(.*)\}",
-        r"forces stand by coordinate: write forces: \{(.*)\}",
-    )
+_THE_KEY = "the key is "
+#: Entries that belong to a section.
+_MOVED = regex(
+    r"unknown key (?P<key>'.*') in (?P<place>[^:]*): "
+    r"(?P<hint>(?:[^:]* stands? (?:under|by) [^:]*: )?write \w+: \{)(?P<entry>.*)\}"
 )
-_OTHER_KEY = regex(r"unknown keys? (?P<key>'\w+') in .*: the key is (?P<meant>\w+)")
+_OTHER_KEY = regex(
+    rf"unknown keys? (?P<key>'.*') in (?P<place>[^:]*): (?P<hint>{_THE_KEY})(?P<entry>\w+)"
+)
 _NAME = regex(r"unknown name '(\w+)' in (.*)")
 
 
@@ -69,10 +66,7 @@ def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
         By their place.
     """
     kept: dict[tuple[str, str], Diagnostic] = {}
-    found = list(_with_value(diagnostics))
-    for form in _TOGETHER:
-        found = _together(found, form)
-    for each in found:
+    for each in _together(list(_with_value(diagnostics))):
         wrong = _KEY.fullmatch(each.message)
         place = wrong["place"] if wrong else _ORDER.sub(r"\1 \3", each.message)
         same = wrong is None or place != "the problem" or each.hint.startswith("it is one sum")
@@ -167,11 +161,10 @@ def _unquoted(message: str) -> str:
 
 def _joined(group: list[Diagnostic]) -> Diagnostic:
     """The first, with the advice of each, of three where there are more."""
-    keys = [_OTHER_KEY.fullmatch(f"{each.message}: {each.hint}") for each in group]
-    if len(pairs := {each["key"]: each["meant"] for each in keys if each}) > 1 and all(keys):
-        places = dict.fromkeys(_KEY.sub(r"\g<place>", each.message) for each in group)
-        message = f"unknown keys {', '.join(pairs)} in {' and '.join(places)}"
-        return replace(group[0], message=message, hint=f"the keys are {', '.join(pairs.values())}")
+    keys = [(each, found) for each in group
+            if (found := _OTHER_KEY.fullmatch(f"{each.message}: {each.hint}"))]  # fmt: skip
+    if len(keys) == len(group) and len({found["key"] for _, found in keys}) > 1:
+        return _other_keys(keys)
     hints = {group[0].hint: group[0].hint}
     lines: list[str] = []
     names: list[str] = []
@@ -213,24 +206,46 @@ def _with_value(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
         yield last
 
 
-def _together(diagnostics: list[Diagnostic], form: re.Pattern[str]) -> list[Diagnostic]:
-    """The mistakes, with one for all keys of the problem that have advice of one form."""
-    found = [(each, form.fullmatch(f"{each.message}: {each.hint}")) for each in diagnostics]
-    words = [(each, match[1], match[2]) for each, match in found if match]
-    if not words[1:]:
-        return diagnostics
-    first, _, key = words[0]
-    begin, brace, _ = first.hint.replace("a constant stands", "constants stand").partition("{")
-    hint = f"{begin}{{{', '.join(dict.fromkeys(meant for *_, meant in words))}}}"
-    if not brace:
-        hint = f"the key is {key}"
-        for (before, *_), (each, _, meant) in pairwise(words):
-            is_below = each.span.line > before.span.line
-            hint += f"; {f'in line {each.span.line} ' * is_below}it is {meant}"
-    message = f"unknown keys {', '.join(word for _, word, _ in words)} in the problem"
-    whole = replace(first, message=message, hint=hint)
-    kept = (whole if each is first else each for each, _ in found)
-    return [each for each in kept if all(each is not other for other, *_ in words[1:])]
+def _together(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
+    """The mistakes, with one for all other words for keys, and for all entries of one section."""
+    groups: dict[tuple[str, str], list[tuple[Diagnostic, re.Match[str]]]] = {}
+    for each in diagnostics:
+        said = f"{each.message}: {each.hint}"
+        found = _MOVED.fullmatch(said) or _OTHER_KEY.fullmatch(said)
+        if found and (found["hint"] != _THE_KEY or found["place"] == "the problem"):
+            groups.setdefault((found["place"], found["hint"]), []).append((each, found))
+    kept = {id(each): each for each in diagnostics}
+    for (place, hint), group in groups.items():
+        if group[1:]:
+            first = group[0][0]
+            for each, _ in group[1:]:
+                del kept[id(each)]
+            if hint == _THE_KEY:
+                kept[id(first)] = _other_keys(group)
+                continue
+            keys = ", ".join(found["key"] for _, found in group)
+            entries = ", ".join(dict.fromkeys(found["entry"] for _, found in group))
+            message = f"unknown keys {keys} in {place}"
+            kept[id(first)] = replace(first, message=message, hint=f"{hint}{entries}}}")
+    return [*kept.values()]
+
+
+def _other_keys(group: list[tuple[Diagnostic, re.Match[str]]]) -> Diagnostic:
+    """One mistake for other words for keys: which they are, where they stand, what they mean."""
+    places: dict[str, dict[str, str]] = {}
+    for _, found in group:
+        places.setdefault(found["place"], {})[found["key"]] = found["entry"]
+    pairs = {key: meant for inner in places.values() for key, meant in inner.items()}
+    listed = f"{', '.join(pairs)} in {' and '.join(places)}"
+    if any(inner != pairs for inner in places.values()):
+        listed = ", ".join(f"{', '.join(inner)} in {place}" for place, inner in places.items())
+    lines = [each.span.line for each, _ in group]
+    hint = f"the keys are {', '.join(pairs.values())}"
+    if len({*lines}) == len(lines):
+        also = (f"; in line {line} it is {found['entry']}"
+                for line, (_, found) in zip(lines[1:], group[1:], strict=True))  # fmt: skip
+        hint = f"{_THE_KEY}{group[0][1]['entry']}{''.join(also)}"
+    return replace(group[0][0], message=f"unknown keys {listed}", hint=hint)
 
 
 def _next_to(key: Diagnostic, value: Diagnostic) -> bool:

@@ -7,9 +7,11 @@ from functools import cache
 from typing import TYPE_CHECKING, NamedTuple, get_args
 
 from lagcli.problem_data import Assumption
-from lagcli.reader.by_coordinate import state_meant
+from lagcli.reader.by_coordinate import coordinate_meant, state_meant
+from lagcli.reader.foreign.words import momentum_meant
 from lagcli.reader.friction_meant import friction_meant
 from lagcli.reader.habits import (
+    DERIVED,
     KEYS,
     MAPS,
     advised,
@@ -30,6 +32,7 @@ from lagcli.reader.misshapen import (
     key_by_shape,
     range_end,
     source_of,
+    values_of,
 )
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
@@ -105,7 +108,8 @@ def unknown_key(
     elif what == _PROBLEM:
         meant, hint = _meant_of_problem(key, value, around, meant, hint, scope)
     elif not hint or hint.startswith("did you mean"):
-        hint = _outer(key, value, names) or hint
+        answer = _answer_meant(word, written, scope) if what == "expect" else ""
+        hint = answer or _outer(key, value, names) or hint
     if "assume" in names and "integer" not in names and word in _RANGES:
         meant, hint = None, _of_range(source_of(value))
     given = {each.label for each, _ in around.entries}
@@ -158,10 +162,12 @@ def _meant_of_problem(
 ) -> tuple[str | None, str]:
     """The same for a key of the problem, whose value and neighbours tell what it is."""
     word, written = key.label, value.value if isinstance(value, Scalar) else ""
+    if meanings("commands").get(word, word) == "sweep" and (options := _varied(value)):
+        return None, f"a command, not a key: lagcli sweep FILE {options}"
     if whole := _of_each(word, value, around):
         return None, f"each name has its own: write {whole}"
     if written and (state := _state_meant(key, written, around)):
-        return None, f"the state at t = 0 stands under initial: write initial: {{{state}}}"
+        return None, state
     if written and (force := _force_meant(word, written, around)):
         return None, f"forces stand by coordinate: write forces: {{{force}}}"
     if form := _quadratic_form(word, value, _coordinates(around)):
@@ -187,7 +193,7 @@ def _meant_of_problem(
         meant, hint = shape, f"the key is {shape}"
     if word.casefold() in _GRAVITY and (weight := _weight(value, around)):
         return None, weight
-    if hint.startswith("a constant stands") and (letter := _letter_used(word, around)):
+    if hint.startswith("constants stand") and (letter := _letter_used(word, around)):
         hint = hint.replace(f"{{{word}:", f"{{{letter}:")
     above = [k.label for k, _ in around.entries if k.start < key.start][-1:]
     if not hint and " " in word and above and above[0] in {"title", "source", "description"}:
@@ -214,6 +220,17 @@ def _meant_of_problem(
         scope.refused.append(word)
         return None, f"{_DEFINED}: write definitions: {{{word}: {written}}}"
     return meant, hint
+
+
+def _varied(value: DocumentNode) -> str:
+    """`--vary e=0.5,0.9` for `{e: [0.5, 0.9]}` and `{parameter: e, values: [0.5, 0.9]}`."""
+    ranges = {key.label: values_of(node) for key, node in getattr(value, "entries", ())}
+    named = [source_of(node) for _, node in getattr(value, "entries", ()) if not values_of(node)]
+    given = [each for each in ranges.values() if each]
+    if len(named) == len(given) == 1 and named[0].isidentifier():
+        ranges = {named[0]: given[0]}
+    is_clear = ranges and all(ranges.values())
+    return " ".join(f"--vary {name}={each}" for name, each in ranges.items()) if is_clear else ""
 
 
 #: The attribute of the entries of a section that may stand alone.
@@ -267,8 +284,20 @@ def _coordinates(around: Mapping) -> list[str]:
     return names_in(next(given, None))
 
 
+def _answer_meant(word: str, written: str, scope: Scope) -> str:
+    """`write accelerations: {x: -g}` for an answer `x_ddot: -g`; nothing for others."""
+    coordinates = [*scope.of_kind("coordinate")]
+    meant = state_meant(word, coordinates)
+    if meant.endswith("''"):
+        return f"write accelerations: {{{meant[:-2]}: {written}}}"
+    if momentum := momentum_meant(word, coordinates):
+        return f"write momenta: {{{momentum}: {written}}}"
+    of_time = re.search(r"(?<!\w)t(?![\w(])", written)
+    return f"write trajectory: {{{meant}: {written}}}" if meant and of_time else ""
+
+
 def _state_meant(key: Scalar, written: str, around: Mapping) -> str:
-    """`x: 1` for an entry `x(0): 1`, `theta': 0` for `theta_dot: 0`; nothing for others."""
+    """`write initial: {x: 1}` for an entry `x(0): 1`; nothing for others."""
     coordinates = _coordinates(around)
     source = around.text.source.text
     rest = source[: key.start] + source[key.end :]
@@ -277,16 +306,16 @@ def _state_meant(key: Scalar, written: str, around: Mapping) -> str:
     is_used = label not in coordinates and re.search(rf"(?<!\w){re.escape(label)}(?!\w)", rest)
     meant = state_meant(label, coordinates) if "'" in label or not is_used else ""
     number = re.sub(r"([\d.]+)\s*°", r"\1*pi/180", written)
-    return f"{meant}: {number}" if meant and _STATE.fullmatch(number) else ""
+    if meant.endswith("''"):
+        return DERIVED
+    state = f"the state at t = 0 stands under initial: write initial: {{{meant}: {number}}}"
+    return state if meant and _STATE.fullmatch(number) else ""
 
 
 def _force_meant(word: str, written: str, around: Mapping) -> str:
     """`x: -c*x'` for an entry `F_x: -c*x'`, `q2: F` for `Q2: F`; nothing for others."""
     coordinates = _coordinates(around)
-    found = re.fullmatch(r"[QF]_?(\w+)", word)
-    along = found[1] if found else ""
-    if along.isdigit() and 0 < int(along) <= len(coordinates):
-        along = coordinates[int(along) - 1]
+    along = coordinate_meant(word, coordinates) if re.match(r"[QF]_?\w", word) else ""
     return f"{along}: {written}" if along in coordinates and not is_constant(word, written) else ""
 
 
@@ -400,8 +429,6 @@ def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
         return f"write assume: {word}"
     if advice := advice_in(section).get(word) or advice_in(section).get(word.replace(" ", "_")):
         return advice.replace("{word}", word)
-    if section == "expect" and word.endswith("''"):
-        return f"write accelerations: {{{word[:-2]}: {value.strip()}}}"
     return _advice_in_problem(word, value.strip()) if section == "problem" else ""
 
 
@@ -433,4 +460,4 @@ def _advice_in_problem(word: str, value: str) -> str:
 def _of_constant(word: str, value: str) -> str:
     number, unit = number_and_unit(value)
     given = f"{{value: {number}, unit: {unit}}}" if unit else number
-    return f"a constant stands under parameters: write parameters: {{{word}: {given}}}"
+    return f"constants stand under parameters: write parameters: {{{word}: {given}}}"

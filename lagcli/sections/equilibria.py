@@ -143,7 +143,7 @@ _EXPECTED = list_of(
     record_of(
         ExpectEquilibrium,
         "an equilibrium",
-        at=by_coordinate("the expected place of '{}'"),
+        at=by_coordinate("the expected place of '{}'", PLACE),
         on=equation("the equation of a family of equilibria", PLACE),
         stable=STABILITY,
     ),

@@ -33,7 +33,7 @@ HINTS = [
     (text(functions="\n  U(x, t):\n  W: [t]", **OF_TIME), "write U: [x, t]"),
     (text(functions="\n  - U(x, t)\n  - W(t)", **OF_TIME), "write {U: [x, t], W: [t]}"),
     (text(functions="U(x, t); W(t)", **OF_TIME), "write {U: [x, t], W: [t]}"),
-    (text(functions="\n  U(x): 5", V="U(x)"), "under definitions: U: 5"),
+    (text(functions="\n  U(x): 5", V="U"), "under definitions: write definitions: {U: 5}"),
     *[(text(**PAIR, brackets=f"\n  b: {pair}"), "write [A_x, B]")
       for pair in ("'{A_x, B}'", "{A_x, B}", "A_x, B", "(A_x, B)", r"\{A_x, B\}",
                    "'{A_x, B}_{PB} = 1'")],

@@ -117,4 +117,4 @@ def test_friction_under_another_key_is_told_where_it_stands(written, hint):
 def test_a_word_for_friction_that_a_formula_uses_is_a_constant():
     text = "coordinates: [x]\nT: x'^2/2\nforces: {x: -friction*x'}\nfriction: 0.3\n"
     [only] = read_problem("p.yaml", text.encode()).diagnostics
-    assert only.hint == "a constant stands under parameters: write parameters: {friction: 0.3}"
+    assert only.hint == "constants stand under parameters: write parameters: {friction: 0.3}"

@@ -256,7 +256,7 @@ def test_paper_mathematica_modelica_and_word(written, hint):
         (text(T=None, **{"• T": "m*x'^2/2"}), "the key is T"),
         (text(parameters="{m: ${MASS}, k: 2}"), "write the value for ${MASS}"),
         (text(parameters="{m: {{ mass }}, k: 2}"), "a map has one pair of braces"),
-        (text(simulation="{until: 10, output: out.csv}"), "lagcli simulate FILE -o motion.csv"),
+        (text(simulation="{until: 10, output: out.csv}"), "lagcli simulate p.yaml -o motion.csv"),
         (text(initial="{x: 10 percent}"), "write 10/100"),
         (text(V="k*x^2/2 ∴"), "leave it out"),
     ],

@@ -1,0 +1,140 @@
+"""Entries under other words: what they are told to be is read as the same answer, or value."""
+
+import random
+import re
+from fractions import Fraction
+
+import pytest
+
+from lagcli.reader import read_problem
+
+BEGIN = "coordinates: [x, theta]\nparameters: {m: 1, k: 2}\nT: m*(x'^2 + theta'^2)/2\n"
+#: How others write the first and the second derivative.
+FIRST = ("{0}_dot", "{0}dot", "d{0}", "v_{0}", "{0}'")
+SECOND = ("{0}_ddot", "{0}ddot", "dd{0}", "{0}dd", "a_{0}", "{0}''")
+
+
+def read(written, name="p.yaml"):
+    return read_problem(name, (BEGIN + written).encode())
+
+
+def only_hint(written):
+    [only] = read(written).diagnostics
+    return only.hint
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_accelerations_and_momenta_as_keys_of_the_answers(seed):
+    draw = random.Random(seed)
+    value = f"{draw.randrange(2, 9)}*k"
+    for x in ("x", "theta"):
+        second = draw.choice(SECOND).format(x)
+        hint = only_hint(f"expect:\n  {second}: {value}\n")
+        assert read(f"expect: {{{hint.removeprefix('write ')}}}\n").checked().expect.accelerations
+        assert hint == f"write accelerations: {{{x}: {value}}}"
+        momentum = draw.choice((f"p_{x}", f"p{x}"))
+        assert only_hint(f"expect: {{{momentum}: {value}}}\n") == f"write momenta: {{{x}: {value}}}"
+        assert only_hint(f"expect: {{accelerations: {{{second}: {value}}}}}\n") in {
+            f"write {x}", f"did you mean '{x}'?"
+        }  # fmt: skip
+
+
+@pytest.mark.parametrize("form", SECOND)
+def test_several_accelerations_are_one_answer(form):
+    x, theta = form.format("x"), form.format("theta")
+    whole = only_hint(f"expect:\n  {x}: 3\n  {theta}: 4\n")
+    assert whole == "write accelerations: {x: 3, theta: 4}"
+    equations = only_hint(f"expect: {{equations: {{{x}: 3, {theta}: 4}}}}\n")
+    assert equations == "write [x'' = 3, theta'' = 4]"
+
+
+@pytest.mark.parametrize("form", SECOND)
+def test_an_acceleration_is_no_state(form):
+    assert only_hint(f"initial: {{{form.format('theta')}: 3}}\n").startswith(
+        "leave it out: a state"
+    )
+    assert only_hint(f"{form.format('x')}: 0\n").startswith("the equations of motion are derived")
+
+
+@pytest.mark.parametrize("form", FIRST)
+def test_a_velocity_is_no_part_of_an_equilibrium(form):
+    given = f"{{theta: 0, {form.format('x')}: 0}}"
+    hint = only_hint(f"expect: {{equilibria: [{{at: {given}}}]}}\n")
+    assert hint == "leave it out: an equilibrium is given by its coordinates"
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        "trajectory: {at: {t: 1, x: 3}}",
+        "trajectory: {events: {t: 1, x: 3}}",
+        "equilibria: {at: {x: 0}, stable: yes}",
+        "equilibria: {one: {at: {x: 0}}, other: {at: {x: 1}}}",
+        "steady_motions: {at: {x: 0}}",
+        "algebra: {special: {where: k = 1, charges: 3}}",
+    ],
+)
+def test_a_map_in_the_place_of_a_list_of_maps_is_an_item_of_it(given):
+    line = f"expect: {{{given}}}\n"
+    [only] = read(line).diagnostics
+    begin, end = only.span.column - 1, only.span.end_column - 1
+    whole = f"{line[:begin]}{only.hint.removeprefix('write ')}{line[end:]}"
+    assert read(whole).checked()
+
+
+def test_a_row_by_its_time_keeps_the_time():
+    hint = only_hint("expect: {trajectory: {at: {1: {x: 3}, 2: {x: 4}}}}\n")
+    assert hint == "write [{t: 1, x: 3}, {t: 2, x: 4}]"
+
+
+@pytest.mark.parametrize(
+    ("section", "item", "entry"),
+    [
+        ("observables", "own = x*p_x", "own: x*p_x"),
+        ("contacts", "own = x >= 0", "own: x >= 0"),
+        ("symmetries", "own = theta + e", "own: {theta: 1}"),
+        ("find", "own = x where x'=0", "own: {where: x'=0, for: x}"),
+    ],
+)
+def test_an_item_keeps_the_name_that_it_has(section, item, entry):
+    assert only_hint(f"{section}:\n  - {item}\n") == f"write {{{entry}}}"
+
+
+@pytest.mark.parametrize("use", ["k*F", "F + F'", "-F"])
+def test_a_formula_among_the_functions_is_one_mistake(use):
+    written = f"functions: {{F: m*sin(k*t)}}\nforces: {{x: {use}}}\n"
+    hint = only_hint(written)
+    assert hint.endswith("write definitions: {F: m*sin(k*t)}")
+    assert read(f"{hint.partition('write ')[2]}\nforces: {{x: {use}}}\n").checked()
+
+
+def test_each_key_is_said_with_its_place():
+    points = "points:\n  left: {r: [x], mass: m}\n  right: {position: [theta], m: m}\n"
+    [only] = read(points).diagnostics
+    assert only.message == "unknown keys 'r' in the point 'left', 'm' in the point 'right'"
+    assert only.hint == "the key is position; in line 6 it is mass"
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_several_values_are_a_command_with_the_numbers_of_the_file(seed):
+    draw = random.Random(seed)
+    first, step, steps = draw.randrange(9), draw.choice([0.5, 0.1, 0.25, 2]), draw.randrange(2, 9)
+    last = round(first + step * steps, 10)
+    given = BEGIN.replace("k: 2", f"k: {{value: {first}:{step}:{last}}}")
+    [only] = read_problem("own.yaml", given.encode()).diagnostics
+    run = f"lagcli sweep own.yaml --vary k={first}:{last}:{steps + 1}"
+    assert only.hint == f"write {first}; several are run by {run}"
+    values = [str(draw.randrange(1, 9)) for _ in range(3)]
+    swept = only_hint(f"sweep: {{k: [{', '.join(values)}]}}\n")
+    assert swept.endswith(f"lagcli sweep p.yaml --vary k={','.join(values)}")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_number_of_turns_is_exact(seed):
+    number = random.Random(seed).randrange(1, 999)
+    given = f"parameters: {{m: {{unit: kg, value: 1}}, W: {{unit: rpm, value: {number}}}}}\n"
+    written = f"coordinates: {{x: {{unit: m}}}}\n{given}T: m*(x'^2 + W^2*x^2)/2\n"
+    [only] = read_problem("p.yaml", written.encode()).diagnostics
+    unit, value = re.fullmatch(r"write unit: (.*), value: (.*)", only.hint).groups()
+    above, below = re.fullmatch(r"(?:(\d+)\*)?pi(?:/(\d+))?", value).groups(default="1")
+    assert (unit, Fraction(int(above), int(below))) == ("rad/s", Fraction(number * 2, 60))
