@@ -38,7 +38,8 @@ from lagcli.sections.equations import equation_json
 from lagcli.statements.answers import Answers, ReductionSection
 from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.motions import OneFreedom, PeriodSeries
-from lagcli.statements.plus_minus import once, single
+from lagcli.statements.plus_minus import once
+from lagcli.statements.turning_points import turning_contacts, turning_points
 from lagcli.statements.wording import (
     POTENTIALS,
     capitalized,
@@ -47,7 +48,6 @@ from lagcli.statements.wording import (
     naming_potential,
     none_cyclic,
     state_blocks,
-    turning_contacts,
     used_to_eliminate,
     with_constraints,
 )
@@ -123,15 +123,13 @@ def _gyroscopic(section: ReductionSection) -> Iterator[Block]:
 
 
 def _one_freedom(motion: OneFreedom, section: ReductionSection) -> Iterator[Block]:
-    constant, q = Name(motion.constant), Name(motion.coordinate)
+    constant = Name(motion.constant)
     potential = POTENTIALS[section.potential]
     yield Equations((Row(constant, motion.energy, f"conserved {motion.when}".rstrip()),))
     if motion.turning_points is None:
         yield Paragraph(("The turning points are the roots of ", potential, " = ", constant, "."))
     elif motion.turning_points:
-        real = "real and positive" if motion.positive else "real"
-        yield Paragraph((f"Turning points, where these are {real}:",))
-        yield equations_of((q, value) for value in single(motion.turning_points))
+        yield from turning_points(motion, ("Turning points, where these are ",))
         if motion.turning_finite:
             yield Paragraph(("for ", *conditions(motion.turning_finite), "."))
         for lower, upper in motion.turning_energies:

@@ -100,14 +100,15 @@ class OneFreedom:
     """The one remaining coordinate: E = `energy`, dt = `rate` dq, T = 2 int `rate` dq.
 
     `turning_points` are the roots of U_eff = E, None where that has no closed solution; those
-    that are real count, where the coordinate is `positive` those that are positive.  They are given
-    where each of `turning_finite` holds: a root moves to infinity elsewhere.  All of them are
-    real for E between the bounds of each of `turning_energies`.  Where the kinetic energy
-    is `regular`, positive at every position, nothing else turns it back.  One-sided contacts hold
-    at each of them under the conditions of `turning_where`, as do the signs that are assumed of the
-    `signed` coordinates that are eliminated; these alone where nothing is `one_sided`.  Where
-    nothing `oscillates`, the motion comes back from one of them only.  `when` says when E is
-    constant, where an impact changes it.
+    that are real count, where the coordinate is `positive` those that are positive; it `leaves_out`
+    those where one-sided contacts would have to pull.  A length has one of those that repeat with
+    `turning_period`.  They are given where each of `turning_finite` holds: a root moves to infinity
+    elsewhere.  All of them are real for E between the bounds of each of `turning_energies`.  Where
+    the kinetic energy is `regular`, positive at every position, nothing else turns it back.
+    One-sided contacts hold at each of them under the conditions of `turning_where`, as do the
+    signs that are assumed of the `signed` coordinates that are eliminated; these alone where
+    nothing is `one_sided`. Where nothing `oscillates`, the motion comes back from one of them
+    only. `when` says when E is constant, where an impact changes it.
     """
 
     coordinate: str
@@ -117,6 +118,8 @@ class OneFreedom:
     rate: Expression
     periods: tuple[PeriodSeries, ...]
     positive: bool = False
+    leaves_out: bool = False
+    turning_period: Expression | None = None
     turning_finite: tuple[Above, ...] = ()
     turning_energies: tuple[tuple[Expression, Expression], ...] = ()
     turning_where: tuple[tuple[Above, ...], ...] = ()

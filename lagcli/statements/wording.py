@@ -19,7 +19,6 @@ from lagcli.expression import (
     Product,
     Sum,
     added_and_subtracted,
-    length,
     operation_count,
     walk,
 )
@@ -34,7 +33,6 @@ from lagcli.statements.answers import (
 from lagcli.statements.motions import (
     Above,
     Irreducible,
-    OneFreedom,
     SteadyMotion,
     SteadySection,
 )
@@ -65,7 +63,6 @@ NOT_ZERO = " where the gradient of the constraint is not 0"
 FINITE_MASS = " where the coefficients of the kinetic energy are finite"
 #: The most operations of a value within a sentence.
 _SHORT = 6
-_MOST_TO_READ = 20
 _SHORT_RELATION = 12
 _SUBSTITUTED = {"exact": "exactly", "50 digits": "at random states to 50 digits"}
 
@@ -191,49 +188,6 @@ def with_capital(parts: Sequence[Part]) -> list[Part]:
     """The beginning of a sentence, with a capital letter unless it is a formula."""
     first, *rest = parts
     return [capitalized(first) if isinstance(first, str) else first, *rest]
-
-
-def turning_contacts(motion: OneFreedom) -> Iterator[Paragraph]:
-    """For which energies one-sided contacts hold at the turning points."""
-    different = {*motion.turning_where}
-    demands, hold = _demands(motion)
-    sides = [side for where in different for each in where for side in (each.left, each.right)]
-    if any(length(side) > _MOST_TO_READ for side in sides):
-        E = Name(motion.constant)
-        yield Paragraph(("It depends on ", E, " whether ", *demands, f"{hold} there."))
-        return
-    if len(different) == 1 and different != {()}:
-        where = motion.turning_where[0]
-        with_energy = all(motion.constant in names_in(each) for each in where)
-        end = " or at equality." if with_energy and not motion.signed else "."
-        lead = with_capital(demands)
-        yield Paragraph((*lead, f"{hold} there for ", *conditions(where), end))
-    if len(different) < 2:
-        return
-    for root, where in zip(motion.turning_points or (), motion.turning_where, strict=True):
-        if where:
-            place = ("At ", Name(motion.coordinate), " = ", root)
-            yield Paragraph((*place, " ", *demands, f"{hold} for ", *conditions(where), "."))
-
-
-def while_contacts_last(motion: OneFreedom) -> list[Part]:
-    """That one-sided contacts and the signs of what was eliminated limit the motion."""
-    if not (motion.one_sided or motion.signed):
-        return []
-    demands, hold = _demands(motion)
-    return [" as long as ", *demands, hold]
-
-
-def _demands(motion: OneFreedom) -> tuple[list[Part], str]:
-    """What must hold at a turning point, and the verb."""
-    several = len(motion.signed) > 1
-    signed: list[Part] = [f"the assumed sign{'s' * several} of ", *listed(motion.signed)]
-    if motion.one_sided:
-        contacts = f"the one-sided constraint{'s' * (motion.one_sided > 1)}"
-        alone = motion.one_sided == 1 and not motion.signed
-        verb = " holds" if alone else " hold"
-        return [contacts, *([" and ", *signed] * bool(motion.signed))], verb
-    return signed, " hold" if several else " holds"
 
 
 def joined(where: Sequence[Above], word: str) -> list[Part]:

@@ -664,6 +664,7 @@ V: {V}
     assert sorted(found) == sorted([*turning, *(f"-{each}" for each in turning)])
     ends = [tuple(map(to_grammar, pair)) for pair in section.one_freedom.turning_energies]
     assert ends == energies
+    assert to_grammar(section.one_freedom.turning_period) == ("a" if "cos(pi" in V else "pi*a")
     assert len(section.one_freedom.periods) == 1
 
 

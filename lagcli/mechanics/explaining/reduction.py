@@ -21,17 +21,16 @@ from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.record import replace
 from lagcli.statements.answers import ReductionSection, Section
 from lagcli.statements.motions import OneFreedom, PeriodSeries
-from lagcli.statements.plus_minus import once, single
+from lagcli.statements.plus_minus import once
 from lagcli.statements.stability import stability
+from lagcli.statements.turning_points import turning_contacts, turning_points, while_contacts_last
 from lagcli.statements.wording import (
     POTENTIALS,
     conditions,
     irreducible,
     none_cyclic,
     place_rows,
-    turning_contacts,
     used_to_eliminate,
-    while_contacts_last,
 )
 
 _TWICE = "the period is twice the time between the turning points."
@@ -156,10 +155,8 @@ def _one_freedom(motion: OneFreedom, potential: Part) -> Iterator[Block]:
     if motion.turning_points is None:
         yield says("Its turning points are the roots of ", potential, " = ", E, ".")
     elif motion.turning_points:
-        real = "real and positive" if motion.positive else "real"
-        yield says("Its turning points are the roots of ", potential, " = ", E,
-                   f" that are {real}:")  # fmt: skip
-        yield equations_of((q, root) for root in single(motion.turning_points))
+        lead = ("Its turning points are the roots of ", potential, " = ", E, ", where they are ")
+        yield from turning_points(motion, lead)
         if motion.turning_finite:
             yield says("for ", *conditions(motion.turning_finite), ".")
         for lower, upper in motion.turning_energies:

@@ -112,6 +112,17 @@ class ReducedFreedom:
         return None if self._roots is None else tuple(self._reached)
 
     @property
+    def leaves_out(self) -> bool:
+        """Whether there are roots at which a one-sided contact would have to pull."""
+        return len(self._roots or ()) > len(self._reached)
+
+    @cached_property
+    def length(self) -> Expr | None:
+        """The period of the coordinate where that is no angle: one root of each is listed."""
+        period = least_period([self.potential, self.mass], self.q)
+        return None if period is None or period.is_number else period
+
+    @property
     def finite_where(self) -> list[Expr]:
         """What must be positive, besides for real roots, for no turning point to be at infinity.
 

@@ -246,6 +246,8 @@ class _Statement:
             rate=_rate(motion, potential, order) if motion.pace is None else _pace(motion, order),
             periods=found,
             positive=bool(motion.q.is_positive),
+            turning_period=None if motion.length is None else shape(motion.length, order),
+            leaves_out=motion.leaves_out,
             turning_finite=conditions(motion.finite_where, order),
             turning_energies=tuple(
                 (shape(lower, order), shape(upper, order))
