@@ -15,7 +15,7 @@ from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, listed, says, shows
 from lagcli.mechanics.impacts import when_constant
 from lagcli.mechanics.noether import NoetherCharge
-from lagcli.mechanics.rest.exceptions import void_only_where, void_where
+from lagcli.mechanics.rest.exceptions import Vanishing
 from lagcli.mechanics.total_derivative import euler_operator
 from lagcli.statements.wording import (
     CHANGE_OF_L,
@@ -129,14 +129,14 @@ def _rate(explainer: Explainer) -> Iterator[Block]:
 
 def _unless(explainer: Explainer, *rates: sympy.Expr) -> list[Part]:
     """The values of the parameters for which rates vanish; in general, where others may."""
-    system, open_ = explainer.system, [r for r in rates if r != 0]
-    if not open_:
+    system = explainer.system
+    if not any(rates):
         return []
-    moving = sorted({s for r in open_ for s in r.free_symbols} - {*system.parameters}, key=str)
-    masses = explainer.dynamics.lagrange.mass_matrix
-    void = void_where(open_, moving, masses)
-    if not void_only_where(open_, void, moving, masses):
+    moving = sorted({s for r in rates for s in r.free_symbols} - {*system.parameters}, key=str)
+    vanishing = Vanishing(rates, moving, explainer.dynamics.lagrange.mass_matrix)
+    if not vanishing.is_void_only_there:
         return [" in general"]
+    void = vanishing.void
     return exceptions([written(sympy.Mul(*void), system.order)] if void else [])
 
 

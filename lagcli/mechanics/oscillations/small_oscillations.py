@@ -116,7 +116,7 @@ def equilibria(dynamics: Dynamics) -> EquilibriaSection:
         reason=TIMED if rest.depends_on_time else "",
         at_all_times=rest.depends_on_time,
         void=alternatives_written(_void(oscillations) if places else [], order),
-        degenerate=alternatives_written(rest.degenerate if places else [], order),
+        degenerate=alternatives_written(rest.balance.degenerate if places else [], order),
         edge=() if places else rest.edge,
         where=rest.restricted_to,
         open=open_,
@@ -130,7 +130,7 @@ def _void(oscillations: SmallOscillations) -> list[Expr]:
     limited = len(oscillations.held) > 1 or any(
         place.held.firmly for place in oscillations.places or ()
     )
-    return [] if limited or rest.restricted_to else rest.void
+    return [] if limited or rest.restricted_to else rest.balance.void
 
 
 def modes(dynamics: Dynamics) -> ModesSection:

@@ -16,6 +16,7 @@ from lagcli.algebra.place import NO_VALUE
 from lagcli.algebra.systems import SolvedSystem, solve_system
 from lagcli.algebra.vanishing_factors import can_vanish, may_vanish
 from lagcli.expression import Expression
+from lagcli.record import record
 
 _MOST_OPEN = 8  # parameters that may be 0, each of which is put to 0 in turn
 _MOST_CONDITIONS = 4  # of which each is left out in turn
@@ -156,41 +157,47 @@ def _factors_without(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> 
     return (sympy.Mul(*common),) if common else ()
 
 
-def void_where(
-    conditions: Sequence[Expr], unknowns: Sequence[Symbol], masses: Sequence[Sequence[Expr]]
-) -> list[Expr]:
-    """What may be 0, each by itself, and all conditions hold everywhere then.
+@record
+class Vanishing:
+    """What is to vanish, the unknowns in it, and the mass matrix, whose parameters are not 0."""
 
-    Not what the mass matrix needs.
-    """
-    open_ = [e for e in conditions if e != 0]
-    return [f for f in _common_factors(open_, unknowns) if not _is_weightless(f, masses)]
+    conditions: Sequence[Expr]
+    unknowns: Sequence[Symbol]
+    masses: Sequence[Sequence[Expr]]
 
+    @property
+    def void(self) -> list[Expr]:
+        """What may be 0, each by itself, and all conditions hold everywhere then."""
+        return [f for f in _common_factors(self._open, self.unknowns) if not self._is_weightless(f)]
 
-def degenerate_where(
-    conditions: Sequence[Expr], unknowns: Sequence[Symbol], masses: Sequence[Sequence[Expr]]
-) -> list[Expr]:
-    """What may be 0, each by itself, and some of the conditions hold everywhere then, not all."""
-    void = _common_factors([e for e in conditions if e != 0], unknowns)
-    found = (f for e in conditions if e != 0 for f in _perhaps_zero(e, unknowns) if f not in void)
-    return [f for f in dict.fromkeys(found) if not _is_weightless(f, masses)]
+    @property
+    def degenerate(self) -> list[Expr]:
+        """What may be 0, each by itself, and some conditions hold everywhere then, not all."""
+        void = _common_factors(self._open, self.unknowns)
+        found = (f for e in self._open for f in _perhaps_zero(e, self.unknowns) if f not in void)
+        return [f for f in dict.fromkeys(found) if not self._is_weightless(f)]
 
+    @property
+    def is_void_only_there(self) -> bool:
+        """Whether all hold where one of `void` is 0 only: not (a x + b y) sin(c), with a = b = 0.
 
-def void_only_where(
-    conditions: Sequence[Expr],
-    void: Sequence[Expr],
-    unknowns: Sequence[Symbol],
-    masses: Sequence[Sequence[Expr]],
-) -> bool:
-    """Whether nothing else makes all conditions void: not (a x + b y) sin(c), with a = b = 0.
+        Nor for a special choice of an unspecified function.
+        """
+        void = self.void
+        return any(
+            all(f in void or self._is_weightless(f) for f in may_vanish(coefficient))
+            for condition in self._open
+            for coefficient in _coefficients(condition, self.unknowns)
+        )
 
-    Nor a special choice of an unspecified function.
-    """
-    return any(
-        all(f in void or _is_weightless(f, masses) for f in may_vanish(coefficient))
-        for condition in conditions
-        for coefficient in _coefficients(condition, unknowns)
-    )
+    @property
+    def _open(self) -> list[Expr]:
+        return [e for e in self.conditions if e != 0]
+
+    def _is_weightless(self, parameter: Expr) -> bool:
+        """Whether a row of the mass matrix vanishes with a parameter."""
+        rows = (row for row in self.masses if any(row))
+        return any(all(is_zero(x.xreplace({parameter: S.Zero})) for x in row) for row in rows)
 
 
 def _coefficients(condition: Expr, unknowns: Sequence[Symbol]) -> list[Expr]:
@@ -211,12 +218,6 @@ def _by_unknowns(condition: Expr, unknowns: Sequence[Symbol]) -> dict[Expr, Expr
         coefficient, moving = term.as_independent(*unknowns, as_Add=False)
         found[moving] = found.get(moving, S.Zero) + coefficient
     return {moving: c for moving, c in found.items() if c != 0}
-
-
-def _is_weightless(parameter: Expr, masses: Sequence[Sequence[Expr]]) -> bool:
-    """Whether a row of the mass matrix vanishes with a parameter."""
-    rows = (row for row in masses if any(row))
-    return any(all(is_zero(x.xreplace({parameter: S.Zero})) for x in row) for row in rows)
 
 
 def _common_factors(conditions: Sequence[Expr], unknowns: Sequence[Symbol]) -> list[Expr]:

@@ -33,12 +33,7 @@ from lagcli.algebra.signs import sign
 from lagcli.algebra.systems import solve_system
 from lagcli.algebra.translates import common_period, recur
 from lagcli.mechanics.dynamics import Dynamics
-from lagcli.mechanics.rest.exceptions import (
-    degenerate_where,
-    void_where,
-    with_a_value,
-    without_unknowns,
-)
+from lagcli.mechanics.rest.exceptions import Vanishing, with_a_value, without_unknowns
 from lagcli.mechanics.translations import constant_nullspace
 from lagcli.record import record
 
@@ -280,21 +275,11 @@ class RestConditions:
         return with_a_value(found, given_formulas(self.dynamics))
 
     @property
-    def void(self) -> list[Expr]:
-        """What may be 0, and every position that the constraints allow is an equilibrium then."""
-        return [] if self.depends_on_time else void_where(*self._balance)
-
-    @property
-    def degenerate(self) -> list[Expr]:
-        """What may be 0, and some conditions hold everywhere then: there may be more equilibria."""
-        return [] if self.depends_on_time else degenerate_where(*self._balance)
-
-    @property
-    def _balance(self) -> tuple[list[Expr], Sequence[Symbol], Sequence[Sequence[Expr]]]:
-        """What vanishes at rest, its unknowns, and the mass matrix."""
+    def balance(self) -> Vanishing:
+        """What vanishes at rest, none where that depends on the time."""
         drifts = (e.drift for e in self.dynamics.constraints.equations)
-        conditions = [*self._forces_along, *drifts]
-        return conditions, self.system.q, self.dynamics.lagrange.mass_matrix
+        conditions = [] if self.depends_on_time else [*self._forces_along, *drifts]
+        return Vanishing(conditions, self.system.q, self.dynamics.lagrange.mass_matrix)
 
     @property
     def edge(self) -> tuple[str, ...]:

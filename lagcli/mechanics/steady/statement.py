@@ -8,7 +8,7 @@ from fractions import Fraction
 from functools import cached_property
 
 import sympy
-from sympy import Expr, S, Symbol
+from sympy import Expr, S
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
@@ -35,10 +35,9 @@ from lagcli.mechanics.reduction.steady_motion import Steady
 from lagcli.mechanics.rest.characteristic import Characteristic
 from lagcli.mechanics.rest.equilibria import RestPoints
 from lagcli.mechanics.rest.exceptions import (
+    Vanishing,
     alternatives_written,
-    degenerate_where,
     unless_written,
-    void_where,
 )
 from lagcli.mechanics.rest.family import Family
 from lagcli.mechanics.rest.linearization import Linearization, Matrix
@@ -138,7 +137,9 @@ class _SteadyStatement:
                 resting=resting,
                 unless=() if found else unless_written(steady.unless, self.order),
                 void=alternatives_written(self._void if found else [], self.order),
-                degenerate=alternatives_written(self._degenerate if found else [], self.order),
+                degenerate=alternatives_written(
+                    self._balance.degenerate if found else [], self.order
+                ),
                 # nor those along a closed contact
                 where=(steady.rest.restricted_to if steady.rest.points or not found else "")
                 + while_open(steady.full.problem.contacts),
@@ -151,22 +152,16 @@ class _SteadyStatement:
     @property
     def _void(self) -> list[Expr]:
         """What may be 0, and U_eff is constant then at any momenta."""
-        steady = self.steady
-        if steady.acting or steady.full.problem.contacts:
-            return []
-        return void_where(*self._balance)
+        acting = self.steady.acting or self.steady.full.problem.contacts
+        return [] if acting else self._balance.void
 
     @property
-    def _degenerate(self) -> list[Expr]:
-        """What may be 0, and some conditions hold at all positions and momenta then."""
-        return [] if self.steady.acting else degenerate_where(*self._balance)
-
-    @property
-    def _balance(self) -> tuple[Sequence[Expr], Sequence[Symbol], Sequence[Sequence[Expr]]]:
-        """What vanishes in a steady motion, its unknowns, and the mass matrix."""
+    def _balance(self) -> Vanishing:
+        """What vanishes in a steady motion, at all positions and momenta; none with forces."""
         steady = self.steady
         unknowns = (*steady.system.q, *steady.routh.momenta)
-        return steady.balance, unknowns, steady.routh.given.dynamics.lagrange.mass_matrix
+        conditions = [] if steady.acting else steady.balance
+        return Vanishing(conditions, unknowns, steady.routh.given.dynamics.lagrange.mass_matrix)
 
     @property
     def _is_kinked(self) -> bool:
