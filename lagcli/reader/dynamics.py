@@ -267,7 +267,7 @@ def read_components(
 
     The `length` is that of the position, or 0.
     """
-    from lagcli.reader.foreign.vectors import components, of_listed
+    from lagcli.reader.foreign.vectors import components, of_listed, with_commas
 
     known = file.scope.kinds
     texts = [each.value for each in (node, *getattr(node, "items", ())) if isinstance(each, Scalar)]
@@ -282,11 +282,17 @@ def read_components(
         if written := components(alone, known, length):
             file.error(f"{what} must be a list, not a text", node.span, _listed(written))
             return []
+        apart = with_commas(alone, [*file.scope.of_kind("coordinate")])
+        if apart and (not length or apart.count(",") == length - 1):
+            file.error(f"{what} must be a list, not a text", node.span, apart)
+            return []
         if length > 1 and "," not in node.value:
             axes = ", ".join(["0"] * (length - 1) + [node.value.strip()])
             hint = f"one component for each of the position's, as in [{axes}]"
     elif isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
-        hint = _listed([key.label for key, _ in node.entries] or ["x", "y"])
+        parts = [key.label for key, _ in node.entries] or ["x", "y"]
+        apart = "" if parts[1:] else with_commas(parts[0], [*file.scope.of_kind("coordinate")])
+        hint = apart or _listed(parts)
     elif isinstance(node, Mapping) and {key.label for key, _ in node.entries} <= {*"xyz"}:
         given = {key.label: source_of(value) for key, value in node.entries}
         size = length or max(("xyz".index(axis) + 1 for axis in given), default=2)

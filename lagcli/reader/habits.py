@@ -282,4 +282,11 @@ def is_angle(name: str) -> bool:
 
 def foreign_function(name: str) -> bool:
     """Whether it is a function of other programs that the format writes otherwise."""
-    return name in FOREIGN or name in habits()["written_out"]
+    return name in FOREIGN or bool(written_out(name))
+
+
+def written_out(name: str) -> str:
+    """The form of a foreign function: `{0}*pi/180` for radians and the RADIANS of spreadsheets."""
+    forms: dict[str, str] = habits()["written_out"]
+    is_loud = name.isupper() and len(name) > 1
+    return forms.get(name) or forms.get(name.casefold() if is_loud else "", "")

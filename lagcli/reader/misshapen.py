@@ -220,6 +220,10 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
                 return f"write {{position: [{', '.join(axes)}]{f', mass: {mass}' * bool(mass)}}}"
         if not present and written.isidentifier():  # ball: m
             return f"write {{position: [x, y], mass: {written}}}"
+        from lagcli.reader.foreign.vectors import with_commas
+
+        if apart := with_commas(written, known):
+            return re.sub(r"\[.*\]", r"{position: \g<0>}", apart)
     if names[0] == "until" and (end := range_end(re.split(r"[,;]", written)[0])):
         return f"write {{until: {end}}}"
     for key, kinds, form, advice in habits()["maps"]:

@@ -138,3 +138,8 @@ def test_a_number_of_turns_is_exact(seed):
     unit, value = re.fullmatch(r"write unit: (.*), value: (.*)", only.hint).groups()
     above, below = re.fullmatch(r"(?:(\d+)\*)?pi(?:/(\d+))?", value).groups(default="1")
     assert (unit, Fraction(int(above), int(below))) == ("rad/s", Fraction(number * 2, 60))
+
+
+@pytest.mark.parametrize("word", ["inputs", "actuators", "controls", "motors"])
+def test_what_drives_along_coordinates_are_forces(word):
+    assert only_hint(f"{word}: {{x: k*m}}") == "the key is forces"

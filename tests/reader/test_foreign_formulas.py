@@ -111,6 +111,9 @@ NAMES = Vocabulary(("x", "theta"), frozenset({"m", "k", "g", "l", "a", "t", "pi"
         (r"\dot{x}_1^2 + \dot x_{1}^2", "x_1'^2 + x_1'^2"),
         ("k ln|x/l| + 2|x - l|", "k*log(abs(x/l)) + 2*abs(x - l)"),
         (r"\hbar x", "ħ*x"),
+        ("RADIANS(30)*PI()/2 + DEGREES(x)", "30*pi/180*pi/2 + x*180/pi"),
+        ("LOG10(x)", "log(x)/log(10)"),
+        ("ArcTan[x, l] + atan2(x, l)", "atan2(l, x) + atan2(x, l)"),
     ],
 )
 def test_a_formula_is_read_as_its_author_reads_it(text, meant):

@@ -76,6 +76,33 @@ def test_a_vector_is_told_its_components(notation):
         assert values[0] == values[1]
 
 
+@pytest.mark.parametrize(
+    ("written", "axes"),
+    [
+        ("l*sin(theta) -l*cos(theta)", ["l*sin(theta)", "-l*cos(theta)"]),
+        ("(l*sin(theta) -l*cos(theta))", ["l*sin(theta)", "-l*cos(theta)"]),
+        ("{l*sin(theta) -l*cos(theta)}", ["l*sin(theta)", "-l*cos(theta)"]),
+        ("l + l*sin(theta) -l*theta", ["l + l*sin(theta)", "-l*theta"]),
+        ("0 -l*cos(theta) -theta", ["0", "-l*cos(theta)", "-theta"]),
+        ("theta l*cos(theta)", ["theta", "l*cos(theta)"]),
+        ("l*theta - l*cos(theta)", ["l*theta - l*cos(theta)"]),
+    ],
+)
+def test_blanks_between_components_become_commas(written, axes):
+    mended = put_in(text(**PENDULUM, points=f"\n  bob:\n    mass: m\n    position: {written}"))
+    assert mended.endswith(f"position: [{', '.join(axes)}]\n")
+    assert mistakes_of(mended) == ()
+
+
+@pytest.mark.parametrize(
+    "written", ["l sin(theta) -l cos(theta)", "l sin(theta)", "l + theta l -l"]
+)
+def test_a_blank_that_may_be_a_product_is_not_taken_for_a_comma(written):
+    points = f"\n  bob:\n    mass: m\n    position: {written}"
+    hint = only_mistake(text(**PENDULUM, points=points)).hint
+    assert hint == "a comma stands between components, as in [x, y]"
+
+
 @pytest.mark.parametrize("name", ["a", "m*g", "k*(a + 1)"])
 def test_a_factor_before_a_vector_multiplies_each_component(name):
     assert components(f"{name}*(x, -y, 0)", {"k"}) == [f"{name}*x", f"-{name}*y", "0"]

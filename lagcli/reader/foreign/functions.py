@@ -9,7 +9,7 @@ from lagcli.expression import FUNCTIONS
 from lagcli.reader.foreign.sums import Part, Sums, raised
 from lagcli.reader.foreign.tokens import SIGNS, Token
 from lagcli.reader.foreign.words import UnclearText, function_named
-from lagcli.reader.habits import POWERS, RATES, SQUARES, habits
+from lagcli.reader.habits import POWERS, RATES, SQUARES, written_out
 
 
 class Functions(Sums):
@@ -45,9 +45,11 @@ class Functions(Sums):
         """A function with its arguments in brackets."""
         if self.sign() != "(":
             raise UnclearText
+        is_square = self.tokens[self.at].text == "["
         arguments = self.arguments()
         if function == "atan" and len(arguments) == 2:
             function = "atan2"
+            arguments = arguments[::-1] if is_square else arguments  # ArcTan[x, y]
         return Part(f"{function}({', '.join(arguments)})", 3, is_call=True)
 
     def without_brackets(self, function: str) -> Part:
@@ -125,7 +127,7 @@ class Functions(Sums):
             return Part(f"{grouped[0]}^2", 2)
         if word in POWERS and len(arguments) == 2:
             return Part(f"{grouped[0]}^{grouped[1]}", 2)
-        form = habits()["written_out"].get(word, "")
+        form = written_out(word)
         if len(set(re.findall(r"{\d}", form))) != len(arguments):
             raise UnclearText
         text = form.format(*(grouped if re.search(r"}[*^]|[/^]{|- {", form) else arguments))

@@ -84,6 +84,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     """With the marks of web pages, v² and Leibniz' derivatives in the notation of a file."""
     text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
     text = _DONE_WITH.sub("", text)
+    text = re.sub(r"\b([pP]i|PI)\(\s*\)", "pi", text)
     text = re.sub(r"\bSubscript\[(\w+),\s*(\w+)\]", r"\1_\2", text)
     if "half" not in names.known:
         text = re.sub(r"\b(?:(?:one|a)[ -])?half\b(?:\s+of\b)?", "1/2", text)

@@ -19,6 +19,8 @@ _UNIT = (
 _BEHIND = regex(rf"(?P<rest>.*?)\s*\*?\s*(?<![\w.]){_UNIT}\s*")
 _BEFORE = regex(rf"(?P<sign>[-+]?)\s*{_UNIT}(?:\s*\*\s*|\s+)(?P<rest>.+)")
 _TERMS = r"(?<=[\w)\]}])\s*(?=[-+])"
+#: A blank between two closed expressions, of which the second may have a sign.
+_GAP = r"(?<=[\w)'²³]) (?=[-+−]?[\w(])"
 #: A constructor with its components, and brackets of a vector.
 _MADE = regex(
     r"(?:(?:\w+\.)?(?:array|Matrix|[vV]ector|vec|[pP]oint|list|tuple|Vec[23]d?)\s*\(\s*(.*)\))"
@@ -62,6 +64,23 @@ def components(text: str, known: Container[str], length: int = 0) -> list[str]:
     if scaled := _scaled_list(text):
         return scaled
     return _of_unit_vectors(text, known, length)
+
+
+def with_commas(text: str, coordinates: Container[str]) -> str:
+    """What is written for `x -l*cos(a)`, in which blanks separate components.
+
+    They do where each part has a sign, or where it is no factor of a product: `x y`.  Empty where
+    there is one part.
+    """
+    text = bare_text(" ".join(text.split()))
+    parts = _split(text, _GAP)
+    signed = [re.match("[-+−]", each) is not None for each in parts[1:]]
+    whole = [each in coordinates or each == "0" or "*" in each for each in parts]
+    if "," in text or not signed:
+        return ""
+    if (all(signed) or (all(whole) and not any(signed))) and not parts[3:]:
+        return f"a comma stands between components: write [{', '.join(parts)}]"
+    return "a comma stands between components, as in [x, y]"
 
 
 def of_listed(texts: list[str], known: Container[str]) -> list[str]:
