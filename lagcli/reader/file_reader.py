@@ -309,6 +309,15 @@ class FileReader:
         given = {key.label for key, _ in entries}
         if required is not None and isinstance(node, Mapping):
             near = {key_meant(label, names) or closest(label, names) for label in given}
+            if required.key in LISTS and required.key not in given | near:
+                for key, value in entries:
+                    wrong = unknown_key(key, value, what, names, node, self.scope)
+                    is_free = key.label not in names and wrong.hint.startswith("known are ")
+                    if isinstance(value, Sequence) and is_free:  # xyz: [x, y]
+                        self.error(wrong.message, key.span, f"the key is {required.key}")
+                        key.value = required.key
+                        given.add(required.key)
+                        break
             if required.key not in given | near:
                 self.error(f"{what} has no {required.key}", required.span, required.hint)
                 return {}

@@ -294,7 +294,7 @@ def _declared(
         file.scope.refused += [key.label for key, _ in entries]
         return
     for key, value in entries:
-        if broken := re.fullmatch(r"(\w+)\s*=?\s*(\{.*)", key.label):
+        if broken := re.fullmatch(r"(\w+)(?<!_)\s*=?\s*(\{.*)", key.label):
             whole = f"{broken[1]}: {broken[2]}: {'' if value is None else source_of(value)}"
             file.error(f"a ':' is missing behind '{broken[1]}'", key.span, f"write {whole}")
             file.scope.refused.append(broken[1])

@@ -26,7 +26,10 @@ _MEANT = [
         r"\[[^\]]*[,;\[]|\\(?:vec|mathbf|boldsymbol|begin|end)",
         "a vector is written by its components",
     ),
-    (r"\[\s*\d\s*\]", "a component of a point is written by its formula: y for [x, y]"),
+    (
+        r"\[\s*\d\s*\]",
+        "a component of a point is written by its formula, y for [x, y]; that of a vector A is A_y",
+    ),
     (r"\\\s*\d", "division is written with '/'"),
     (r"\\(?:partial|nabla)", "write diff(expression, name); a force that V has is found from V"),
     (r"\\int\b", instead("int")),

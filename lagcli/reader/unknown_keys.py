@@ -94,7 +94,7 @@ def unknown_key(
         The names of the file; one that cannot be declared for this key is noted as refused.
     """
     word, written = key.label, value.value if isinstance(value, Scalar) else ""
-    if broken := re.fullmatch(r"(\w+)\s*([\[{].*)", word):
+    if broken := re.fullmatch(r"(\w+)(?<!_)\s*([\[{].*)", word):
         hint = f"write {broken[1]}: {broken[2]}: {source_of(value)}"
         return UnknownKey(f"a ':' is missing behind '{broken[1]}'", hint)
     along = _coordinates(around) if what == _PROBLEM else []

@@ -143,3 +143,34 @@ def test_a_number_of_turns_is_exact(seed):
 @pytest.mark.parametrize("word", ["inputs", "actuators", "controls", "motors"])
 def test_what_drives_along_coordinates_are_forces(word):
     assert only_hint(f"{word}: {{x: k*m}}") == "the key is forces"
+
+
+@pytest.mark.parametrize("word", ["xyz", "origin", "end_point"])
+def test_the_only_list_of_a_point_is_its_position(word):
+    assert only_hint(f"points:\n  P: {{{word}: [x, x*theta], mass: m}}\n") == "the key is position"
+
+
+@pytest.mark.parametrize("given", ["velocity: [x', 0]", "force: [k, 0]", "polar: [x, theta]"])
+def test_a_list_that_is_something_else_is_no_position(given):
+    assert "has no position" in read(f"points:\n  P: {{{given}}}\n").diagnostics[0].message
+
+
+@pytest.mark.parametrize("forms", [("A[0]", "A[1]"), ("A[1]", "A[2]"), ("A[[1]]", "A[[2]]"),
+                                   ("A.x", "A.y")])  # fmt: skip
+def test_a_component_of_a_vector_has_its_name(forms):
+    one, other = forms
+    names = "definitions: {A_x: -k*theta, A_y: k*x}\n"
+    hint = only_hint(f"{names}V: {one}*x + k*{other}*theta\n")
+    assert hint == "write A_x*x + k*A_y*theta"
+
+
+def test_an_index_that_may_be_of_two_components_is_not_taken_for_one():
+    assert "write" not in only_hint("definitions: {A_x: k*x, A_y: k*theta}\nV: A[1]*x\n")[:5]
+
+
+@pytest.mark.parametrize("value", ["3", "{value: 3}"])
+@pytest.mark.parametrize("letter", ["r", "mu"])
+def test_an_index_in_braces_belongs_to_the_name(letter, value):
+    written = f"coordinates: [x]\nparameters:\n  {letter}_{{1}}: {value}\nT: x'^2/2\n"
+    [only] = read_problem("p.yaml", written.encode()).diagnostics
+    assert only.hint == f"write {letter}_1"

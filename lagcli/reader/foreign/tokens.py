@@ -68,6 +68,9 @@ _RELATIONS = (
 _DONE_WITH = regex(
     r"\.(?:simplify|trigsimp|expand|factor|evalf|doit|n)\(\w*\)|\s*//\s*(?:Full)?[A-Z]\w+\s*$"
 )
+#: A component by its place and by its letter: A[1], A[[1]] and A.x.
+_INDEXED = r"(?<![\w.])([^\W\d]\w*)\[{1,2}\s*(\d)\s*\]{1,2}"
+_AXIS = regex(r"(?<![\w.])([^\W\d]\w*)\.([xyz])(?!\w)")
 #: `self.` before a name.
 _OWNER = regex(r"\b([A-Za-z]\w*)\.(?=(?!diff\b)([A-Za-z_]\w*))")
 
@@ -121,7 +124,7 @@ def prepared(text: str, names: Vocabulary) -> str:
         text = re.sub(r"(?<=[\w)'²])\s+[xX]\s+(?=[\w(\\])", " * ", text)
     text = re.sub(r"(?<=\w)//(?=\w)", "/", re.sub(r"\s\.\s", " * ", text).strip(" =").rstrip(";,"))
     text = re.sub(r"\bDerivative\[(\d)\]\[(\w+)\]", lambda m: m[2] + "'" * int(m[1]), text)
-    text = _leibniz(with_components(text, names), names)
+    text = _by_letters(_leibniz(with_components(text, names), names), names)
     for name, formula in names.components.items():
         point, axis = name.split(".")
         forms = [name, *({f"{axis}_{point}", f"{axis}{point}", f"{point}_{axis}"} - {*names.known})]
@@ -137,6 +140,23 @@ def prepared(text: str, names: Vocabulary) -> str:
         return "" if is_name and found[1] not in names.known else found[0]
 
     return _OWNER.sub(without_owner, text)
+
+
+def _by_letters(text: str, names: Vocabulary) -> str:
+    """`A.x`, or the A_x of the file, for `A[0]` or `A[1]`.
+
+    The first or the last index tells where they begin.
+    """
+    for vector, _ in re.findall(_INDEXED, text):
+        named = [f"{vector}.{x}" for x in "xyz" if f"{vector}.{x}" in names.components]
+        named = named or [f"{vector}_{x}" for x in "xyz" if f"{vector}_{x}" in names.known]
+        indexed = _INDEXED.replace(r"([^\W\d]\w*)", vector)
+        used = {int(each) for each in re.findall(indexed, text)}
+        first = 0 if 0 in used else 1
+        if used <= {*range(first, first + len(named))} and used & {0, len(named)}:
+            for place, each in enumerate(named, start=first):
+                text = re.sub(indexed.replace(r"\d", f"{place}"), each, text)
+    return _AXIS.sub(lambda m: x if (x := f"{m[1]}_{m[2]}") in names.known else m[0], text)
 
 
 def _numbered(found: re.Match[str], names: Vocabulary) -> str:
