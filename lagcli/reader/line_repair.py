@@ -222,6 +222,7 @@ def all_mistakes(
     is_read = False
     while not is_read and len(found) < _MOST:
         repair = _repaired(text, mistakes[0], read) or _left_out(text, mistakes[0])
+        repair = repair or _without_tabs(text, mistakes[0], read)
         if repair is None:
             break
         repair = _everywhere(text, repair, read)
@@ -243,6 +244,18 @@ def _left_out(text: str, mistake: Diagnostic) -> _Repair | None:
         return None
     lines[place] = ""
     return _Repair(mistake, "\n".join(lines), str)
+
+
+def _without_tabs(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
+    """The file with a blank for each tab, where one indents: all columns are the same.
+
+    None where lines with blanks do not fit them.
+    """
+    if mistake.hint != "indent with spaces" or "\t" not in text:
+        return None
+    whole = text.replace("\t", " ")
+    is_mixed = re.search(r"^ +\S", text, re.MULTILINE)
+    return None if is_mixed and not read(Source("", whole))[0] else _Repair(mistake, whole, str)
 
 
 def _at(mistake: Diagnostic, moved: int) -> Diagnostic:

@@ -328,3 +328,20 @@ def test_a_letter_that_is_missing_is_one_mistake_wherever_it_stands():
 )
 def test_names_that_are_lists_and_the_name_of_one_underscore_are_mistakes_alone(written):
     assert any(each.is_error for each in read_problem("f.yaml", written.encode()).diagnostics)
+
+
+@pytest.mark.parametrize("entry", ["\tm: 1", "\tm:\n\t\tvalue: 1", "\tm:\t1\n\tl: {value:\t2}"])
+def test_tabs_do_not_hide_other_mistakes(entry):
+    written = f"coordinates: [x]\nparameters:\n{entry}\nT: m*x'^2/2\nV: m*x*unknown\n"
+    first, other = read_problem("p.yaml", written.encode()).diagnostics
+    assert (first.message, first.span.line) == ("a tab cannot indent", 3)
+    assert "'unknown'" in other.message
+    line = written.split("\n")[other.span.line - 1]
+    assert line[other.span.column - 1 :] == "unknown"
+
+
+@pytest.mark.parametrize("entries", ["\tm: 1\n  k: 2", "  m: 1\n\tk: 2"])
+def test_tabs_beside_blanks_are_one_mistake(entries):
+    written = f"coordinates: [x]\nparameters:\n{entries}\nT: m*x'^2/2\n"
+    [only] = read_problem("p.yaml", written.encode()).diagnostics
+    assert only.message == "a tab cannot indent"
