@@ -227,3 +227,29 @@ def test_a_product_of_vectors_has_the_components_of_the_file(text):
 )  # fmt: skip
 def test_cases_inside_of_a_sum_leave_its_other_terms(text, whole):
     assert without_cases(text) == whole
+
+
+PRODUCTS = [
+    ("Cross[{{{0}}}, {{{1}}}][[{2}]]", 1),
+    ("Cross[{{{0}}}, {{{1}}}]_{3}", 0),
+    ("np.cross([{0}], [{1}])[{2}]", 0),
+    ("(({0}) × ({1}))_{3}", 0),
+    ("k*cross([{0}], [{1}]).{3} + k - k", 0),
+]
+
+
+@pytest.mark.parametrize(("form", "first"), PRODUCTS)
+@pytest.mark.parametrize("axis", range(3))
+def test_one_component_of_a_product_of_vectors(form, first, axis):
+    one, other = ["x", "2*y", "z - x"], ["p_x", "k*p_y", "p_z"]
+    names = Vocabulary(("x", "y", "z"), frozenset({"k"}), momenta=True)
+    text = form.format(", ".join(one), ", ".join(other), axis + first, "xyz"[axis])
+    found = sp.sympify(translated(text, names))
+    right = sp.Matrix(sp.sympify(one)).cross(sp.Matrix(sp.sympify(other)))[axis]
+    assert sp.expand(found - right * (sp.Symbol("k") if form[0] == "k" else 1)) == 0
+
+
+@pytest.mark.parametrize("text", ["cross(r, p)[1]", "cross(r, p)[2]", "(r × p)[2]", "(r x p)[1]"])
+def test_an_index_of_a_product_that_may_begin_at_0_or_1_is_unclear(text):
+    with pytest.raises(UnclearText):
+        translated(text, Vocabulary(("x", "y", "z"), frozenset(), momenta=True))

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from lagcli.notation.greek import BY_LETTER, BY_NAME
 from lagcli.reader.foreign.indexed_sums import written_out
 from lagcli.reader.foreign.lengths import component, with_components, with_products
-from lagcli.reader.foreign.vector_products import vector_product
+from lagcli.reader.foreign.vector_products import vector_product, with_single_components
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant, parts_of
 from lagcli.reader.habits import REMARK, foreign_function, unit_behind
 from lagcli.reader.regex import regex
@@ -102,6 +102,7 @@ def prepared(text: str, names: Vocabulary) -> str:
         r"\\\1{\2\3_\4\5}",
         text,
     )  # \dot{x}_i
+    text = with_single_components(text, names)
     along_z = vector_product(text, names.coordinates, {*names.known})
     text = along_z[0] if len(along_z) == 1 else text
     text = with_products(written_out(text, names), names)
