@@ -253,3 +253,8 @@ def test_one_component_of_a_product_of_vectors(form, first, axis):
 def test_an_index_of_a_product_that_may_begin_at_0_or_1_is_unclear(text):
     with pytest.raises(UnclearText):
         translated(text, Vocabulary(("x", "y", "z"), frozenset(), momenta=True))
+
+
+def test_an_index_that_the_names_have_is_none_of_a_component():
+    names = Vocabulary(("x", "y"), frozenset({"k_1", "k_2", "k_x", "k_y"}))
+    assert translated("k[1]*x + k[2]*y", names) == "k_1*x + k_2*y"

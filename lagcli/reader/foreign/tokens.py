@@ -148,15 +148,17 @@ def _by_letters(text: str, names: Vocabulary) -> str:
 
     The first or the last index tells where they begin.
     """
-    for vector, _ in re.findall(_INDEXED, text):
+    for vector, place in re.findall(_INDEXED, text):
+        if {f"{vector}{place}", f"{vector}_{place}"} & {*names.known}:
+            continue  # k_1 for k[1]
         named = [f"{vector}.{x}" for x in "xyz" if f"{vector}.{x}" in names.components]
         named = named or [f"{vector}_{x}" for x in "xyz" if f"{vector}_{x}" in names.known]
         indexed = _INDEXED.replace(r"([^\W\d]\w*)", vector)
         used = {int(each) for each in re.findall(indexed, text)}
         first = 0 if 0 in used else 1
         if used <= {*range(first, first + len(named))} and used & {0, len(named)}:
-            for place, each in enumerate(named, start=first):
-                text = re.sub(indexed.replace(r"\d", f"{place}"), each, text)
+            for index, each in enumerate(named, start=first):
+                text = re.sub(indexed.replace(r"\d", f"{index}"), each, text)
     return _AXIS.sub(lambda m: x if (x := f"{m[1]}_{m[2]}") in names.known else m[0], text)
 
 
