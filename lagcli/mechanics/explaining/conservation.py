@@ -17,13 +17,7 @@ from lagcli.mechanics.impacts import when_constant
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.rest.exceptions import Vanishing
 from lagcli.mechanics.total_derivative import euler_operator
-from lagcli.statements.wording import (
-    CHANGE_OF_L,
-    TRIVIAL,
-    capitalized,
-    enumerated,
-    exceptions,
-)
+from lagcli.statements.wording import CHANGE_OF_L, TRIVIAL, capitalized, enumerated, exceptions
 
 
 def energy(explainer: Explainer) -> Iterator[Block]:

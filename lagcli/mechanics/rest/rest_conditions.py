@@ -274,7 +274,7 @@ class RestConditions:
         found = without_unknowns((*self.at_all_times, *self.sums), (*self.system.q, *timed))
         return with_a_value(found, given_formulas(self.dynamics))
 
-    @property
+    @cached_property
     def balance(self) -> Vanishing:
         """What vanishes at rest, none where that depends on the time."""
         drifts = (e.drift for e in self.dynamics.constraints.equations)

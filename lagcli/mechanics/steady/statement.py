@@ -152,10 +152,9 @@ class _SteadyStatement:
     @property
     def _void(self) -> list[Expr]:
         """What may be 0, and U_eff is constant then at any momenta."""
-        acting = self.steady.acting or self.steady.full.problem.contacts
-        return [] if acting else self._balance.void
+        return [] if self.steady.full.problem.contacts else self._balance.void
 
-    @property
+    @cached_property
     def _balance(self) -> Vanishing:
         """What vanishes in a steady motion, at all positions and momenta; none with forces."""
         steady = self.steady
