@@ -20,6 +20,9 @@ from lagcli.algebra.generators import ExpressionField
 
 #: Beyond these, an argument is a base argument of its own.
 MAX_MULTIPLE = 10
+_MAX_POWER = (
+    60  # of exponentials, whose powers are one term each: exp(12 c t/5) with a unit of c t/5
+)
 MAX_PARTS = 10  # measured: at most 3
 
 _INVERSE = (
@@ -140,7 +143,7 @@ class Multiples:
                 self._unit[base] = unit
             multiplier = scaled.numerator
             part = base / Rational(unit)
-            if abs(multiplier) > MAX_MULTIPLE:
+            if abs(multiplier) > (_MAX_POWER if self.kind in ("exp", "power") else MAX_MULTIPLE):
                 self.field.doubtful = True
                 part, multiplier = abs(multiplier) * part, 1 if multiplier > 0 else -1
                 yield multiplier, self._generator(part, Fraction(1))

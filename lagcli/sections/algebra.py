@@ -43,10 +43,11 @@ def derive(statements: Statements) -> AlgebraSection | None:
 
     discovery = statements.derivation.discovery
     listed = (*discovery.charges, *discovery.momentum_equations)
-    if missing := discovery.unproved or (not listed and "; ".join(discovery.stopped)):
+    found = summary(discovery)  # before the special values, which take the work that is left
+    nothing = not listed and not (discovery.stopped and statements.derivation.special_cases)
+    if missing := discovery.unproved or (nothing and "; ".join(discovery.stopped)):
         statements.lacks("the algebra of all symmetries", missing)
         return None
-    found = summary(discovery)  # before the special values, which take the work that is left
     special = tuple(
         SpecialValue(
             parameter=case.parameter.name,
@@ -91,10 +92,6 @@ def _separates(statements: Statements) -> bool:
 def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
     """The ansatz, the algebra, whether the motion is integrable, and the special values."""
     named = f", {section.name}" if section.name else ""
-    integrable = {
-        True: "The motion is integrable.",
-        None: "Whether the motion is integrable is undecided.",
-    }
     yield Paragraph((f"Searched: {section.ansatz}.",))
     if section.is_prescribed:
         return
@@ -108,8 +105,14 @@ def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
     counts += ", modulo constants" if section.with_constants and not section.name else ""
     where = [" where ", *conditions(section.named_where)] if section.named_where else []
     yield Paragraph((f"Dimension {section.dimension}{counts}{named}", *where, f"; {charges}."))
-    lead = "The Hamilton-Jacobi equation separates: t" if section.separates else "T"
-    yield Paragraph((integrable[section.integrable].replace("T", lead, 1),))
+    if section.integrable is None:
+        yield Paragraph(("Whether the motion is integrable is undecided.",))
+    elif section.separates:
+        yield Paragraph(("The Hamilton-Jacobi equation separates: the motion is integrable.",))
+    elif section.determined:
+        yield Paragraph(("The motion is integrable: these give the state at every time.",))
+    else:
+        yield Paragraph(("The motion is integrable.",))
     for cases in _alike(section.special):
         number = cases[0].number
         where = [

@@ -215,7 +215,8 @@ class AlgebraSection:
     `independent` is None where no state was found, or not in the work allowed.
     `closed`: every bracket is a combination of all of them and of constants.  `with_constants`:
     constants belong to the algebra that `dimension` counts without them.  `integrable` is
-    True or None; `separates` where the Hamilton-Jacobi equation shows it, not the charges.
+    True or None; `separates` where the Hamilton-Jacobi equation shows it, not the charges, and
+    `determined` where it is their number alone: as many as a state has dimensions.
     `named_where`: the name is another one where the charges are not real.  `autonomous`: how many
     charges do not depend on t, and the name of the algebra that they make.  Where the motion
     `is_prescribed`, no symmetry was sought.
@@ -231,6 +232,7 @@ class AlgebraSection:
     closed: bool = False
     with_constants: bool = False
     separates: bool = False
+    determined: bool = False
     special: tuple[SpecialValue, ...] = ()
     named_where: tuple[Above, ...] = ()
     is_prescribed: bool = False

@@ -174,6 +174,13 @@ V: {V.replace("R", R).replace("kexp", "k*exp")}
         ("{c: POS, a: POS}", "[x]", "exp(c*t)*(x'^2/2 - a*x^2/2 - x^4/4)", "a=2*c**2/9"),
         ("{c: POS, a: POS}", "[s]", "exp(-2*c*t)*(s'^2/2 - a*s^2/2 + s^3)", "a=24*c**2/25"),
         ("{c: POS, a: POS}", "[x]", "exp(c*t)*(x'^2/2 - a*x^2/2 - x^6)", "a=3*c**2/16"),
+        # about its other position of rest -a
+        ("{c: POS, a: {}}", "[x]", "exp(c*t)*(x'^2/2 - a*x^2/2 + x^3/3)",
+         "a=6*c**2/25 a=-6*c**2/25"),
+        # without a drive, or with one that stays: Mathieu, and a saddle that turns
+        ("{a: {}, q: {}}", "[x]", "x'^2/2 - (a - 2*q*cos(2*t))*x^2/2", "q=0"),
+        ("{k: {}, n: {}}", "[x, y]",
+         "(x'^2 + y'^2)/2 + k*((x^2 - y^2)*cos(2*n*t)/2 + x*y*sin(2*n*t))", "k=0 n=0"),
         # a power is linear at n = 2, constant at n = 1; -2: Jackiw, Physics Today 25 (1972) 23
         ("{m: POS, k: POS, n: {}}", f"{{x: {POS}}}", "m*x'^2/2 - k*x^n", "n=0 n=1 n=2 n=-2"),
         ("{m: POS, k: POS, j: {}}", f"{{s: {POS}}}", "m*s'^2/2 - k*s^(2*j)", "j=0 j=1/2 j=1 j=-1"),

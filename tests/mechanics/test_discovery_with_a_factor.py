@@ -46,6 +46,7 @@ def test_coordinates_of_liouville_separate(seed):
     ("m*(exp(-x) + b*exp(-2*x))*(x'^2 + y'^2)/2", "[x, y]", 3),
     (f"(1 + b*(x^2 + y^2))*{SQUARES}/2 - k*(x^2 + y^2)/(2*(1 + b*(x^2 + y^2)))", "[x, y]", 3),
     (f"(b + cos(x))*{SQUARES}/(2*sin(x)^2)", "[x, y]", 3),
+    ("(r'^2 + r^(2/3)*phi'^2)/2 - k/r^(2/3)", f"{{r: {POS}, phi: {{}}}}", 3),  # by its arc length
     ("(1 + b/r)*(r'^2 + r^2*phi'^2)/2 - k/(r + b)", f"{{r: {POS}, phi: {{}}}}", 3),
 ])  # fmt: skip
 def test_surfaces_of_koenigs_have_two_integrals_beside_a_momentum(L, coordinates, independent):

@@ -188,6 +188,42 @@ def test_charges_on_a_sphere_are_counted(numbers, kept):
     assert printed(problem, answers, discovered=known, algebra=section).complete is kept
 
 
+@pytest.mark.parametrize("number", [2, 3, 4])
+def test_charges_give_the_state_where_there_are_as_many_as_dimensions_of_states(number):
+    problem, answers, _ = sheet(f"{PLANE}V: 0\n", "energy")
+    charges = {"a": "x'", "b": "y'", "c": "x - t*x'", "d": "y - t*y'"}
+    section = AlgebraSection(
+        ansatz="", dimension=number, name=None, independent=number, in_involution=2,
+        integrable=True, number=number, determined=True,
+    )  # fmt: skip
+    known = listed(**dict(list(charges.items())[:number]))
+    found = printed(problem, answers, discovered=known, algebra=section)
+    assert found.complete is (number == 4)
+
+
+STATES = [  # the text, the dimension of the states, whether as many charges are found
+    ("[x]", "", "T: x'^2/2\nV: m*x^2/2\ndissipation: c*x'^2/2", True),
+    ("[x, y]", "", "T: (x'^2 + y'^2)/2\nV: -m*y\ndissipation: c*(x'^2 + y'^2)/2", True),
+    ("[x]", "", "T: x'^2/2\nV: m*x^4/2\ndissipation: c*x'^2/2", None),
+    ("[x, y, phi]", "blade: x'*sin(phi) = y'*cos(phi)", "T: m*(x'^2 + y'^2)/2 + c*phi'^2/2", True),
+    ("[x, y, phi]", "blade: x'*sin(phi) = y'*cos(phi) - phi'", "T: m*(x'^2 + y'^2) + c*phi'^2", None),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("coordinates", "constraint", "rest", "integrable"), STATES)
+def test_without_brackets_the_number_of_charges_alone_makes_a_motion_integrable(
+    coordinates, constraint, rest, integrable
+):
+    """Linear drag; the motions of a knife edge on a table are circles (Neimark and Fufaev, II.2)."""
+    held = f"constraints: {{{constraint}}}\n" if constraint else ""
+    text = f"coordinates: {coordinates}\n{PARAMETERS}{held}{rest}\n"
+    problem, answers, algebra = sheet(text, "algebra")
+    assert (algebra.in_involution or 0, algebra.integrable) == (0, integrable)
+    assert algebra.determined is bool(integrable)
+    assert not answers.warnings
+    assert verified(problem, answers).complete
+
+
 @pytest.mark.parametrize("length", ["l", "2*l", "l + 1"])
 def test_charges_at_a_special_value_are_examined_on_the_constraints(length):
     """Two oscillators, one of them on a string: L_z is constant for equal springs."""

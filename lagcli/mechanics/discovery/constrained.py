@@ -71,3 +71,9 @@ def rank_on_surface(dynamics: Dynamics, charges: Sequence[Expr]) -> int | None:
             rows = [values[k : k + width] for k in range(0, len(values), width)]
             return rank(rows) - rank(rows[: len(relations)])
     return None if charges else 0
+
+
+def dimension_of_states(dynamics: Dynamics) -> int:
+    """How many numbers give a state: positions on the constraints, and their velocities."""
+    held = dynamics.states.conditions_on_positions()
+    return len(dynamics.system.q) - held + dynamics.degrees_of_freedom

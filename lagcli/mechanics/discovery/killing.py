@@ -148,7 +148,7 @@ def _common_factors(equations: SlotEquations) -> list[Expr]:
     shared = set.intersection(*(set(sympy.Mul.make_args(e)) for e in entries))
     moving = [f for f in shared if not free_of(f, equations.q)]
     sums = [f for f in moving if f.as_base_exp()[0].is_Add]
-    own = [row[k] for k, row in enumerate(equations.mass) if moving]
+    own = [row[k] for k, row in enumerate(equations.mass) if moving or len(equations.q) == 2]
     found: list[Expr] = [sympy.S.One]
     for w in (*own, sympy.Mul(*moving), sympy.Mul(*sums)):
         if all(not free_of(simplify(w / other), equations.q) for other in found):

@@ -8,7 +8,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, time_functions
-from lagcli.mechanics.discovery.constrained import rank_on_surface
+from lagcli.mechanics.discovery.constrained import dimension_of_states, rank_on_surface
 from lagcli.mechanics.discovery.listing import more
 from lagcli.mechanics.discovery.momentum_equation import Momenta
 from lagcli.mechanics.discovery.setting import Setting
@@ -70,10 +70,8 @@ def search_on_surface(
 
 def all_are_known(setting: Setting) -> bool:
     """Whether all integrals are functions of those of point symmetries."""
-    dynamics = setting.dynamics
-    held = dynamics.states.conditions_on_positions()
-    states = len(setting.system.q) - held + dynamics.degrees_of_freedom
-    return states > 0 and rank_on_surface(dynamics, _values(setting)) == states
+    states = dimension_of_states(setting.dynamics)
+    return states > 0 and rank_on_surface(setting.dynamics, _values(setting)) == states
 
 
 def _values(setting: Setting) -> list[Expr]:

@@ -169,23 +169,40 @@ def _open_exponents(formulas: Sequence[Expr], q: Sequence[Symbol]) -> list[Expr]
     return sorted(found, key=sympy.default_sort_key)
 
 
-def damped_powers(
-    accelerations: Sequence[Expr], exponents: Sequence[Exponent], q: Sequence[Symbol]
-) -> Iterator[Expr]:
-    """What vanishes where x'' + c x' + a x = b x^n has an integral that grows as exp of time.
+def damped_powers(accelerations: Sequence[Expr], system: System) -> Iterator[Value]:
+    """Where x'' + c x' + a x = b x^n has an integral that grows as exp of time.
 
-    The two exponents, with the sum -c and the product a, then have the ratio (n + 1)/2, as
-    9 a = 2 c^2 for n = 3 (Leach, J. Math. Phys. 26 (1985) 2510).
+    (n + 3)^2 a = 2 (n + 1) c^2, as 9 a = 2 c^2 for n = 3 (Leach, J. Math. Phys. 26 (1985) 2510).
+    Beside x^2 and a force f there are two positions of rest, about which +-a, a^2 - 4 b f = a'^2.
     """
-    damped = [each for each in exponents if each.growth != 0 != each.frequency]
-    if not damped:
-        return
+    q, found = system.q, dict[Value, None]()
     terms = [term for each in accelerations for term in sympy.Add.make_args(sympy.expand(each))]
     degrees = {sympy.Poly(term, *q).total_degree() for term in terms if term.is_polynomial(*q)}
-    for each in damped:
-        square = each.growth**2 + each.frequency**2
+    for x, u, acceleration in zip(q, system.qdot, accelerations, strict=True):
+        others = dict.fromkeys({*q, *system.qdot} - {x, u}, sympy.S.Zero)
+        own = sympy.expand(acceleration.xreplace(others))
+        drag, force = own.coeff(u), own.coeff(u, 0)
+        if drag == 0 or not free_of(drag, [system.t, x, u]) or not force.is_polynomial(x):
+            continue
+        constant, linear, square = (force.coeff(x, k) for k in range(3))
         for n in sorted(degree for degree in degrees if degree > 1):
-            yield sympy.expand(8 * (n + 1) * each.growth**2 - (n + 3) ** 2 * square)
+            critical = sympy.Rational(2 * (n + 1), (n + 3) ** 2) * drag**2
+            if n == 2 and free_of(force, [system.t]):
+                relation = linear**2 - 4 * square * constant - critical**2
+            elif constant == 0 and free_of(linear, [system.t]):
+                relation = linear + critical
+            else:
+                continue
+            for factor, _ in sympy.factor_list(sympy.numer(sympy.together(relation)))[1]:
+                found |= dict.fromkeys(_solved(factor, system.parameters))
+    yield from found
+
+
+def rates_of_driving(L: Expr, t: Symbol) -> list[Expr]:
+    """What vanishes where a sine, cosine or exponential of time in L is constant."""
+    waves = {f for f in L.atoms(sympy.sin, sympy.cos, sympy.exp) if t in f.free_symbols}
+    rates = {sympy.numer(sympy.together(f.args[0].diff(t))) for f in waves}
+    return sorted((rate for rate in rates if rate.free_symbols), key=sympy.default_sort_key)
 
 
 def resonant_waves(functions: Sequence[Expr], rest: Expr, q: Sequence[Symbol]) -> Iterator[Expr]:

@@ -31,6 +31,7 @@ from lagcli.mechanics.discovery.special import (
     exchanged,
     new_charges,
     problem_at,
+    rates_of_driving,
     resonant_waves,
     special_powers,
 )
@@ -72,14 +73,15 @@ def special_cases(
             lower, pairs = _factors(searched, allowed)
             together = both_vanish(pairs, lower, system.parameters)
             factors = lower + special_powers(searched.equations)
-            linear = searched.accelerations or (), searched.time_functions.exponents, system.q
-            factors += damped_powers(*linear)
+            factors += rates_of_driving(system.L, system.t)
             if searched.isometries is not None:
                 at_rest = system.L.xreplace(dict.fromkeys(system.qdot, sympy.S.Zero))
                 factors += resonant_waves(searched.isometries.functions, at_rest, system.q)
             if len(system.q) == 1 or searched.time_functions.exponents:
                 factors += system.parameters  # a term less: linear, with functions of time
             values = candidates(system, factors, _exponents(searched))
+            if searched.accelerations:
+                values += damped_powers(searched.accelerations, system)
         for choice in _choices(values, together, found, discovery.words):
             if any(sympy.count_ops(value) > _MOST_OPERATIONS for _, value in choice):
                 discovery.words.append(_NOT_TRIED)
@@ -96,7 +98,7 @@ def special_cases(
             charges = _beyond_products(
                 known, new_charges(known, there.charges, there.dynamics, allowed), there, allowed
             )
-            charges = _named_apart(charges, discovery)
+            charges = _named_apart(charges, there, discovery)
             if charges:
                 number, given = len(there.charges), tuple(choice[1:])
                 found.append(SpecialCase(*choice[0], number, charges, there.degree, given))
@@ -142,14 +144,20 @@ def _beyond_products(
     return tuple(c for c in new if c in there.point_charges or c in beyond)
 
 
-def _named_apart(charges: Sequence[NoetherCharge], here: Discovery) -> tuple[NoetherCharge, ...]:
+def _named_apart(
+    charges: Sequence[NoetherCharge], there: Discovery, here: Discovery
+) -> tuple[NoetherCharge, ...]:
     """None has the name of another one that is conserved for all values.
 
     Which angle of a top turns it about its own axis shows in T for all values, and not at C = A.
     """
-    taken = [c.name for c in here.charges]
+    taken, all_names = [c.name for c in here.charges], {c.name for c in there.charges}
     charges = [_named_as(c, here.listing.naming) if c.name in taken else c for c in charges]
-    own = ["" if c.name.startswith("charge_") else c.name for c in charges]
+    own = []
+    for c in charges:
+        stem, _, number = c.name.rpartition("_")  # mode_2 beside a mode
+        name = stem if number.isdigit() and stem in all_names else c.name
+        own.append("" if name.startswith("charge_") else name)
     names = distinct([*taken, *own])[len(taken) :]
     return tuple(replace(c, name=name) for c, name in zip(charges, names, strict=True))
 

@@ -12,7 +12,7 @@ from sympy import Expr
 
 from lagcli.algebra import is_zero
 from lagcli.mechanics.discovery.brackets import ChargeBrackets, NoState, Structure
-from lagcli.mechanics.discovery.constrained import rank_on_surface
+from lagcli.mechanics.discovery.constrained import dimension_of_states, rank_on_surface
 from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.lie_algebra import has_constants, name_of
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
@@ -47,21 +47,26 @@ def algebra_section(
 
     A complete integral of the Hamilton-Jacobi equation, which `separates` looks for where the
     charges do not suffice, has n constants: functions of q and p, independent and in involution.
+    As many independent charges as a state has dimensions give the state at every time by algebra.
 
     References
     ----------
     Liouville, J. Math. Pures Appl. 20 (1855) 137 (n integrals in involution: quadratures).
     Arnold, *Mathematical Methods of Classical Mechanics*, 2nd ed., sections 47 and 49.
     """
-    separable = found.integrable is not True and discovery.canonical and separates()
+    states = dimension_of_states(discovery.dynamics)
+    determined = not found.integrable and 0 < states == found.independent
+    integrable = found.integrable or determined or None
+    separable = integrable is None and discovery.canonical and separates()
     return AlgebraSection(
         ansatz="; ".join((discovery.ansatz, *found.notes)),
         dimension=found.dimension,
         name=found.name,
         independent=found.independent,
         in_involution=found.in_involution,
-        integrable=True if separable else found.integrable,
+        integrable=True if separable else integrable,
         separates=separable,
+        determined=determined,
         number=len(discovery.charges),
         closed=found.closed,
         with_constants=found.with_constants,

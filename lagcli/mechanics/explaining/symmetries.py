@@ -194,7 +194,12 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
             f"Of the {found.number} conserved quantities {number} {'is' if number == 1 else 'are'} "
             f"functionally independent: the rank of their gradients in phase space is {number}."
         )
-    if found.in_involution is not None:
+    if found.determined:
+        yield says(
+            f"A state has {number} dimensions, so the constant values of these {number} give the "
+            "state at every time, without a further integration: the motion is integrable."
+        )
+    elif found.in_involution is not None:
         yield says(*_integrability(found, n))
     yield from _at_special_values(explainer, found)
 

@@ -106,6 +106,9 @@ class Counted:
             why = f"{independent} are independent, not {section.independent}"
             x.refute("the number of independent charges", why)
             return None
+        if section.determined and independent != self.states:
+            x.refute("that the charges give the state", f"a state has {self.states} dimensions")
+            section = replace(section, determined=False, integrable=None)
         if section.name is not None and not self._has_name(section.name):
             x.refute(f"that the algebra is {section.name}", "its structure constants are others")
             section = replace(section, name=None)
@@ -122,6 +125,11 @@ class Counted:
         """The number of degrees of freedom."""
         return len(self.x.reference.names)
 
+    @property
+    def states(self) -> int:
+        """The dimension of the space of states."""
+        return 2 * self.freedom
+
     def _rank_of_values(self) -> int:
         """Of the charges and 1, without the 1."""
         rows = [[*s.values, arb(1)] for s in self.samples]
@@ -132,8 +140,9 @@ class Counted:
 
     def _in_involution(self, claimed: int) -> bool:
         """Whether at most `claimed` charges are in involution, n of them where integrable."""
-        n = self.freedom
-        if claimed > n or (self.section.integrable and not self.section.separates and claimed < n):
+        n, section = self.freedom, self.section
+        by_them = section.integrable and not (section.separates or section.determined)
+        if claimed > n or (by_them and claimed < n):
             return False
         t = self.x.reference.time
         fixed = [k for k, place in enumerate(self.places) if self._still(place, t)]

@@ -84,6 +84,11 @@ class OnSurface(Counted):
         holonomic = sum(row.holonomic for row in self.x.reference.rows)
         return len(self.x.reference.names) - self._rank(self.forms[:holonomic])
 
+    @property
+    def states(self) -> int:
+        """The dimension of the surface of the states."""
+        return 2 * len(self.x.reference.names) - self._rank(self.forms)
+
     def _rank(self, which: Iterable[int]) -> int:
         chosen = list(which)
         return max(rank_of(s, chosen) for s in self.samples)
