@@ -303,6 +303,11 @@ def read_components(
             message = f"{what} is a list of components, without unit vectors"
             file.error(message, node.span, _listed(written))
             return []
+        is_one = len(texts) == len(node.items) == 1 != length
+        if is_one and (apart := with_commas(texts[0], [*file.scope.of_kind("coordinate")])):
+            one = "; with blanks on both sides of its sign it is one" * (" -" in apart)
+            file.error(f"{what} has no commas", node.span, apart + one)
+            return []
     return file.items(node, what, hint)
 
 

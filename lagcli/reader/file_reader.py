@@ -150,7 +150,7 @@ class FileReader:
             is_word = word in _WORDS or word in habits()["nothing"]
             if is_word and not what.startswith("the symmetry"):
                 hint = "leave out the key"
-            if isinstance(node, Sequence) and (named := by_its_name(node)):
+            if named := by_its_name(node):
                 hint = f"write {{{named}}}"
             elif (
                 isinstance(node, Sequence)

@@ -139,9 +139,11 @@ def _with_units(line: str) -> str:
 
 
 def _assumed(line: str) -> str:
-    """`k: {assume: positive}` for `k: > 0`."""
-    found = re.fullmatch(r"(\s*\w+:\s+)(?:\w+\s*)?([<>]=?|!=)\s*0\s*", line)
-    return line if found is None else f"{found[1]}{{assume: {SIGNS[found[2]]}}}"
+    """`k: {assume: positive}` for `k: > 0`, and `assume: positive` for `value: > 0`."""
+    found = re.fullmatch(r"(\s*)(\w+:\s+)(?:\w+\s*)?([<>]=?|!=)\s*0\s*", line)
+    entry = f"assume: {SIGNS[found[3]]}" if found else ""
+    is_attribute = found and re.match("value|assume|range|sign", found[2])
+    return line if not found else f"{found[1]}{entry if is_attribute else f'{found[2]}{{{entry}}}'}"
 
 
 #: In the order in which they are tried.

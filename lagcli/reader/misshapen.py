@@ -202,6 +202,7 @@ def range_end(written: str) -> str:
 def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str] = ()) -> str:
     """How a text or a list is written as the map that it should be."""
     written = as_equation(node.text.source.text[node.start : node.end]).strip()
+    written = re.sub(r"^(['\"])(.*)\1$", r"\2", written)
     known = [*coordinates]
     present = [x for x in known if x in re.findall(r"\w+", written)]
     unknown = next(iter([*present, *known]), "x")
@@ -284,7 +285,12 @@ def values_of(node: DocumentNode) -> str:
     """`1,2,3` for a list of values, `0:1:5` for a range in five steps; nothing for others."""
     if isinstance(node, Sequence):
         return ",".join(map(source_of, node.items))
-    found = RANGE.fullmatch(node.value) if isinstance(node, Scalar) else None
+    given = {k.label: source_of(v) for k, v in getattr(node, "entries", ())}
+    ends = [x for key, x in given.items() if is_constant("x", x) and key != "step"]
+    if 2 <= len(ends) <= 3 and "step" not in given:  # {from: 1, to: 5, number: 9}
+        return ":".join([*ends, "COUNT"][:3])
+    written = ":".join([*ends[:1], given.get("step", ""), *ends[1:]])
+    found = RANGE.fullmatch(node.value if isinstance(node, Scalar) else written)
     if found is None:
         return ""
     first, *middle, last = (each for each in found.groups() if each)
@@ -359,14 +365,19 @@ def _attribute(word: str) -> str:
     return key_meant(word, known) or key_meant(word.removesuffix("s"), known) or word
 
 
-def by_its_name(node: Sequence) -> str:
-    """`bob: {mass: m}, rod: {mass: M}` for a list of maps that have their names inside."""
-    each = [item.entries for item in node.items if isinstance(item, Mapping)]
-    if len(each) < len(node.items) or not all(
-        {"name", "id"} & {k.label for k, _ in e} for e in each
-    ):
+def by_its_name(node: DocumentNode) -> str:
+    """`bob: {mass: m}, rod: {mass: M}` for a list of maps that have their names inside.
+
+    Texts in quotes may have them, too: `["rod: x = l"]`.
+    """
+    items = getattr(node, "items", [node])
+    texts = [x.value for x in items if isinstance(x, Scalar)]
+    if len(texts) == len(items) and all(re.match(r"[^\W\d]\w*'*: ", each) for each in texts):
+        return ", ".join(texts)
+    each = [item.entries for item in items if isinstance(item, Mapping)]
+    if len(each) < len(items) or not all({"name", "id"} & {k.label for k, _ in e} for e in each):
         return ""
-    whole = map(as_text, node.items)
+    whole = map(as_text, items)
     return ", ".join(one.removeprefix("write ").removesuffix(", without '-'") for one in whole)
 
 

@@ -190,7 +190,7 @@ def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> Canoni
     what = f"the transformation '{key.label}'"
     given_ = node.entries if isinstance(node, Mapping) else []
     example = _example(file, key.label, {name.label: source_of(each) for name, each in given_})
-    entries = list(file.entries(node, what, example))
+    entries = list(file.entries(node, what, example.replace(f" {key.label}: ", " ", 1)))
     if not isinstance(node, Mapping):
         return CanonicalTransformation(name=key.label, coordinates={}, momenta={}, span=key.span)
     names = _new_momenta([name.label for name, _ in entries])

@@ -19,7 +19,15 @@ from lagcli.reader.by_coordinate import by_name, state_meant
 from lagcli.reader.foreign.words import momentum_meant
 from lagcli.reader.habits import advised, is_angle, key_meant, meanings, name_meant
 from lagcli.reader.headings import PLACE, RATE, state_of_launch, state_without_headings
-from lagcli.reader.misshapen import ALREADY_FOUND, FOUND, WITHOUT_HYPHENS, range_end, source_of
+from lagcli.reader.misshapen import (
+    ALREADY_FOUND,
+    FOUND,
+    WITHOUT_HYPHENS,
+    as_map,
+    entries_of,
+    range_end,
+    source_of,
+)
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar, Sequence
 from lagcli.reader.number_units import run_mistake
@@ -141,6 +149,12 @@ def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
         hint = ALREADY_FOUND
     elif words and not any("=" in word for word in words):
         hint = f"leave it out: equations, frequencies and charges are found; or {hint}"
+    elif words:
+        texts = [each for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+        names = [f"q{place}" for place, _ in enumerate(texts, 1)] if texts[1:] else ["name"]
+        wholes = (as_map(each, _QUESTION_ATTRIBUTES, file.scope.free) for each in texts)
+        pairs = zip(names, wholes, strict=True)
+        hint = f"write {{{', '.join(f'{x}: {y}' for x, y in pairs)}}}".replace(": write {", ": {")
     first = next(iter(getattr(node, "items", [node])), None)
     entries = first.entries if isinstance(first, Mapping) else []
     if entries and isinstance(node, Sequence):
@@ -201,6 +215,8 @@ def _meant(entries: list[tuple[Scalar, DocumentNode]], scope: Scope) -> dict[str
     parts: list[tuple[str, str]] = []
     for key, value in entries:
         label, written = key.label, source_of(value)
+        if isinstance(value, Mapping) and len(value.entries) == 1:  # at: {x: 3}
+            written = entries_of(value).replace(": ", " = ", 1)
         written = re.sub(r"^(['\"])(.*)\1$", r"\2", written)
         if label in _QUESTION_ATTRIBUTES and not written:
             continue

@@ -15,7 +15,7 @@ from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import QUESTION, STATE
 from lagcli.reader.suggest import did_you_mean
-from lagcli.reader.velocity_quotients import multiplied_out
+from lagcli.reader.velocity_quotients import multiplied_out, without_squares
 
 if TYPE_CHECKING:
     from lagcli.expression import Expression
@@ -121,6 +121,7 @@ def equations_in(text: str) -> list[str]:
 def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constraint, ...]:
     """The constraints f = left - right = 0."""
     constraints = []
+    squared: list[tuple[Scalar, Scalar]] = []
     for one in given:
         node = one.attributes.get("equation")
         if node is None:
@@ -160,6 +161,17 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
                 span=one.key.span,
             )
         )
+        if (
+            is_read
+            and isinstance(node, Scalar)
+            and derivative_order(equation.left, file.scope) == 1
+        ):
+            squared.append((one.key, node))
+    for key, node in squared:
+        others = [each.equation for each in constraints if each.name != key.label]
+        if whole := without_squares(key.label, node.value, others, file.scope):
+            span = node.span if whole.startswith("write") else key.span
+            file.error(f"'{key.label}' is not linear in the velocities", span, whole)
     return tuple(constraints)
 
 

@@ -58,7 +58,8 @@ def _symmetry(file: FileReader, key: Scalar, value: DocumentNode) -> Symmetry:
                 hint = f"write {key.label}: {source_of(change)}"
             else:
                 file.expression(change, what, STATE)
-            file.error(f"'{name.label}' in {what} is not a coordinate", name.span, hint)
+            span = key.span if hint.startswith(f"write {key.label}: ") else name.span
+            file.error(f"'{name.label}' in {what} is not a coordinate", span, hint)
     time, gauge = changes.pop("t", None), changes.pop("gauge", None)
     is_said = len(file.diagnostics) > before or file.scope.refused
     if gauge is not None and time is None and not changes and not is_said:
@@ -86,7 +87,7 @@ def _entries(
         return []
     if isinstance(value, Mapping) and is_map:
         if not value.entries:
-            file.error(f"{what} changes nothing", value.span, f"write {key.label}: {usual}")
+            file.error(f"{what} changes nothing", value.span, f"write {usual}")
         if small := _changes_meant(file, value):
             hint = f"write {small}: the change per unit of the parameter"
             file.error(f"{what} contains its parameter", value.span, hint)
@@ -98,10 +99,10 @@ def _entries(
     items = [*map(source_of, getattr(value, "items", ()))]
     if len(items) == len(coordinates) and not {*items} <= {*coordinates}:  # [-y, x]
         usual = f"{{{', '.join(map('{}: {}'.format, coordinates, items))}}}"
-    name = key.label if said != key.label else "shift"
-    hint = f"write {name}: {_changes_meant(file, said) or usual}"
-    if isinstance(value, Mapping):
-        file.error(f"{what} must be a map, not a transformation", value.span, hint)
+    hint = f"write {'shift: ' * (said == key.label)}{_changes_meant(file, said) or usual}"
+    if isinstance(value, Mapping) or said == key.label:
+        span = key.span if said == key.label else value.span
+        file.error(f"{what} must be a map, not a transformation", span, hint)
         return []
     return [*file.entries(value, what, hint)]
 

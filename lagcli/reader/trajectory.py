@@ -102,11 +102,10 @@ class TrajectoryReader:
     def _rows(self, node: DocumentNode, section: str, words: tuple[str, ...]) -> list[KnownRow]:
         """Maps of columns, with words that say when."""
         rows = []
-        by_time = [
-            f"{{t: {key.label}, {entries_of(value)}}}"
-            for key, value in getattr(node, "entries", ())
-            if section == "at" and isinstance(value, Map)
-        ]
+        given = node.entries if section == "at" and isinstance(node, Map) else []
+        by_time = [f"{{t: {k.label}, {entries_of(v)}}}" for k, v in given if isinstance(v, Map)]
+        if given and "t" not in {key.label for key, _ in given}:  # {x: 3}
+            by_time = by_time or [f"{{t: …, {entries_of(node)}}}"]
         hint, keys = f"write [{', '.join(by_time)}]" * bool(by_time), None if by_time else words
         for place, item in enumerate(self.file.items(node, f"'{section}'", hint, keys)):
             self.spans["trajectory", section, str(place)] = item.span
@@ -123,7 +122,8 @@ class TrajectoryReader:
                 else:
                     known.append(self._known(key, value, CONSTANTS))
             if section == "at" and time is None and isinstance(item, Map):
-                self.file.error("a row of 'at' has no time", item.span, "write {t: 1, x: …}")
+                hint = f"write {{t: …, {entries_of(item)}}}"
+                self.file.error("a row of 'at' has no time", item.span, hint)
             rows.append(
                 KnownRow(
                     t=time,

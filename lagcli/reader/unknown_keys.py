@@ -224,10 +224,11 @@ def _meant_of_problem(
 
 def _varied(value: DocumentNode) -> str:
     """`--vary e=0.5,0.9` for `{e: [0.5, 0.9]}` and `{parameter: e, values: [0.5, 0.9]}`."""
-    ranges = {key.label: values_of(node) for key, node in getattr(value, "entries", ())}
-    named = [source_of(node) for _, node in getattr(value, "entries", ()) if not values_of(node)]
-    given = [each for each in ranges.values() if each]
-    if len(named) == len(given) == 1 and named[0].isidentifier():
+    parts = {key.label: node for key, node in getattr(value, "entries", ())}
+    ranges = {name: values_of(node) for name, node in parts.items()}
+    named = [x for x in map(source_of, parts.values()) if x.isidentifier()]
+    given = [each for each in ranges.values() if each] or [values_of(value)]
+    if len(named) == len(given) == 1:
         ranges = {named[0]: given[0]}
     is_clear = ranges and all(ranges.values())
     return " ".join(f"--vary {name}={each}" for name, each in ranges.items()) if is_clear else ""
@@ -292,8 +293,19 @@ def _answer_meant(word: str, written: str, scope: Scope) -> str:
         return f"write accelerations: {{{meant[:-2]}: {written}}}"
     if momentum := momentum_meant(word, coordinates):
         return f"write momenta: {{{momentum}: {written}}}"
-    of_time = re.search(r"(?<!\w)t(?![\w(])", written)
-    return f"write trajectory: {{{meant}: {written}}}" if meant and of_time else ""
+    if not meant or not written:
+        return ""
+    if re.search(r"(?<!\w)t(?![\w(])", written):
+        return f"write trajectory: {{{meant}: {written}}}"
+    if word not in coordinates:
+        return ""
+    place = f"equilibria: [{{at: {{{word}: {written}}}}}]"
+    why = f"the acceleration {word}'' stands there by its coordinate"
+    return (
+        f"write {place}"
+        if _STATE.fullmatch(written)
+        else (f"write accelerations: {{{word}: {written}}}: {why}")
+    )
 
 
 def _state_meant(key: Scalar, written: str, around: Mapping) -> str:

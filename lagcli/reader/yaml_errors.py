@@ -109,7 +109,11 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return Diagnostic("'?' is not a value", span, "leave out what is not known")
     after = text.source.text[offset:]
     if sign := re.match(r"([<>]=?)\s*0", after):
-        return Diagnostic("this is no value", span, f"write {{assume: {SIGNS[sign[1]]}}}")
+        entry = f"assume: {SIGNS[sign[1]]}"
+        before = text.source.text[text.line_starts[number] : offset]
+        if within := re.search(r"(?:value|assume|range|sign):\s*$", before):
+            span = text.span(text.line_starts[number] + within.start(), offset + sign.end())
+        return Diagnostic("this is no value", span, f"write {entry if within else f'{{{entry}}}'}")
     if after.startswith("|"):
         return Diagnostic(
             "'|' has no meaning in an expression", span, "a modulus is written abs(x)"

@@ -100,3 +100,34 @@ def test_the_velocity_of_a_point_is_the_rate_of_its_position(written, meant):
     known = {name: getattr(math, name) for name in ("sin", "cos", "exp", "sqrt")}
     found = eval(code, known | {"x": x, "phi": phi, "dx": dx, "dphi": dphi, "l": 2, "k": 3})
     assert found == pytest.approx(meant(rates), rel=1e-6)
+
+
+ROLLING = """coordinates: [x, y, phi, theta]
+parameters: [m, R, I]
+T: m*(x'^2 + y'^2)/2 + I*phi'^2/2 + I*theta'^2/2
+constraints:
+  c: {}
+  heading: {}
+"""
+
+
+@pytest.mark.parametrize(
+    "square", ["x'^2 + y'^2 = R^2*phi'^2", "(R*phi')^2 - x'^2 - y'^2", "sqrt(x'^2 + y'^2) = R*phi'"]
+)
+@pytest.mark.parametrize(
+    ("heading", "along"),
+    [
+        ("y'*cos(theta) = x'*sin(theta)", lambda a: (math.cos(a), math.sin(a))),
+        ("x'*cos(theta) + y'*sin(theta)", lambda a: (-math.sin(a), math.cos(a))),
+        ("x'*cos(theta) - y'*sin(theta)", lambda a: (math.sin(a), math.cos(a))),
+    ],
+)
+def test_the_square_of_a_speed_is_two_constraints_along_the_heading(square, heading, along):
+    [found] = read_problem("p.yaml", ROLLING.format(square, heading).encode()).diagnostics
+    given = re.search(r": c_1: x' = (.*), c_2: y' = (.*)$", found.hint).groups()
+    python = [each.replace("phi'", "w") for each in given]
+    names = {"R": 2, "w": 3, "theta": 0.4, "cos": math.cos, "sin": math.sin}
+    for formula, size in zip(python, along(0.4), strict=True):
+        assert math.isclose(eval(formula, {}, names), 6 * size)
+    right = ROLLING.format(f"{given[0]} - x'", heading) + f"  d: y' = {given[1]}\n"
+    assert read_problem("p.yaml", right.encode()).diagnostics == ()

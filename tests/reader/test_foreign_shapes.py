@@ -585,10 +585,28 @@ def test_a_finite_change_is_told_its_small_one(one, other, x, y, name):
     known = text(**plane, parameters=f"[m, k, {name}]", symmetries=finite)
     assert messages(known) == []
     moved = text(**plane, symmetries=f"{{turn: 'x -> {one}, y -> {other}'}}")
-    assert only_mistake(moved).hint == f"write turn: {{x: {x}, y: {y}}}"
+    assert only_mistake(moved).hint == f"write {{x: {x}, y: {y}}}"
 
 
 FURTHER = [
+    (text(find="x' where x = 3"), "write {name: {where: x = 3, for: x'}}"),
+    (text(find="[k such that x = 0, 'solve x = 0 for m']"),
+     "write {q1: {where: x = 0, for: k}, q2: {where: x = 0, for: m}}"),
+    (text(find="{a: {at: {x: k}}}"), "write a: {where: x = k, for: x}"),
+    (text(constraints="['rod: x = k*t']"), "write {rod: x = k*t}"),
+    (text(forces="['x: -k*x']"), "write {x: -k*x}"),
+    (text(expect="{x: -k*x/m}"), "write accelerations: {x: -k*x/m}"),
+    (text(expect="{x: 0}"), "write equilibria: [{at: {x: 0}}]"),
+    (text(expect="{trajectory: {at: {x: 3}}}"), "write [{t: …, x: 3}]"),
+    (text(expect="{trajectory: {at: [{x: 3}]}}"), "write {t: …, x: 3}"),
+    (text(sweep="{parameter: k, from: 1, to: 5}"), "lagcli sweep p.yaml --vary k=1:5:COUNT"),
+    (text(sweep="{k: {start: 0, stop: 1, step: 0.1}}"), "--vary k=0:1:11"),
+    (text(parameters="{m: 1, k: {value: > 0}}"), "write assume: positive"),
+    (text(parameters="\n  m: 1\n  k:\n    value: > 0"), "write assume: positive"),
+    (text(V="k*ATAN2(x, m)"), "write atan2(y, x)"),
+    (text(V="k*LOG(x)"), "log(x)/log(10) the LOG of a spreadsheet"),
+    (text(points="{b: {position: [x -k*sin(x)], mass: m}}"), "write [x, -k*sin(x)]"),
+    (text(points="{b: {position: [x, 0], mass: m, force: [-k*x -m]}}"), "write [-k*x, -m]"),
     (text(accelerations="\n  x: -k*x/m"), "write expect: {accelerations: {x: -k*x/m}}"),
     (text(modes="\n  - sqrt(k/m)"), "write expect: {modes: [sqrt(k/m)]}"),
     (text(expect="{accelerations: x'' = -k*x/m}"), "write {x: -k*x/m}"),

@@ -79,7 +79,8 @@ def with_commas(text: str, coordinates: Container[str]) -> str:
     if "," in text or not signed:
         return ""
     if (all(signed) or (all(whole) and not any(signed))) and not parts[3:]:
-        return f"a comma stands between components: write [{', '.join(parts)}]"
+        listed = ", ".join(each.removeprefix("+") for each in parts)
+        return f"a comma stands between components: write [{listed}]"
     return "a comma stands between components, as in [x, y]"
 
 

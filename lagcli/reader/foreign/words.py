@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from lagcli.expression import FUNCTIONS
 from lagcli.notation.greek import BY_NAME
-from lagcli.reader.habits import is_angle, meanings
+from lagcli.reader.habits import instead, is_angle, meanings
 from lagcli.reader.regex import regex
 from lagcli.reader.suggest import alike, spelled_out
 
@@ -110,7 +110,7 @@ def parts_of(word: str, names: Vocabulary) -> list[str]:
 
 def function_named(word: str, names: Vocabulary) -> str:
     """The function of the format that a word stands for: `asin` for ArcSin."""
-    if word in names.known:
+    if word in names.known or instead(word):
         return ""
     usual = meanings("functions")
     for spelled in (word, word.casefold(), word.casefold().replace("arc", "a", 1)):
