@@ -185,6 +185,11 @@ def walk(node: Expression) -> Iterator[Expression]:
         stack.extend(reversed(children(top)))
 
 
+def names_in(*formulas: Expression) -> list[Name]:
+    """The names of formulas, as often as they stand there."""
+    return [node for each in formulas for node in walk(each) if isinstance(node, Name)]
+
+
 def postorder(node: Expression) -> list[Expression]:
     """The node and everything below it, each after its parts."""
     order: list[Expression] = []

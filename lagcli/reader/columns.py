@@ -10,6 +10,7 @@ from lagcli.diagnostics import Diagnostic, ProblemError, Source
 from lagcli.expression import Diff, Expression, Name, Negative, Product, Sum, walk
 from lagcli.problem_data import JACOBI_FUNCTION, charge_of
 from lagcli.reader.expressions import read_expression
+from lagcli.reader.misshapen import pieces
 from lagcli.reader.names import depends_on_time, derivative_order, name_mistakes
 from lagcli.reader.number_units import run_mistake
 from lagcli.reader.positions import Excerpt
@@ -58,7 +59,7 @@ def read_columns(problem: Problem, words: Sequence[str]) -> list[Column]:
 
 def pieces_of(words: Sequence[str]) -> list[str]:
     """The pieces of `--show a,b,c --show d`."""
-    return [piece for text in words for piece in _split(text)]
+    return [piece for text in words for piece in map(str.strip, pieces(text, ","))]
 
 
 def usual_columns(problem: Problem) -> list[Column]:
@@ -187,18 +188,6 @@ def named_columns(
         if symmetry.name not in scope.kinds:
             found[symmetry.name] = charge_of(symmetry)
     return found
-
-
-def _split(text: str) -> list[str]:
-    """The pieces between the commas that stand in no parentheses."""
-    pieces, depth = [""], 0
-    for character in text:
-        depth += (character == "(") - (character == ")")
-        if character == "," and depth <= 0:
-            pieces.append("")
-        else:
-            pieces[-1] += character
-    return [piece.strip() for piece in pieces]
 
 
 def _read(text: str, option: str, scope: Scope, role: Role) -> Expression:

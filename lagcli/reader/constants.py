@@ -22,8 +22,8 @@ from lagcli.expression import (
     Quotient,
     Sum,
     folded,
+    names_in,
     postorder,
-    walk,
 )
 from lagcli.reader.builder import mistake
 from lagcli.reader.limits import NUMBER_DIGITS, thousands
@@ -192,7 +192,7 @@ def value_cycle(values: dict[str, Expression]) -> tuple[str, str] | None:
     from graphlib import CycleError, TopologicalSorter
 
     uses = {
-        name: {node.name for node in walk(value) if isinstance(node, Name)} & values.keys()
+        name: {node.name for node in names_in(value)} & values.keys()
         for name, value in values.items()
     }
     try:

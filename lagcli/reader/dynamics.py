@@ -390,6 +390,7 @@ def read_by_coordinate(
         file.error(message, heading.span, whole)
         return {}
     named = [key for key, _ in entries if len(key.label) > 2 and _is_name_of(key.label, file)]
+    named = [] if {source_of(value) for _, value in entries} & {*coordinates} else named
     if section == "forces" and len(coordinates) == 1 and named and len(entries) > 1:
         laws = (_of_friction(key.label, source_of(value), coordinates[0]) for key, value in entries)
         total = " + ".join(laws).replace("+ -", "- ")
@@ -410,6 +411,8 @@ def read_by_coordinate(
             if f"{key.label}.x" in file.scope.components and section == "forces":
                 whole = f"{key.label}: {{position: …, force: {source_of(value)}}}"
                 hint = f"a force on a point stands there: {whole}"
+            if section == "forces" and len(coordinates) == 1 and not hint and key in named:
+                hint = f"write {coordinates[0]}" if isinstance(value, Scalar) else ""
             hint = hint or f"it is given along a coordinate: {', '.join(coordinates)}{pointed}"
             if not file.scope.refused:
                 file.error(f"'{key.label}' in {section} is not a coordinate", key.span, hint)

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.expression import Call, Expression, Name, Number, Power, Sum, walk
+from lagcli.expression import Call, Expression, Name, Number, Power, Sum, names_in, walk
 from lagcli.reader.plain_sign import plain_sign
 
 
@@ -60,7 +60,7 @@ def _laws(
 ) -> Iterator[_Law]:
     terms = force.terms if isinstance(force, Sum) else (force,)
     for term in terms:
-        names = [node for node in walk(term) if isinstance(node, Name)]
+        names = names_in(term)
         rates = {each.name for each in names if each.primes}
         known = all(each.name in signs for each in names if not each.primes)
         if len(rates) != 1 or not known or not rates <= {*coordinates}:
@@ -94,7 +94,7 @@ def _sign(term: Expression, signs: Mapping[str, int], velocity: int) -> int:
 
 
 def _rates(force: Expression) -> set[str]:
-    return {node.name for node in walk(force) if isinstance(node, Name) and node.primes}
+    return {node.name for node in names_in(force) if node.primes}
 
 
 def _warning(message: str, term: Expression, hint: str) -> Diagnostic:

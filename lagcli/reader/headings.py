@@ -122,19 +122,18 @@ def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:
     for heading, value in node.entries if isinstance(node, Mapping) else []:
         rate = "'" if RATE.search(heading.label) else ""
         listed = re.fullmatch(r"\((.*,.*)\)", value.value) if isinstance(value, Scalar) else None
-        given_ = listed[1].split(",") if listed else []
-        if given_ and len(given_) == len(coordinates):
-            pairs = zip(coordinates, given_, strict=True)
+        given = listed[1].split(",") if listed else [*map(source_of, getattr(value, "items", ()))]
+        given = re.split(r"\s*;\s*|\s+", given[0]) if len(given) == 1 else given  # [1; 0]
+        known = [*coordinates, *(f"{x}'" for x in coordinates if len(given) > len(coordinates))]
+        if heading.label in coordinates and isinstance(value, Sequence):
+            return ""
+        if given and len(given) == len(known):
+            pairs = zip(known, given, strict=True)
             parts += [f"{name}{rate}: {each.strip()}" for name, each in pairs]
         elif isinstance(value, Scalar):
             parts.append(f"{heading.label}: {source_of(value)}")
         elif number := _number_of(value):
             parts.append(f"{heading.label}: {number}")
-        elif heading.label in coordinates and isinstance(value, Sequence):
-            return ""
-        elif isinstance(value, Sequence) and len(value.items) == len(coordinates):
-            given = zip(coordinates, value.items, strict=True)
-            parts += [f"{name}{rate}: {source_of(each)}" for name, each in given]
         elif isinstance(value, Mapping):
             for key, each in value.entries:
                 name, prime = key.label.rstrip("'"), rate or "'" * key.label.endswith("'")

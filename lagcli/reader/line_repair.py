@@ -177,7 +177,9 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     _without_last,
     _with_points,
     lambda line: re.sub(  # bob: [x, y], m
-        r"^(\s+\w+:\s+)(\[[^\[\]]+\]),\s*(\w+)\s*$", r"\1{position: \2, mass: \3}", line
+        r"^(\s+\w+:\s+)(\[[^\[\]]+\]),\s*(?:m\w*\s*[:=]\s*)?(\w+)\s*$",
+        r"\1{position: \2, mass: \3}",
+        line,
     ),
     lambda line: line.replace(";", ",") if re.search(r"[\[{].*;", line) else line,
     lambda line: re.sub(r"\s+(?:%|--|;)\s*(?=\S)", "  # ", line, count=1),

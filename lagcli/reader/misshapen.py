@@ -21,7 +21,7 @@ from lagcli.reader.habits import (
 )
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import unit_mistake
-from lagcli.reader.regex import regex
+from lagcli.reader.regex import outside, regex
 from lagcli.reader.suggest import closest
 
 #: What is found without a question.
@@ -90,9 +90,7 @@ def as_list(written: str) -> str:
     if re.fullmatch(r"\[[^\[\]]*\]", written.strip()):
         return written.strip()
     within = re.fullmatch(r"\s*[({](.*)[)}]\s*", written, re.DOTALL)
-    outer = within[1] if within else ""
-    while (inner := re.sub(r"\([^()]*\)", "", outer)) != outer:
-        outer = inner
+    outer = outside(within[1] if within else "")
     is_tuple = within is not None and "," in outer and not {"(", ")"} & {*outer}
     return f"[{within[1] if within and is_tuple else written.strip()}]"
 
@@ -208,7 +206,7 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
     unknown = next(iter([*present, *known]), "x")
     if names[0] == "unit" and (advice := _as_attributes(node, written, names)):
         return advice
-    if names[0] == "where" and isinstance(node, Scalar) and written in FOUND:
+    if names[0] == "where" and (written in FOUND or re.search(r"\bdet\(|\beig", written)):
         return ALREADY_FOUND
     if names[0] == "position" and isinstance(node, Scalar):
         entries = re.sub(r"(?:^|(?<=, ))(position|mass|force) +", r"\1: ", written)
@@ -372,8 +370,9 @@ def by_its_name(node: DocumentNode) -> str:
     """
     items = getattr(node, "items", [node])
     texts = [x.value for x in items if isinstance(x, Scalar)]
-    if len(texts) == len(items) and all(re.match(r"[^\W\d]\w*'*: ", each) for each in texts):
-        return ", ".join(texts)
+    lines = "\n".join(texts).strip().split("\n")
+    if len(texts) == len(items) and all(re.match(r"[^\W\d]\w*'*: ", each) for each in lines):
+        return ", ".join(lines)
     each = [item.entries for item in items if isinstance(item, Mapping)]
     if len(each) < len(items) or not all({"name", "id"} & {k.label for k, _ in e} for e in each):
         return ""

@@ -9,6 +9,7 @@ from functools import partial
 from lagcli.evaluation import evaluated
 from lagcli.expression import FUNCTIONS
 from lagcli.reader.expressions import formula_or_none
+from lagcli.reader.regex import outside
 from lagcli.record import record
 
 #: The value and the derivative of a function at some places.
@@ -113,7 +114,7 @@ def _raised(base: str, exponent: str) -> str:
 
 
 def _is_sum(text: str) -> bool:
-    return re.search(r"\s[-+]\s", re.sub(r"\([^()]*(?:\([^()]*\)[^()]*)*\)", "", text)) is not None
+    return re.search(r"\s[-+]\s", outside(text)) is not None
 
 
 def _grouped(text: str) -> str:

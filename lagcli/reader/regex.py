@@ -18,6 +18,13 @@ class _Pattern:
         return value
 
 
+def outside(text: str) -> str:
+    """What stands outside of all parentheses."""
+    while (outer := re.sub(r"\([^()]*\)", "", text)) != text:
+        text = outer
+    return text
+
+
 def regex(source: str, flags: int = 0) -> re.Pattern[str]:
     """The pattern, not compiled yet."""
     return cast("re.Pattern[str]", _Pattern(source, flags))

@@ -57,9 +57,6 @@ _TOTAL_RATE = regex(
 _MOVING = r"(?:omega|Omega|ω|Ω|w|v|u)_?(?:[1-9]|[xyz])|h|height"
 #: A product of two vectors within a formula.
 _CROSS = regex(r"(?<!\w)([^\W\d]\w*)\s*(?:[×⨯]|\\times)\s*([^\W\d]\w*)")
-_SUM_IN_WORDS = regex(
-    r"\\sum(?![a-z])|∑|\b[sS]um(?:me)?\s+(?:over|of|from|all|over all|über|sur)\b"
-)
 _CROSS_IN_WORDS = regex(r"(?<!\w)([^\W\d]\w*)\s+x\s+([rvBEpL])(?!\w)")
 #: A force in the place of an energy.
 _FORCE = regex(r"\s*[FQ](?:_?\w+)?\s*:?=([^=]+)")
@@ -176,8 +173,6 @@ def with_whole(
         rest = [replace(each, span=spans.get(each.message, node.span)) for each in wrong]
         message = "words are no part of a formula" if has_words else first.message
         return [replace(first, message=message, hint=hint), *rest]
-    if _SUM_IN_WORDS.search(node.value):
-        return [Diagnostic("a formula has no sums", node.span, "write each term")]
     cross = _CROSS.search(node.value) or _CROSS_IN_WORDS.search(node.value)
     if cross and not {cross[1], cross[2]} <= scope.kinds.keys():
         hint = "a product of vectors is written by its components, as in x*p_y - y*p_x"

@@ -196,7 +196,13 @@ def _with_value(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
         if last is not None and meant and each.span == last.span:
             last = each  # which says what to do with it
             continue
-        if last is not None and meant and shape and each.hint and _next_to(last, each):
+        if (
+            last is not None
+            and meant
+            and shape
+            and each.hint
+            and each.span.line - last.span.line in {0, 1}
+        ):
             last = replace(last, hint=f"{last.hint}; {each.hint}")
             continue
         if last is not None:
@@ -246,10 +252,6 @@ def _other_keys(group: list[tuple[Diagnostic, re.Match[str]]]) -> Diagnostic:
                 for line, (_, found) in zip(lines[1:], group[1:], strict=True))  # fmt: skip
         hint = f"{_THE_KEY}{group[0][1]['entry']}{''.join(also)}"
     return replace(group[0][0], message=f"unknown keys {listed}", hint=hint)
-
-
-def _next_to(key: Diagnostic, value: Diagnostic) -> bool:
-    return value.span.line - key.span.line in {0, 1}
 
 
 def one_for_undeclared(

@@ -145,9 +145,10 @@ def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[
     other = "" if is_time else word.casefold()  # the time is not T
     alike = [name for name in names if name.casefold() == other]
     meant = alike[0] if len(alike) == 1 else key_meant(word, names)
-    if meant:
+    advice = _advice(word, written, what, names)
+    if meant and not (advice and written in _WISHES):
         return meant, f"the key is {meant}"
-    if advice := _advice(word, written, what, names):
+    if advice:
         return None, advice
     stem = key_of_stem(word, names)
     if stem not in {None, "dissipation", closest(word, names, _NEAR)}:
@@ -349,10 +350,11 @@ def _quadratic_form(word: str, value: DocumentNode, coordinates: list[str]) -> s
         for j, y in enumerate(coordinates[i:], start=i):
             entry = source_of(rows[i][j])
             entry = f"({entry})" if re.search(r"\S\s*[-+]", entry) else entry
+            sign, size_ = entry[: entry[0] == "-"], entry.removeprefix("-")
             pair = f"{x}{prime}^2" if i == j else f"{x}{prime}*{y}{prime}"
             if entry != "0":
-                terms.append(f"{'2*' * (i != j)}{entry}*{pair}")
-    return f"write {key}: ({' + '.join(terms)})/2" if terms else ""
+                terms.append(f"{sign}{'2*' * (i != j)}{size_}*{pair}")
+    return f"write {key}: ({' + '.join(terms).replace('+ -', '- ')})/2" if terms else ""
 
 
 def _weight(value: DocumentNode, around: Mapping) -> str:

@@ -14,14 +14,13 @@ from lagcli.expression import (
     ZERO,
     Call,
     Equation,
-    Name,
     Negative,
     Number,
     Power,
     Quotient,
     factors_of,
+    names_in,
     terms_of,
-    walk,
 )
 from lagcli.reader.expressions import read_equation, sides_of
 from lagcli.reader.foreign.functions import bare_text
@@ -115,8 +114,8 @@ def without_squares(name: str, written: str, others: Iterable[Equation], scope: 
     [speed] = speeds
     if len(axes) == 1:
         return f"write {axes[0]} = {speed}, or {axes[0]} = -{speed}"
-    related = [each for each in others if {*axes} <= {*map(str, _names(each))}]
-    used = {node.name for node in _names(Equation(left, right))}
+    related = [each for each in others if {*axes} <= {*map(str, names_in(*sides_of(each)))}]
+    used = {node.name for node in names_in(left, right)}
     free = [x for x in scope.of_kind("coordinate") if x not in used]
     angles = [x for x in free if is_angle(x)]
     found = [
@@ -131,13 +130,9 @@ def without_squares(name: str, written: str, others: Iterable[Equation], scope: 
     return f"each equation has its own name: {name}_1: {named[0]}, {name}_2: {named[1]}"
 
 
-def _names(equation: Equation) -> list[Name]:
-    return [node for side in sides_of(equation) for node in walk(side) if isinstance(node, Name)]
-
-
 def _holds(equation: Equation, forms: dict[str, str], heading: str) -> bool:
     """Whether velocities along a heading fulfil an equation."""
-    values = {str(node): 0.3 + place for place, node in enumerate(_names(equation))}
+    values = {str(node): 0.3 + place for place, node in enumerate(names_in(*sides_of(equation)))}
     angle = values.get(heading, 0.0)
     values |= {
         axis: FUNCTIONS[form[-3:]](angle) * (1 - 2 * len(form[:-3])) for axis, form in forms.items()

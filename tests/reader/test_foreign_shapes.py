@@ -589,6 +589,15 @@ def test_a_finite_change_is_told_its_small_one(one, other, x, y, name):
 
 
 FURTHER = [
+    (text(initial="{x0: [1; 0]}"), "write {x: 1, x': 0}"),
+    (text(experiment="{until: 10}"), "the key is simulation"),
+    (text(forces="|\n  x: -k*x\n"), "write {x: -k*x}"),
+    (text(V="piecewise(x < 0, k*x^2/2, 0)"), "write (k*x^2/2)*(1 - sign(x))/2"),
+    (text(V="k*cosd(x)"), "write k*cos(x*pi/180)"),
+    (text(find="{w: 'solve(det(K - w^2*M) = 0, w)'}"), "equilibria, frequencies and charges are found"),
+    (text(forces="{friction: -k*sign(x')*m}"), "write x"),
+    (text(points="\n  bob: [x, 0], mass = m"), "write bob: {position: [x, 0], mass: m}"),
+    (text(points="{b: {position: '0 0 -0.5', mass: m}}", T=None), "write [0, 0, -0.5]"),
     (text(find="x' where x = 3"), "write {name: {where: x = 3, for: x'}}"),
     (text(find="[k such that x = 0, 'solve x = 0 for m']"),
      "write {q1: {where: x = 0, for: k}, q2: {where: x = 0, for: m}}"),

@@ -10,6 +10,7 @@ from lagcli.reader.foreign.sums import Part, Sums, raised
 from lagcli.reader.foreign.tokens import SIGNS, Token
 from lagcli.reader.foreign.words import UnclearText, function_named
 from lagcli.reader.habits import POWERS, RATES, SQUARES, written_out
+from lagcli.reader.regex import outside
 
 
 class Functions(Sums):
@@ -134,10 +135,8 @@ class Functions(Sums):
         text = re.sub(r"(?<=abs\()0 - |(?<=\()0 \+ | [-+] 0(?=[ )])", "", text)
         if form == "{0}" and re.fullmatch(r"[\w.]+", text):
             return Part(text, 3)
-        is_sum = (
-            re.search(r"[-+]", re.sub(r"\([^()]*(?:\([^()]*\)[^()]*)*\)", "", form)) is not None
-        )
-        return Part(text, 0 if is_sum else 1)
+        is_sum = re.search(r"[-+]", outside(form)) is not None
+        return Part(text, 0 if is_sum else 3 if re.fullmatch(r"\w+\([^()]*\)", form) else 1)
 
     def partial(self, word: str, arguments: list[str]) -> Part:
         """A derivative by a name other than t."""
@@ -178,11 +177,10 @@ def bare(part: Part) -> str:
 
 def bare_text(text: str) -> str:
     """Without the parentheses around it."""
-    if not (text.startswith("(") and text.endswith(")")):
-        return text
-    depth = 0
-    for place, each in enumerate(text):
-        depth += {"(": 1, ")": -1}.get(each, 0)
-        if depth == 0 and place + 1 < len(text):
-            return text
-    return text[1:-1]
+    inner = text[1:-1]
+    return inner if text == f"({inner})" and balanced(inner) else text
+
+
+def balanced(text: str) -> bool:
+    """Whether each parenthesis is closed that is opened, and no other."""
+    return not {"(", ")"} & {*outside(text)}

@@ -7,7 +7,7 @@ import re
 from functools import partial
 
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant
-from lagcli.reader.regex import regex
+from lagcli.reader.regex import outside, regex
 
 #: The limits behind the term, in the call of a function: i=1..3, (i, 1, 3), i, 1, 3.
 _CALL = regex(r"(?<![\w.])(?:\w+\.)?[sS]um\s*[(\[]")
@@ -143,16 +143,9 @@ def _terms(term: str, limits: re.Match[str], names: Vocabulary) -> str:
             return found_names[0]
 
         written = used.sub(named, term)
-        return f"({written})" if re.search(r"(?<=[\w)'])\s*[-+]", _outside(written)) else written
+        return f"({written})" if re.search(r"(?<=[\w)'])\s*[-+]", outside(written)) else written
 
     return f"({' + '.join(map(at, places))})"
-
-
-def _outside(text: str) -> str:
-    """What stands outside of all parentheses."""
-    while (inner := re.sub(r"\([^()]*\)", "", text)) != text:
-        text = inner
-    return text
 
 
 def _closing(text: str, start: int) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Container
 
-from lagcli.reader.foreign.functions import bare_text
+from lagcli.reader.foreign.functions import balanced, bare_text
 from lagcli.reader.regex import regex
 
 #: One axis by its index, its letter or i, j, k.
@@ -69,16 +69,15 @@ def components(text: str, known: Container[str], length: int = 0) -> list[str]:
 def with_commas(text: str, coordinates: Container[str]) -> str:
     """What is written for `x -l*cos(a)`, in which blanks separate components.
 
-    They do where each part has a sign, or where it is no factor of a product: `x y`.  Empty where
-    there is one part.
+    They do where each part has a sign, or is no factor of a product: `x y`.  Empty for one part.
     """
     text = bare_text(" ".join(text.split()))
     parts = _split(text, _GAP)
     signed = [re.match("[-+−]", each) is not None for each in parts[1:]]
-    whole = [each in coordinates or each == "0" or "*" in each for each in parts]
+    whole = [each in coordinates or re.search(r"[*\d]", each) for each in parts]
     if "," in text or not signed:
         return ""
-    if (all(signed) or (all(whole) and not any(signed))) and not parts[3:]:
+    if (all(signed) or all(whole)) and not parts[3:]:
         listed = ", ".join(each.removeprefix("+") for each in parts)
         return f"a comma stands between components: write [{listed}]"
     return "a comma stands between components, as in [x, y]"
@@ -96,7 +95,7 @@ def _scaled_list(text: str) -> list[str]:
     """The components of `l*(a, b)`."""
     for product in re.finditer(r"\s*\*\s*\((?=.*\)$)", text):
         factor, inside = text[: product.start()], text[product.end() : -1]
-        if _balanced(factor) and _balanced(inside) and len(_split(factor, _TERMS)) == 1:
+        if balanced(factor) and balanced(inside) and len(_split(factor, _TERMS)) == 1:
             parts = _split(inside, ",")
             return [_scaled(factor, part) for part in parts] if len(parts) > 1 else []
     return []
@@ -138,16 +137,6 @@ def _scaled(factor: str, part: str) -> str:
     sign = "-" if re.fullmatch(r"-[^-+]*", part) else ""
     part = part.removeprefix(sign)
     return f"{sign}{factor}*{part}" if not re.search(r"[-+]", part) else f"{factor}*({part})"
-
-
-def _balanced(text: str) -> bool:
-    """Whether no parenthesis is closed that was not opened before."""
-    depth = 0
-    for each in text:
-        depth += {"(": 1, ")": -1}.get(each, 0)
-        if depth < 0:
-            return False
-    return depth == 0
 
 
 def _split(text: str, between: str) -> list[str]:
