@@ -226,7 +226,6 @@ def _split_name(token: Token) -> tuple[str, int]:
             and not (unicodedata.category(character) == "Nd")
         ):
             raise mistake(
-                f"a name has letters, digits and underscores, not '{character}'",
-                span_of(token),
+                f"a name has letters, digits and underscores, not '{character}'", span_of(token)
             )
     return name, primes

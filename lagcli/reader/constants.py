@@ -162,7 +162,8 @@ def _reciprocal(part: _Constant) -> _Constant:
 
 def _power(node: Power, base: _Constant, exponent: _Constant) -> _Constant:
     if exponent.value is None:
-        return _Constant(inf if _is_large(exponent) and base.digits > 0 else 0.0)
+        is_large = exponent.digits > NUMBER_DIGITS  # even 2 to it has no end
+        return _Constant(inf if is_large and base.digits > 0 else 0.0)
     if exponent.value < 0 and base.value == 0:
         raise mistake("division by zero", node.span, "0 has no negative power")
     if base.digits == 0 or base.value == 0:
@@ -173,11 +174,6 @@ def _power(node: Power, base: _Constant, exponent: _Constant) -> _Constant:
     if base.value is None or exponent.value.denominator != 1 or digits > NUMBER_DIGITS:
         return _Constant(digits)
     return _Constant.of(base.value ** int(exponent.value))
-
-
-def _is_large(exponent: _Constant) -> bool:
-    """Whether the exponent has been too large to follow: even 2 to it has no end."""
-    return exponent.digits > NUMBER_DIGITS
 
 
 def _sign_power(base: Fraction | None, exponent: Fraction) -> Fraction:

@@ -277,7 +277,7 @@ def read_components(
         file.error(message, node.span, _CARTESIAN)
         return []
     if isinstance(node, Scalar) and not node.is_empty:
-        hint = f"write {as_list(_shown(node.value))}"
+        hint = f"write {as_list(node.value if len(node.value) <= 40 else '…')}"
         alone = re.sub(r"^\s*\w+\s*=(?!=)\s*", "", node.value)
         if written := components(alone, known, length):
             file.error(f"{what} must be a list, not a text", node.span, _listed(written))
@@ -355,15 +355,6 @@ def _is_name_of(label: str, file: FileReader) -> bool:
     meant = coordinate_meant(label.rstrip("'"), coordinates).rstrip("'")
     is_known = label in coordinates or meant in coordinates
     return not (is_known or did_you_mean(label, coordinates) or file.scope.refused)
-
-
-def _shown(text: str) -> str:
-    return text if len(text) <= 40 else "…"
-
-
-def read_forces(file: FileReader, node: DocumentNode) -> dict[str, Expression]:
-    """The generalized forces by coordinate."""
-    return read_by_coordinate(file, node, "forces", "the force along '{}'")
 
 
 def _of_friction(name: str, law: str, x: str) -> str:

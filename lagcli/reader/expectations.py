@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
 #: The fields of `Expect` that are no answers of one section.
 _FIELDS = frozenset(Expect.__annotations__) - {"others", "ranges", "spans"}
-
-
 #: Letters of conserved quantities.
 _LETTERS = {
     **dict.fromkeys("EHhW", "energy"),

@@ -13,12 +13,7 @@ from lagcli.reader.by_coordinate import state_meant
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression, sides_of
 from lagcli.reader.friction_meant import friction_meant
 from lagcli.reader.growth import growth
-from lagcli.reader.habits import (
-    LISTS,
-    MAPS,
-    habits,
-    key_meant,
-)
+from lagcli.reader.habits import LISTS, MAPS, habits, key_meant
 from lagcli.reader.headings import SECTIONS, section_meant
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.misshapen import (

@@ -7,11 +7,14 @@ does so in magnetic fields and rotating frames, with the opposite sign along y.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import partial
 from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import Call, Expression, Name, Number, Power, Sum, names_in, walk
 from lagcli.reader.plain_sign import plain_sign
+
+_warning = partial(Diagnostic, severity="warning")
 
 
 def friction_slips(
@@ -35,7 +38,7 @@ def friction_slips(
         for law in own if is_alone else ():
             if law.sign > 0:
                 message = f"this force along {x} drives the motion: it has the sign of {x}'"
-                yield _warning(message, law.term, f"friction is opposite to it, as in -c*{x}'")
+                yield _warning(message, law.term.span, f"friction is opposite to it, as in -c*{x}'")
         others = [law for law in found if law.along != x]
         for law in others if not own and len(others) == 1 and _rates(forces[x]) != {x} else ():
             back = [each for each in laws.get(law.along, ()) if each.along == x]
@@ -43,7 +46,7 @@ def friction_slips(
             if is_swapped or (law.is_dry and not back):
                 message = f"this force along {x} is against the velocity {law.along}'"
                 hint = f"friction along {x} depends on {x}'"
-                yield _warning(message, law.term, hint)
+                yield _warning(message, law.term.span, hint)
 
 
 class _Law(NamedTuple):
@@ -95,7 +98,3 @@ def _sign(term: Expression, signs: Mapping[str, int], velocity: int) -> int:
 
 def _rates(force: Expression) -> set[str]:
     return {node.name for node in names_in(force) if node.primes}
-
-
-def _warning(message: str, term: Expression, hint: str) -> Diagnostic:
-    return Diagnostic(message, term.span, hint, severity="warning")

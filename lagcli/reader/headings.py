@@ -11,8 +11,6 @@ from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
 
-#: Longer maps are not repeated in a hint.
-_LONGEST = 120
 #: Words for velocities and for places.
 RATE = regex(r"veloc|speed|rate|dot|geschw|vitesse|prędk|скорост|^v$", re.IGNORECASE)
 PLACE = regex(
@@ -27,8 +25,6 @@ SYSTEMS = {
     "cylindrical": "[r, phi, z]",
     "generalized": "[q_1, q_2]",
 }
-
-
 _SPEED = regex("(?i:(?:initial_|launch_)?(?:speed|velocity)|v_?0?)")
 _SLOPE = regex(
     "(?i:(?:initial_|launch_)?(?:angle|direction|elevation|inclination)|alpha|theta)_?0?"
@@ -88,8 +84,6 @@ def without_headings(node: DocumentNode, attributes: tuple[str, ...]) -> tuple[S
             parts += [each.value for each in value.items if isinstance(each, Scalar)]
     whole = ", ".join(parts)
     brackets = "{%s}" if valued else "[%s]"
-    if len(whole) > _LONGEST:
-        return headings[0], f"leave out '{headings[0].label}': its names stand without a heading"
     return headings[0], f"write {brackets % whole}"
 
 

@@ -91,11 +91,6 @@ def _with_points(line: str) -> str:
     return re.sub(r"(?<=\d),(?=\d)", ".", line).replace(";", ",")
 
 
-def _separated(line: str) -> str:
-    """`{m: 1, k: 2}` for `{m: 1 k: 2}`."""
-    return re.sub(r"([\w.)\]'\"])\s+(?=[\"']?[^\W\d]\w*[\"']?:\s)", r"\1, ", line)
-
-
 def _listed(line: str) -> str:
     """`[x, y]` for `{x[t], y[t]}`."""
     names = re.sub(r"[\[(]t[\])]", "", line)
@@ -187,7 +182,9 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"(?<=[:,\[] )[%@`&!*](?=\w)", "", line),
     _listed,
     _closed,
-    _separated,
+    lambda line: re.sub(  # {m: 1 k: 2}
+        r"([\w.)\]'\"])\s+(?=[\"']?[^\W\d]\w*[\"']?:\s)", r"\1, ", line
+    ),
     lambda line: line.rstrip() + "," if re.match(r"\s+[\w\"']+:.*[^:,]$", line) else line,
     lambda line: re.sub(r"(?<=[\w)\]}\"'])\s*[;,.]\s*$", "", line),
     _quoted,

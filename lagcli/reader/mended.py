@@ -202,10 +202,6 @@ def _count_after(state: _State, edit: Edit) -> int:
     return sum(_is_undeclared(each) or lines[0] <= each.span.line <= lines[1] for each in wrong)
 
 
-def _names(mistake: Diagnostic) -> set[str]:
-    return {*re.findall(r"'(\w+)'", mistake.message)}
-
-
 def _is_undeclared(mistake: Diagnostic) -> bool:
     return UNDECLARED in mistake.hint or COORDINATE in mistake.hint
 
@@ -238,7 +234,9 @@ def mended(
     for each in mistakes:
         place = state.text.offsets(each.span) if each.span.line > 0 else None
         owner = state.owner(place) if place else None
-        is_author = owner is None or (_is_undeclared(each) and _names(each) & work.words)
+        is_author = owner is None or (
+            _is_undeclared(each) and {*re.findall(r"'(\w+)'", each.message)} & work.words
+        )
         if is_author:
             span = work.span_in_file(state, place) if place else each.span
             rest.append(replace(each, span=span))

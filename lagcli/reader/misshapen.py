@@ -36,8 +36,6 @@ ALREADY_FOUND = (
 )
 FRICTION = "a friction force -c*x' is written dissipation: c*x'^2/2"
 WITHOUT_HYPHENS = "leave out the '-' before each key"
-
-
 #: `0:0.1:1`, also without the step.
 RANGE = regex(
     r"\s*[\[(]?\s*(-?[\d.]*\d)\s*(?:\.\.+|…|to|bis|:|–)\s*(?:(-?[\d.]*\d)\s*:\s*)?"

@@ -6,16 +6,7 @@ import re
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.expression import (
-    FUNCTIONS,
-    Call,
-    Diff,
-    Expression,
-    Name,
-    PartialCall,
-    Quotient,
-    walk,
-)
+from lagcli.expression import FUNCTIONS, Call, Diff, Expression, Name, PartialCall, Quotient, walk
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.reader.foreign.words import VELOCITIES, Vocabulary, rate_meant, square_of_speed
 from lagcli.reader.habits import foreign_function, habits, instead, is_angle, meanings
@@ -317,7 +308,7 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
             yield _wrong_count(name, arity, count, node)
     elif name in scope.kinds or name in {"t", "pi"} or scope.coordinate_of_momentum(name):
         written = name + "'" * node.primes
-        message = f"{written} is {_a(scope.kinds.get(name))}, not a function"
+        message = f"{written} is a {scope.kinds.get(name, 'quantity')}, not a function"
         hint = f"did you mean {written}*(…)?"
         if scope.kinds.get(name) == "coordinate" and any(
             isinstance(part, Name) and part.name == "t"
@@ -345,10 +336,6 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
             hint = f"write {power[1]}({inner})^2, or {power[1]}(2*{inner}) for the double angle"
         hint = instead(name) or hint
         yield Diagnostic(f"unknown function '{name}' in {what}", node.span, hint)
-
-
-def _a(kind: str | None) -> str:
-    return f"a {kind}" if kind else "a quantity"
 
 
 def _wrong_count(name: str, arity: int, count: int, node: Expression) -> Diagnostic:

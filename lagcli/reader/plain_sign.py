@@ -5,15 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from lagcli.expression import (
-    Expression,
-    Negative,
-    Number,
-    Product,
-    Quotient,
-    Sum,
-    folded,
-)
+from lagcli.expression import Expression, Negative, Number, Product, Quotient, Sum, folded
 
 
 def plain_sign(formula: Expression, other: Callable[[Expression, list[int]], int]) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from pathlib import PurePath
 from typing import TYPE_CHECKING
 
@@ -16,8 +17,8 @@ from lagcli.reader.dynamics import (
     check_masses,
     check_momenta,
     declare_definitions,
+    read_by_coordinate,
     read_definitions,
-    read_forces,
     read_points,
 )
 from lagcli.reader.expectations import ExpectReader
@@ -110,21 +111,18 @@ def read_problem(source_name: str, data: bytes) -> ProblemReading:
     except Mistake as error:
         from lagcli.reader.line_repair import all_mistakes
 
-        found = all_mistakes(source.text, error.diagnostics, _mistakes, _mistakes_in_lines)
+        found = all_mistakes(
+            source.text, error.diagnostics, _mistakes, partial(_mistakes, alone=False)
+        )
         return ProblemReading(source, None, found)
 
 
 def _mistakes(source: Source, *, alone: bool = True) -> tuple[bool, tuple[Diagnostic, ...]]:
-    """Whether YAML reads a text, and the mistakes in it."""
+    """Whether YAML reads a text, and its mistakes; with `alone` also those that others hide."""
     try:
         return True, _read_source(source, alone=alone).diagnostics
     except Mistake as error:
         return False, error.diagnostics
-
-
-def _mistakes_in_lines(source: Source) -> tuple[bool, tuple[Diagnostic, ...]]:
-    """The same without those that others hide."""
-    return _mistakes(source, alone=False)
 
 
 def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
@@ -133,10 +131,12 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
     With `alone` the one cause of several terms that do not fit is reported, where there is one.
     """
     root, problem, mistakes = _composed(source, alone=alone)
+    entries = root.entries if isinstance(root, Mapping) else []
+    meant = [(key_meant(key.label, KEYS), value) for key, value in entries]
     if alone and problem is None:
         from lagcli.reader.mended import mended
 
-        lines = _declaring(root)
+        lines = [(v.span.line, v.span.end_line) for key, v in meant if key in _OF_NAMES]
         mistakes = mended(
             source,
             lambda text: _composed(text, alone=False),
@@ -144,8 +144,8 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
             lambda each: any(first <= each.span.line <= last for first, last in lines),
         )
     by_place = one_for_alike(sorted(mistakes, key=lambda each: each.span))
-    declared = one_for_undeclared(by_place, _parameters(root))
-    entries = root.entries if isinstance(root, Mapping) else []
+    parameters = (source.text[v.start : v.end] for key, v in meant if key == "parameters")
+    declared = one_for_undeclared(by_place, next(parameters, ""))
     sections = [(key.span.line, key.label) for key, _ in entries]
     shaped = one_for_shapes(declared, sections)
     found = one_for_habit(shaped, [line for line, _ in sections])
@@ -169,9 +169,9 @@ def _composed(
     found = without_wrong_texts(file.diagnostics)
     file.diagnostics[:] = found if _X.search(source.text) else _in_own_names(found, file.scope.free)
     if problem is not None and not file.diagnostics:
-        file.diagnostics += dimension_mistakes(problem, _reading if alone else None) or slips(
-            problem
-        )
+        file.diagnostics += dimension_mistakes(
+            problem, (lambda text: _composed(text, alone=False)[1:]) if alone else None
+        ) or slips(problem)
     elif any(each.is_error for each in file.diagnostics):
         problem = None
     return root, problem, file.diagnostics
@@ -188,26 +188,6 @@ def _in_own_names(found: list[Diagnostic], coordinates: list[str]) -> list[Diagn
     return mended
 
 
-def _reading(source: Source) -> tuple[Problem | None, list[Diagnostic]]:
-    """The problem that a text writes, and its mistakes."""
-    _, problem, mistakes = _composed(source, alone=False)
-    return problem, mistakes
-
-
-def _declaring(root: DocumentNode) -> list[tuple[int, int]]:
-    """The first and last line of each section that declares names."""
-    entries = root.entries if isinstance(root, Mapping) else []
-    named = (value for key, value in entries if key_meant(key.label, KEYS) in _OF_NAMES)
-    return [(each.span.line, each.span.end_line) for each in named]
-
-
-def _parameters(root: DocumentNode) -> str:
-    """The parameters as the file writes them; nothing where it has none."""
-    given = root.entries if isinstance(root, Mapping) else []
-    found = (v for k, v in given if key_meant(k.label, KEYS) == "parameters")
-    return next((v.text.source.text[v.start : v.end] for v in found), "")
-
-
 def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | None:
     """Declare every name, then read every formula."""
     span = Span(1, 1, 1, 1)
@@ -222,7 +202,7 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
         file.error(message, span, "leave out the '-' before each key")
         return None
     inner = [value for _, value in root.entries]
-    if all(isinstance(each, Mapping) and _is_problem(each) for each in inner):
+    if all("coordinates" in {k.label for k, _ in getattr(x, "entries", ())} for x in inner):
         key = root.entries[0][0]
         message = f"the problem stands under '{key.label}'"
         hint = "its keys begin the lines; the name is title: …"
@@ -279,7 +259,7 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
         potential=formula("V"),
         lagrangian=formula("L"),
         hamiltonian=formula("H", PHASE_SPACE),
-        forces=read_forces(file, section("forces")),
+        forces=read_by_coordinate(file, section("forces"), "forces", "the force along '{}'"),
         dissipation=formula("dissipation"),
         constraints=constraints_read,
         contacts=contacts_read,
@@ -319,10 +299,6 @@ def _rename(file: FileReader, problem: Problem) -> None:
             replace(each, hint=f"did you mean '{unused[0]}'?")
             if each.message.startswith(begin) else each for each in file.diagnostics
         ]  # fmt: skip
-
-
-def _is_problem(node: Mapping) -> bool:
-    return "coordinates" in {key.label for key, _ in node.entries}
 
 
 def _stem(name: str) -> str:

@@ -9,13 +9,7 @@ from lagcli.expression import FUNCTIONS
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
 from lagcli.reader.constants import value_cycle
-from lagcli.reader.habits import (
-    SIGNS,
-    is_constant,
-    name_meant,
-    spoken_unit,
-    unit_behind,
-)
+from lagcli.reader.habits import SIGNS, is_constant, name_meant, spoken_unit, unit_behind
 from lagcli.reader.headings import without_headings
 from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, entries_of, named_formulas, source_of, swept

@@ -31,11 +31,7 @@ _INEQUALITY = regex(r"(?<!-)[<>]|[≤≥]")
 _A_CONTACT = "an inequality is a contact, not a constraint"
 _FORMULA = regex("[-+*/^=(]")
 _ROLLING = "equation, as in rolling: x' = R*theta'"
-_FORCES: dict[str, ForceKind] = {
-    "normal": "normal",
-    "friction": "friction",
-    "tension": "tension",
-}
+_FORCES: dict[str, ForceKind] = {"normal": "normal", "friction": "friction", "tension": "tension"}
 
 
 def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:

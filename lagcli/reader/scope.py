@@ -187,7 +187,7 @@ def name_mistake(name: str, *, one: bool = False) -> tuple[str, str] | None:
         better = name.lstrip("0123456789") + name[: -len(name.lstrip("0123456789"))]
         hint = "a name does not begin with a digit"
         return f"'{name}' is not a name", f"{hint}: write {better}" if better else hint
-    if not all(_is_name_character(character) for character in name):
+    if not all(each == "_" or each.isalpha() or each.isdecimal() for each in name):
         better = name_meant(name, one=one) or (
             "every name in full" if set(name) <= {".", "…"} else ""
         )
@@ -196,7 +196,3 @@ def name_mistake(name: str, *, one: bool = False) -> tuple[str, str] | None:
         message = f"'{name}' is not a name: a name has letters, digits and underscores"
         return message, f"write {better}" if better else ""
     return None
-
-
-def _is_name_character(character: str) -> bool:
-    return character == "_" or character.isalpha() or character.isdecimal()

@@ -102,16 +102,13 @@ def one_for_shapes(
     if not found[1:]:
         return tuple(diagnostics)
     listed = ", ".join(name for _, name in found[:-1])
-    wholes = [f"{name}: {_in_braces(each.hint.removeprefix('write '))}" for each, name in found]
+    texts = [(name, each.hint.removeprefix("write ")) for each, name in found]
+    wholes = [f"{name}: {x if x[:1] in '[{' else f'{{{x}}}'}" for name, x in texts]
     message = f"{listed} and {found[-1][1]} must be lists or maps"
     whole = replace(found[0][0], message=message, hint=f"write {'; '.join(wholes)}")
     gone = [each for each, _ in found[1:]]
     kept = (whole if each is found[0][0] else each for each in diagnostics)
     return tuple(each for each in kept if all(each is not other for other in gone))
-
-
-def _in_braces(written: str) -> str:
-    return written if written[:1] in "[{" else f"{{{written}}}"
 
 
 def one_for_habit(
@@ -148,15 +145,12 @@ def one_for_habit(
 def _has_same_cause(one: Diagnostic, other: Diagnostic) -> bool:
     if not other.hint or other.hint.startswith("did you mean '") or UNDECLARED in other.hint:
         return False
-    if one.related or other.related or _unquoted(one.message) != _unquoted(other.message):
+    unquoted, others = (_QUOTED.sub("''", each.message) for each in (one, other))
+    if one.related or other.related or unquoted != others:
         return False
-    words, others = one.hint.split(), other.hint.split()
-    same = sum(map(str.__eq__, words, others))
-    return words[0] == others[0] and (words[0] == "write" or 2 * same >= len(words) == len(others))
-
-
-def _unquoted(message: str) -> str:
-    return _QUOTED.sub("''", message)
+    words, rest = one.hint.split(), other.hint.split()
+    same = sum(map(str.__eq__, words, rest))
+    return words[0] == rest[0] and (words[0] == "write" or 2 * same >= len(words) == len(rest))
 
 
 def _joined(group: list[Diagnostic]) -> Diagnostic:

@@ -114,14 +114,10 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         if within := re.search(r"(?:value|assume|range|sign):\s*$", before):
             span = text.span(text.line_starts[number] + within.start(), offset + sign.end())
         return Diagnostic("this is no value", span, f"write {entry if within else f'{{{entry}}}'}")
-    if after.startswith("|"):
-        return Diagnostic(
-            "'|' has no meaning in an expression", span, "a modulus is written abs(x)"
-        )
-    if bars := re.match(r"[^|]*:\s+(\|[^|]+\|)", line):
-        at = text.line_starts[number] + bars.start(1)
-        message = "'|' has no meaning in an expression"
-        return Diagnostic(message, text.span(at, at + 1), "put the whole value in quotes")
+    if bars := re.match(r"\|()", after) or re.match(r"[^|]*:\s+(\|[^|]+\|)", line):
+        at = text.line_starts[number] + bars.start(1) if bars[1] else offset
+        hint = "put the whole value in quotes" if bars[1] else "a modulus is written abs(x)"
+        return Diagnostic("'|' has no meaning in an expression", text.span(at, at + 1), hint)
     for pattern, message, hint in habits()["lines"]:
         if found := re.search(pattern, line):
             return Diagnostic(message, span, found.expand(hint))

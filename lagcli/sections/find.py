@@ -20,12 +20,11 @@ from lagcli.problem_data import (
     Rewrite,
     Where,
 )
-from lagcli.reader.expected_ranges import read_ranges
 from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.nodes import Sequence as ListNode
 from lagcli.reader.schema_parts import ONE_OR_MORE
 from lagcli.reader.schema_parts import map_of as names_to
-from lagcli.reader.scope import ANSWER
+from lagcli.reader.scope import ANSWER, CONSTANTS
 from lagcli.record import replace
 from lagcli.statements.answers import Answers
 from lagcli.statements.declaration import Expected, Explained, declared, step
@@ -44,6 +43,7 @@ if TYPE_CHECKING:
     from lagcli.mechanics.large_statements import LargeStatements
     from lagcli.mechanics.statements import Statements
     from lagcli.reader.expectations import ExpectReader
+    from lagcli.reader.file_reader import FileReader
     from lagcli.studies.check.expectations import Expectations, Found
     from lagcli.studies.check.findings import Finding
 
@@ -176,11 +176,26 @@ def read(reader: ExpectReader, node: DocumentNode) -> dict[str, tuple[Expression
         what = f"the expected answer to '{key.label}'"
         question = reader.questions[key.label]
         if isinstance(question, Lasting | Reaching):
-            ranges = read_ranges(reader.file, items, question.unknown, what)
-            reader.ranges[key.label] = ranges
+            reader.ranges[key.label] = tuple(
+                _bounds(reader.file, item, question.unknown, what) for item in items
+            )
             continue
         found[key.label] = tuple(reader.file.expression(item, what, ANSWER) for item in items)
     return found
+
+
+def _bounds(
+    file: FileReader, node: DocumentNode, unknown: Name, what: str
+) -> tuple[Inequality, ...]:
+    """One range: `v <= a`, or a list of bounds, `[v > b, v < c]`."""
+    found = []
+    for each in node.items if isinstance(node, ListNode) else [node]:
+        bound = file.comparison(each, what, CONSTANTS)
+        if bound is not None and bound.left != unknown:
+            file.error(f"{what} is a bound of {unknown}", each.span, f"write {unknown} >= 0")
+        elif bound is not None:
+            found.append(bound)
+    return tuple(found)
 
 
 def compare(

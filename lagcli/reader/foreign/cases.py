@@ -18,14 +18,8 @@ _FORMS = (
     rf"(?:\w+\.)?Piecewise\(\((?P<then>[^,]+),{_RELATION}\),\s*\((?P<other>[^,]+),[^,]+\)\)",
     rf"(?P<then>.+?)\s*,?\s+(?:for|if|when)\s+{_RELATION}(?:[,;]\s*(?:else\s+)?(?P<other>0).*)?",
 )
-
-
 #: A group in parentheses with one more level inside.
 _GROUP = regex(r"(?<!\w)\(((?:[^()]|\([^()]*\))*)\)")
-
-
-def _within(group: re.Match[str]) -> str:
-    return f"({without_cases(group[1])})"
 
 
 def _balanced(text: str | None) -> bool:
@@ -37,7 +31,7 @@ def without_cases(text: str) -> str:
     matches = (re.fullmatch(form, text.strip()) for form in _FORMS)
     found = next((each for each in matches if each and all(map(_balanced, each.groups()))), None)
     if found is None:
-        return _GROUP.sub(_within, text)
+        return _GROUP.sub(lambda group: f"({without_cases(group[1])})", text)
     left, right = found["left"].strip(), found["right"].strip()
     right = right if re.fullmatch(r"[\w.]+'*", right) else f"({right})"
     difference = left if right == "0" else f"{left} - {right}"

@@ -53,7 +53,8 @@ def components(word: str, names: Vocabulary) -> list[str]:
         named = [at.replace(".", "_") for at in places]  # of a vector of the file
         found = [x if x in names.known else each for x, each in zip(named, found, strict=True)]
         return [component(each, primes, names) if each else "" for each in found]
-    if stem in _USUAL and bare not in names.known and (index or _is_cartesian(names)):
+    is_cartesian = len(names.coordinates) > 1 and {*names.coordinates} <= {*"xyz"}
+    if stem in _USUAL and bare not in names.known and (index or is_cartesian):
         spelled = [(f"{x}{index}", f"{x}_{index}" if index else x) for x in "xyz"]
         axes = [next((x for x in each if x in names.coordinates), "") for each in spelled]
         return [_USUAL[stem].format(x) + primes if x else "" for x in axes]
@@ -74,10 +75,6 @@ def component(formula: str, primes: str, names: Vocabulary) -> str:
         return f"({near(formula, values).rate})"
     except (KeyError, ArithmeticError, ValueError):
         raise UnclearText from None
-
-
-def _is_cartesian(names: Vocabulary) -> bool:
-    return len(names.coordinates) > 1 and {*names.coordinates} <= {*"xyz"}
 
 
 def _squares(text: str, names: Vocabulary) -> str:

@@ -27,8 +27,6 @@ _MADE = regex(
     r"|<(.*)>|⟨(.*)⟩|\\begin\{\w*(?:matrix|array)\}(.*)\\end\{\w*(?:matrix|array)\}",
     re.DOTALL,
 )
-
-
 #: `F in x direction`, `-m*g along y`.
 _IN_WORDS = regex(
     r"(?P<rest>[^,]+?)\s+(?:in|along|to)\s+(?:the\s+)?(?:direction\s+(?:of\s+)?)?(?P<axis>[xyz])"

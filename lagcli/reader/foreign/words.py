@@ -19,12 +19,8 @@ _SPEEDS = ("v", "v_")
 _LOWERED = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 #: Letters that are a velocity of the only coordinate: v of x, ω of an angle.
 VELOCITIES = frozenset({"v", "velocity", "speed", "omega", "ω"})
-
-
 #: A longer word is no product; one of Latin letters without a function is none that is as long.
 _LONGEST, _LETTERS = 40, 8
-
-
 _GREEK = regex(r"^[A-Za-z]+")
 #: A dot in the words of other languages, behind its coordinate.
 _DOT_WORDS = ("punkt", "point", "punto", "ponto", "kropka", "punt", "tochka", "vel", "rate")
