@@ -325,7 +325,8 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         yield Diagnostic(message, node.span, hint)
     elif not scope.refused or instead(name) or foreign_function(name):
         functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]
-        best = "" if foreign_function(name) else closest(name, functions)
+        spelled = name.lower() if len(name) > 1 and name.isupper() else name  # LN
+        best = "" if foreign_function(name) else closest(spelled, functions)
         given = [
             str(x) if isinstance(x, Name) else "xyzuvw"[i % 6] for i, x in enumerate(node.arguments)
         ]
