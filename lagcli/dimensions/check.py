@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import chain, combinations, islice
 from math import isclose, pi, prod
 
-from lagcli.diagnostics import Diagnostic, Severity, Span
+from lagcli.diagnostics import NOWHERE, Diagnostic, Severity, Span
 from lagcli.dimensions.demands import LAGRANGIAN
 from lagcli.dimensions.forms import ENERGY, TIME, Form, minus, plus, times, unknowns
 from lagcli.dimensions.inference import Inference, gives_units, quantities
@@ -286,7 +286,7 @@ class _Checker:
             message, hint = self._incoherence(found)
             related = (
                 ()
-                if found.other is None
+                if found.other is None or found.other.span == NOWHERE
                 else ((found.other.span, f"'{found.other.name}' is here"),)
             )
             yield Diagnostic(message, found.named.span, hint, severity, related)

@@ -223,9 +223,11 @@ def _split_name(token: Token) -> tuple[str, int]:
         if (
             character != "_"
             and unicodedata.category(character)[0] != "L"
-            and not (unicodedata.category(character) == "Nd")
+            and unicodedata.category(character) != "Nd"
         ):
-            raise mistake(
-                f"a name has letters, digits and underscores, not '{character}'", span_of(token)
-            )
+            from lagcli.reader.habits import superscript
+
+            message = f"a name has letters, digits and underscores, not '{character}'"
+            message = "a power is written with '^'" if superscript(character) else message
+            raise mistake(message, span_of(token))
     return name, primes

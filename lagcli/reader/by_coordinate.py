@@ -165,7 +165,7 @@ def state_meant(word: str, coordinates: list[str]) -> str:
     from lagcli.reader.foreign.words import UnclearText
 
     spoken = re.sub(r"\s+(?:dot|prime|punkt|point)$", "_dot", word)
-    plain = re.sub(r"(\(\s*(?:t\s*=\s*)?0\s*\)|_?0)$", "", spoken)
+    plain = re.sub(r"(?:\(\s*(?:t\s*=\s*)?0\s*\)|_?0)('*)$", r"\1", spoken)
     try:
         meant = translated(plain, Vocabulary(tuple(coordinates), frozenset()))
     except UnclearText:

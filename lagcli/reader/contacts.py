@@ -43,15 +43,7 @@ def declared(
 
     The value is a map with the `known` attributes, or the first of them alone.
     """
-    parts = value.entries if isinstance(value, Mapping) else []
-    inner = [each.value for _, each in parts if isinstance(each, Scalar)]
-    formula = next(
-        (each for each in inner if re.search("^[^<>]*[-+*/^=][^<>]*$", each)), "left = right"
-    )
-    equation = formula if "=" in formula else f"{formula} = 0"
-    what, hint = "constraint", f"write {key.label}: {{equation: {equation}}}"
-    if known == _ATTRIBUTES:
-        what, hint = "contact", _hint(file, key, parts)
+    what = "contact" if known == _ATTRIBUTES else "constraint"
     if name_mistake(f"a{key.label}") is not None or not key.label:  # lambda_<name> must be a name
         message = f"'{key.label}' is not a valid name for a {what}"
         if re.search("[=<>≤≥]", key.label):
@@ -69,7 +61,8 @@ def declared(
     attributes = {known[0]: value}
     if isinstance(value, Mapping):
         what = f"the {what} '{key.label}'"
-        found = file.attributes(value, what, known, Required(known[0], key.span, hint))
+        required = Required(known[0], key.span, _hint(file, key, value, known))
+        found = file.attributes(value, what, known, required)
         attributes = {name: attribute for name, (_, attribute) in found.items()}
         if not attributes:
             file.scope.refused.append("")
@@ -81,14 +74,23 @@ def declared(
     return Declared(key, multiplier, attributes)
 
 
-def _hint(file: FileReader, key: Scalar, parts: list[tuple[Scalar, DocumentNode]]) -> str:
-    """`write floor: {gap: y >= 0, restitution: e}` for `floor: {y: 0, restitution: e}`."""
-    coordinates = [*file.scope.of_kind("coordinate")]
-    at = next(((k.label, source_of(v)) for k, v in parts if k.label in coordinates), None)
-    given = [f"{k.label}: {source_of(v)}" for k, v in parts if k.label in _ATTRIBUTES]
-    if at is None or not given:
-        return _HINT
-    return f"write {key.label}: {{gap: {at[0]} >= {at[1]}, {', '.join(given)}}}"
+def _hint(file: FileReader, key: Scalar, value: Mapping, known: tuple[str, ...]) -> str:
+    """`write floor: {gap: y >= 0, restitution: e}` for `floor: {y: 0, restitution: e}`.
+
+    The equation of a constraint may have another key: `write hoop: {equation: r = R}`.
+    """
+    coordinates = {*file.scope.of_kind("coordinate")}
+    sign = ">=" if known == _ATTRIBUTES else "="
+    given = {k.label: source_of(v) for k, v in value.entries}
+    laws = [f"{k} {sign} {v}" for k, v in given.items() if k.rstrip("'") in coordinates]
+    if sign == "=":
+        formulas = (v for k, v in given.items() if k not in known)
+        formulas = (v for v in formulas if re.search("^[^<>]*[-+*/^=][^<>]*$", v))
+        laws += [v if "=" in v else f"{v} = 0" for v in formulas]
+    if not laws:
+        return _HINT if sign == ">=" else f"write {key.label}: {{equation: left = right}}"
+    rest = (f", {k}: {v}" for k, v in given.items() if k in known)
+    return f"write {key.label}: {{{known[0]}: {laws[0]}{''.join(rest)}}}"
 
 
 def declare_contacts(file: FileReader, node: DocumentNode, constraints: set[str]) -> list[Declared]:

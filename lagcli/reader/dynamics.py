@@ -209,10 +209,11 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
         what = f"the point '{key.label}'"
         rest = [k.label for k, v in entries[place + 1 :] if isinstance(v, Scalar) and v.is_empty]
         if isinstance(value, Scalar) and rest and key.in_flow:  # {ball: x, y}
-            axes = ", ".join([value.value, *rest])
-            file.error(
-                f"{what} must be a map, not a text", value.span, f"write {{position: [{axes}]}}"
-            )
+            whole = f"[{', '.join([value.value, *rest])}]"
+            if value.value[:1] == "(":  # {ball: (x, y), m}
+                whole = f"{as_list(value.value)}, mass: {rest[0]}"
+            hint = f"write {{position: {whole}}}"
+            file.error(f"{what} must be a map, not a text", value.span, hint)
             file.scope.refused.append("points")
             break
         rest_of = _without_axes(value)
@@ -319,7 +320,7 @@ def _position(file: FileReader, node: DocumentNode, name: str) -> tuple[Expressi
     what = f"the position of '{name}'"
     before = len(file.diagnostics)
     items = read_components(file, node, what, _CARTESIAN)
-    if not items:
+    if not items or not all(isinstance(item, Scalar) for item in items):
         file.scope.refused.append("points")
     if isinstance(node, Sequence) and not 1 <= len(items) <= 3 and len(file.diagnostics) == before:
         message = f"{what} has {len(items)} components, it may have 1 to 3"
@@ -363,6 +364,22 @@ def _of_friction(name: str, law: str, x: str) -> str:
     return f"{law}*sign({x}')" if is_friction and "'" not in law else law
 
 
+def _on_points(node: DocumentNode, file: FileReader) -> str:
+    """`points: {P: {position: [x, 0], force: [F, 0]}}` for `[(P, F*N.x)]`; nothing for others."""
+    from lagcli.reader.foreign.vectors import components
+
+    found = []
+    for item in getattr(node, "items", ()):
+        name, _, law = re.sub(r"^[\[(](.*)[\])]$", r"\1", source_of(item)).partition(",")
+        places = file.scope.components
+        size = sum(f"{name}.{axis}" in places for axis in "xyz")
+        force = components(law.strip(), file.scope.kinds, size) if size else []
+        if len(force) != size or not force:
+            return ""
+        found.append(f"in {name} write force: [{', '.join(force)}]")
+    return "; ".join(found)
+
+
 def read_by_coordinate(
     file: FileReader, node: DocumentNode, section: str, what: str, role: Role = STATE
 ) -> dict[str, Expression]:
@@ -374,6 +391,11 @@ def read_by_coordinate(
         potential = of["whole"] or of["name"]
         hint = "leave it out: the force of V is found"
         hint += f"; write V: {potential}" if "V" not in file.sections else ""
+    if section == "forces" and (on_points := _on_points(node, file)):
+        inner = {each.span for each in getattr(node, "items", ())}
+        file.diagnostics[:] = [each for each in file.diagnostics if each.span not in inner]
+        file.error("a force on a point stands in that point", node.span, on_points)
+        return {}
     entries = list(file.entries(node, section, hint))
     if whole := forces_without_headings(node, coordinates):
         [heading, *_] = [key for key, value in entries if not isinstance(value, Scalar)]

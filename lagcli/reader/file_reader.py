@@ -143,12 +143,14 @@ class FileReader:
         else:
             word = node.value.casefold() if isinstance(node, Scalar) else ""
             is_word = word in _WORDS or word in habits()["nothing"]
+            is_word |= isinstance(node, Sequence) and not node.items
             if is_word and not what.startswith("the symmetry"):
                 hint = "leave out the key"
             if named := by_its_name(node):
                 hint = f"write {{{named}}}"
             elif (
                 isinstance(node, Sequence)
+                and node.items
                 and all(isinstance(x, Mapping) for x in node.items)
                 and ("…" in hint or not hint.startswith("write {"))
             ):

@@ -27,6 +27,10 @@ _ENTRY = regex(r"(?P<key>\s*(?:- )?[^\W\d][\w ']*:\s+)(?P<value>\S.*)")
 _BEFORE = regex(r"^(?:@\([\w, ]*\)|lambda\b[\w, ]*:|[`@%&!*>=]+(?=[\w( ]))\s*")
 #: A formula that begins with a group in brackets or quotes.
 _GROUP = regex(r"(?:\[([^\]]*)\]|\{([^}:]*)\}|\"([^\"]*)\"|'([^']*)')(?P<rest>\s*[-+*/^(\w].*)")
+#: A value that is a sign: `> 0`, `assume: m>0`.
+_SIGNED = regex(
+    r"(?<!\w)(?:(value|assume|range|sign):\s+(?:\w+\s*)?|(\w+):\s+)(>=?|<|!=)\s*0(?=\s*(?:[,}]|$))"
+)
 #: The formula in a hint.
 _PROPOSED = regex(r"(?:write|did you mean) (.*?)\??")
 #: Keys with a text that is no formula.
@@ -38,6 +42,12 @@ _NO_LINE = regex(
     r"|a ':' is missing behind .*; leave it out: a problem has keys with .*"
 )
 _PAIRS = {"[": "]", "{": "}", '"': '"', "'": "'"}
+#: What was added at the end of a line.
+_NEVER_CLOSED = [
+    *((quote, "this quote is never closed") for quote in "\"'"),
+    ("]", "a list '[' is never closed"),
+    ("}", "a map '{' is never closed"),
+]
 #: Advice that fits many lines; a repair is better.
 _GENERAL = frozenset(
     {
@@ -135,10 +145,12 @@ def _with_units(line: str) -> str:
 
 def _assumed(line: str) -> str:
     """`k: {assume: positive}` for `k: > 0`, and `assume: positive` for `value: > 0`."""
-    found = re.fullmatch(r"(\s*)(\w+:\s+)(?:\w+\s*)?([<>]=?|!=)\s*0\s*", line)
-    entry = f"assume: {SIGNS[found[3]]}" if found else ""
-    is_attribute = found and re.match("value|assume|range|sign", found[2])
-    return line if not found else f"{found[1]}{entry if is_attribute else f'{found[2]}{{{entry}}}'}"
+
+    def entry(found: re.Match[str]) -> str:
+        sign = f"assume: {SIGNS[found[3]]}"
+        return sign if found[1] else f"{found[2]}: {{{sign}}}"
+
+    return _SIGNED.sub(entry, line)
 
 
 #: In the order in which they are tried.
@@ -298,7 +310,10 @@ def _repaired(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
                 if cut
                 else f"write {line.strip()}"
             )
-            return _Repair(replace(mistake, span=span, hint=hint), changed, change)
+            added = line.removeprefix(lines[number].rstrip())
+            message = next((x for sign, x in _NEVER_CLOSED if added[-1:] == sign), mistake.message)
+            message = message if len(added) < len(line) else mistake.message
+            return _Repair(replace(mistake, message=message, span=span, hint=hint), changed, change)
     return None
 
 
@@ -361,9 +376,25 @@ def _indented(above: list[str], line: str) -> str:
     return f"begin the line where '{before.strip().partition(':')[0]}' begins"
 
 
+def _attribute(lines: list[str], at: int) -> str:
+    """`equation` for a line `r = R` among the attributes of a constraint, `gap` in contacts."""
+    line = lines[at]
+    indent = len(line) - len(line.lstrip())
+    above = (
+        each for each in reversed(lines[:at]) if re.match(rf"\s{{0,{max(0, indent - 1)}}}\S", each)
+    )
+    name, section = next(above, ""), next((x for x in reversed(lines[:at]) if x[:1].strip()), "")
+    is_law = re.fullmatch(r"[^:#]*[=<>≤≥][^:#]*", line) and re.fullmatch(r"\s+\w+:\s*", name)
+    return (
+        {"constraints:": "equation", "contacts:": "gap"}.get(section.strip(), "") if is_law else ""
+    )
+
+
 def _tried(lines: list[str], first: int) -> Iterator[tuple[int, str, _Change]]:
     """The places of the lines near the mistake, each with what may have been meant."""
     above = [k for k in range(min(first, len(lines) - 1), -1, -1) if lines[k].strip()][:4]
+    if name := _attribute(lines, above[0]):
+        yield above[0], re.sub(r"^\s*", rf"\g<0>{name}: ", lines[above[0]]), str
     for number in above[1:] if not _ASSIGNED.match(lines[above[0]]) else ():
         indent = re.match(r"\s*", lines[number])
         yield above[0], f"{indent[0] if indent else ''}{lines[above[0]].lstrip()}", str

@@ -286,9 +286,15 @@ def values_of(node: DocumentNode) -> str:
     if 2 <= len(ends) <= 3 and "step" not in given:  # {from: 1, to: 5, number: 9}
         return ":".join([*ends, "COUNT"][:3])
     written = ":".join([*ends[:1], given.get("step", ""), *ends[1:]])
-    found = RANGE.fullmatch(node.value if isinstance(node, Scalar) else written)
+    return values_in(node.value if isinstance(node, Scalar) else written)
+
+
+def values_in(text: str) -> str:
+    """`1,2,3` for `1, 2, 3`, `0:1:5` for a range, also `1, 5`; nothing for others."""
+    found = RANGE.fullmatch(text.replace(",", ":") if text.count(",") == 1 else text)
     if found is None:
-        return ""
+        values = [each.strip() for each in text.split(",")]
+        return ",".join(values) if values[1:] and all(is_constant("x", x) for x in values) else ""
     first, *middle, last = (each for each in found.groups() if each)
     if not middle:
         count = int(last) - int(first) + 1 if (first + last).lstrip("-").isdigit() else 0

@@ -79,7 +79,11 @@ def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]
         name = _state_name(file, key, value, coordinates)
         if name is None:
             continue
+        before, written = len(file.diagnostics), source_of(value)
         expression = file.expression(value, what, INITIAL)
+        if file.diagnostics[before:] and (said := advised("given", f"{name}: {written}")):
+            del file.diagnostics[before:]
+            file.error(f"{what} is a number", value.span, said)
         if name in initial:
             file.error(f"the initial '{name}' is given twice", key.span)
         initial[name] = expression
@@ -100,7 +104,8 @@ def _state_name(
         hint = f"write {meant}" if meant else did_you_mean(letters, coordinates)
         if meant.endswith("'") and not re.search(r"[0\s]", key.label):
             hint = f"the velocity of {meant[:-1]} is {meant}"
-        hint = hint or f"known are {', '.join(coordinates)} and velocities: {coordinates[0]}'"
+        rates = ", ".join(f"{x}'" for x in coordinates)
+        hint = hint or f"known are {', '.join(coordinates)} and velocities: {rates}"
         rate = RATE.search(key.label)
         if not meant and (rate or PLACE.match(key.label)):
             turns = re.search(r"ang|áng|wink|угл|угол", key.label, re.IGNORECASE) is not None

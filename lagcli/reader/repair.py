@@ -43,8 +43,11 @@ _MULTIPLIER = regex(
     r"\s*[,;]?\s*\(?(?:with|where|and|mit|avec|con)\s+(?:the\s+)?(?:Lagrange\s+)?(?:multiplier\s+)?"
     r"(?:lambda|lam|λ)\w*\)?\s*$"
 )
-#: What stands behind `r - z = L`.
-_CONSTANT = regex(r"^([^=]+=[^=]+?)\s*=\s*[ck]onst(?:ant|ante|\.)?\s*$")
+#: A word for a constant.
+_CONSTANT = regex(
+    r"(?i:(?<![\w.])(?:(?:is\s+|a\s+)*(?:[ck]onst(?:ant[ae]?|ans)?|cst|cte|costante)(?!\w))"
+    r"(?:\.(?!\d)|\s*\(\s*t?\s*\))?)"
+)
 #: A term of Lagrange's equation.
 _LAGRANGE = regex(r"(?:d|∂|\\partial)\s*[LTV]\s*/\s*(?:d|∂|\\partial)")
 #: `d(x - R*phi)/dt` and `d/dt (x - R*phi)`.
@@ -114,6 +117,11 @@ def with_whole(
             each for each in parts if {*re.findall(r"\w+", each)} & {*scope.of_kind("multiplier")}
         ]
         hint = f"a condition is one comparison: write {(forces or parts)[0]}"
+        return [replace(found[0], hint=hint)]
+    of_words = role.order < 0 or is_sentence(node.value, scope.kinds)
+    constant = None if of_words else _CONSTANT.search(node.value)
+    if constant and not {*re.findall(r"\w+", constant[0])} & scope.kinds.keys():
+        hint = _with_constant(node.value, constant, scope, is_equation=read is read_equation)
         return [replace(found[0], hint=hint)]
     too_large = "the limit is" in found[0].hint
     in_lines = any(each.message.startswith("two lines without") for each in found)
@@ -215,6 +223,21 @@ def unmoved(
 
     return [replace(each, hint=advice(*(_named_in(each) & names)))
             if _named_in(each) & names else each for each in found]  # fmt: skip
+
+
+def _with_constant(whole: str, word: re.Match[str], scope: Scope, *, is_equation: bool) -> str:
+    """`x + y = C` for `x + y = const.`; a sum has no need of a constant."""
+    name = next((each for each in ("C", "C_0") if each not in scope.kinds), "C_1")
+    sides = [each.strip() for each in re.split("==?", whole)]
+    if len(sides) == 3 and len(named := [x for x in sides if not _CONSTANT.fullmatch(x)]) == 2:
+        return f"write {' = '.join(named)}"
+    if not is_equation and (added := re.search(rf"\s*[-+]\s*{_CONSTANT.pattern}\s*$", whole)):
+        return f"write {whole[: added.start()]}: a constant has no effect on the motion"
+    sign = "" if not is_equation or "=" in whole else "= "
+    whole = f"{whole[: word.start()]}{sign}{name}{whole[word.end() :]}"
+    return (
+        f"a constant has a name and a value: write {whole}, and declare {name} under 'parameters'"
+    )
 
 
 def _example(text: str, scope: Scope) -> str:
@@ -373,7 +396,7 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     for each in scope.refused:
         if re.search(r"\w[ .-]\w", each):
             value = re.sub(rf"(?<!\w){re.escape(each)}(?!\w)", name_meant(each, one=True), value)
-    value = _CONSTANT.sub(r"\1", _MULTIPLIER.sub("", value)) if equation else value
+    value = _MULTIPLIER.sub("", value) if equation else value
     value = re.sub(
         r"\\(?:math(?:cal|scr|rm)|cal)\s*(?:\{\s*([^\W\d])\s*\}|\s([^\W\d])\b)", r"\1\2", value
     )
@@ -381,7 +404,7 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     sides = re.split("==?", value)
     if equation and len(sides) == 3 and re.fullmatch(r"\s*\w+\([\w, ]*\)\s*", sides[0]):
         return ["=".join(sides[1:])]  # f(x, y) = … = 0
-    value = re.sub(r"^[\"“”„«](.*)[\"“”»]$", r"\1", value.strip())
+    value = re.sub(r"^[\"“”„«](.*)[\"“”»]$|(?<=[^\W\d])\.$", r"\1", value.strip())
     if equation and (both := _BOTH_ROOTS.fullmatch(value)):
         left = both["left"].strip()
         left = left if re.fullmatch(r"\w+'*", left) else f"({left})"

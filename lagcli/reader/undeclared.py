@@ -13,6 +13,8 @@ from lagcli.record import replace
 
 #: What `lagcli.reader.names` says of a name that nothing resembles.
 UNDECLARED = "declare it under 'parameters'"
+#: What it says of v: another velocity in each line.
+_SPEED = "the velocities are "
 #: What it says of one with a prime.
 COORDINATE = "declare it under 'coordinates'"
 #: What is said of one that is the only unknown in an energy in which nothing moves.
@@ -276,6 +278,7 @@ def one_for_undeclared(
     for each in diagnostics:
         found = _NAME.fullmatch(each.message)
         hint = UNDECLARED if UNDECLARED in each.hint else each.hint
+        hint += f" in line {each.span.line}" if hint.startswith(_SPEED) else ""
         if found is None or (found[1], hint) not in reported:
             kept.append(each)
         if found is not None:

@@ -32,6 +32,7 @@ from lagcli.reader.misshapen import (
     key_by_shape,
     range_end,
     source_of,
+    values_in,
     values_of,
 )
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
@@ -119,7 +120,9 @@ def unknown_key(
         hint = f"write at: {{{word}: {written}}}"
     if not hint and isinstance(value, Mapping) and value.entries:
         inner = [(key_meant(each.label, names), source_of(part)) for each, part in value.entries]
-        lines = ", ".join(f"{each}: {part}" for each, part in inner)
+        laws = [friction_meant(each.label, part, along) for each, part in value.entries]
+        lines = ", ".join(law.partition(": its")[0].removeprefix("write ") or f"{each}: {part}"
+                          for law, (each, part) in zip(laws, inner, strict=True))  # fmt: skip
         hint = f"leave it out, and begin lines with {lines}" if all(k for k, _ in inner) else ""
     if "=" in word and not meant and "initial: {" not in hint:
         hint = f"write {name_meant(word)}"
@@ -227,6 +230,9 @@ def _varied(value: DocumentNode) -> str:
     """`--vary e=0.5,0.9` for `{e: [0.5, 0.9]}` and `{parameter: e, values: [0.5, 0.9]}`."""
     parts = {key.label: node for key, node in getattr(value, "entries", ())}
     ranges = {name: values_of(node) for name, node in parts.items()}
+    written = source_of(value).strip("[]")
+    if one := re.fullmatch(r"([^\W\d]\w*)\s*(?:[,=:]|in|from|over|\s)\s*(.*)", written):
+        ranges = {one[1]: values_in(one[2].strip("[]{}"))}
     named = [x for x in map(source_of, parts.values()) if x.isidentifier()]
     given = [each for each in ranges.values() if each] or [values_of(value)]
     if len(named) == len(given) == 1:

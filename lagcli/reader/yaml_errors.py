@@ -14,7 +14,6 @@ from lagcli.reader.habits import (
     KEYS,
     MAPS,
     PROGRAM,
-    SIGNS,
     colon_advice,
     habits,
     key_meant,
@@ -108,12 +107,6 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
     if text.source.text.startswith("?", offset):
         return Diagnostic("'?' is not a value", span, "leave out what is not known")
     after = text.source.text[offset:]
-    if sign := re.match(r"([<>]=?)\s*0", after):
-        entry = f"assume: {SIGNS[sign[1]]}"
-        before = text.source.text[text.line_starts[number] : offset]
-        if within := re.search(r"(?:value|assume|range|sign):\s*$", before):
-            span = text.span(text.line_starts[number] + within.start(), offset + sign.end())
-        return Diagnostic("this is no value", span, f"write {entry if within else f'{{{entry}}}'}")
     if bars := re.match(r"\|()", after) or re.match(r"[^|]*:\s+(\|[^|]+\|)", line):
         at = text.line_starts[number] + bars.start(1) if bars[1] else offset
         hint = "put the whole value in quotes" if bars[1] else "a modulus is written abs(x)"

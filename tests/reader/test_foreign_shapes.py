@@ -610,7 +610,7 @@ FURTHER = [
     (text(expect="{trajectory: {at: [{x: 3}]}}"), "write {t: …, x: 3}"),
     (text(sweep="{parameter: k, from: 1, to: 5}"), "lagcli sweep p.yaml --vary k=1:5:COUNT"),
     (text(sweep="{k: {start: 0, stop: 1, step: 0.1}}"), "--vary k=0:1:11"),
-    (text(parameters="{m: 1, k: {value: > 0}}"), "write assume: positive"),
+    (text(parameters="{m: 1, k: {value: > 0}}"), "k: {assume: positive}"),
     (text(parameters="\n  m: 1\n  k:\n    value: > 0"), "write assume: positive"),
     (text(V="k*ATAN2(x, m)"), "write atan2(y, x)"),
     (text(V="k*LOG(x)"), "log(x)/log(10) the LOG of a spreadsheet"),
