@@ -145,6 +145,7 @@ def _values(node: DocumentNode, scope: Scope) -> list[str]:
 
 def coordinate_meant(name: str, coordinates: list[str]) -> str:
     """The coordinate of a force that is called `F`, `F_x` or `Q_x`; the velocity v."""
+    name = re.sub("[’′]", "'", name.replace("″", "''"))
     bare = re.sub(r"^[FQf]_?", "", name)
     if bare in coordinates:
         return bare

@@ -129,6 +129,9 @@ def _placed(
         if beside and (edits := _into_section(section[1], section[2], text, around)):
             yield [*edits, _without(start, end, text, root)]
     end = start + len(written[start:end].rstrip())
+    if part.replace("*", "") == "".join(written[start:end].split()):  # 2*m for 2 m
+        yield [Edit(start, end, part)]
+        return
     before = part[: start - end - 1]  # g: 9 of g: 9,81
     if written[:start].endswith(f"{before},") and part.endswith(f".{written[start:end]}"):
         yield [Edit(start - len(before) - 1, end, part)]

@@ -195,7 +195,8 @@ class FileReader:
             self.scope.refused.append("")
             return
         for key, value in node.entries:
-            is_part = key.in_flow and key.label.isdigit() and value.is_empty
+            is_digits = re.fullmatch(r"\d+(?:\s*[^\W\d].*)?", key.label)  # 5 kg of {m: 0,5 kg}
+            is_part = key.in_flow and is_digits and value.is_empty
             if is_part and before[-1:].isdigit() and before.partition(":")[0] not in LISTS:
                 hint = f"a decimal point is written '.': write {before}.{key.label}"
                 self.error("a comma ends a value", key.span, hint)

@@ -39,7 +39,7 @@ _ASSIGNED = regex(r"[^\W\d][\w()=' ]*?\s*:?=\s*[^=]")
 #: What is said of a line that is none of the file.
 _NO_LINE = regex(
     r"this line is none of the file; (?!.*(?:write |```)).*"
-    r"|a ':' is missing behind .*; leave it out: a problem has keys with .*"
+    r"|(?:a ':' is missing behind|a key without) .*; leave it out: a problem has keys with .*"
 )
 _PAIRS = {"[": "]", "{": "}", '"': '"', "'": "'"}
 #: What was added at the end of a line.
@@ -168,7 +168,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"^[A-Za-z][a-z ]*\s([TVLH])\s*=\s*(?=\S)", r"\1: ", line),
     lambda line: re.sub(rf"^({'|'.join(KEYS)})\s+(?=[^\s:=])", r"\1: ", line),
     lambda line: re.sub(
-        r"^(\s*\"?[^\W\d]\w*'?\"?(?:\((?:t=)?0\))?)\s*(?:<-|←|:=|->|→|=>|=)\s*", r"\1: ", line
+        r"^(\s*\"?[^\W\d]\w*'?\"?(?:\((?:t=)?0\))?)\s*(?:<-|←|:=|->|→|=>|=|：)\s*", r"\1: ", line
     ),
     _with_blanks,
     _formula,
@@ -251,7 +251,9 @@ def all_mistakes(
 def _left_out(text: str, mistake: Diagnostic) -> _Repair | None:
     """The file without a line that is none of it; None for other mistakes."""
     lines, place = text.split("\n"), mistake.span.line - 1
-    if not _NO_LINE.fullmatch(f"{mistake.message}; {mistake.hint}"):
+    if not re.search(r"^coordinates:", text, re.MULTILINE) or not _NO_LINE.fullmatch(
+        f"{mistake.message}; {mistake.hint}"
+    ):
         return None
     if lines[place].lstrip().startswith("/*") or not any(map(str.strip, lines[place + 1 :])):
         return None

@@ -19,8 +19,19 @@ _DECLARATION = regex(
     r"(\w+)(?:\([^()]*\))?\s*(?:=\s*([^;\"]+))?"
 )
 _WITH_ITS_UNIT = regex(r"\s*([^\W\d]\w*)(?:\s*[(\[](rad|deg|k?m|cm|mm|s|kg|g|N|J)[)\]])?\s*")
+#: `m - mass of the cart = 1 kg`, several of them.
+_DESCRIBED = regex(
+    r"(?:^|\s)([^\W\d]\w*)\s+[-–—]\s+((?=[^=]*[^\W\d]{3})[^\W\d][^=]*?)(?:\s*=\s*([-.\d][^=]*?))?"
+    r"(?=[,;]?\s+[^\W\d]\w*\s+[-–—]\s|\s*$)"
+)
 #: Between two names of a list, where nothing else stands.
 _AND = frozenset("and und et en og och".split())
+
+
+def _with_value(written: str) -> str:
+    """`value: 1, unit: kg, ` for `1 kg`."""
+    number, unit = number_and_unit(written)
+    return (f"value: {number}, " if number else "") + (f"unit: {unit}, " if unit else "")
 
 
 def as_names(text: str) -> str:
@@ -38,6 +49,13 @@ def as_names(text: str) -> str:
         pairs = [f"{name}: {value.strip()}" for name, value in declared if value.strip()]
         listed = ", ".join(pairs or [name for name, _ in declared])
         return f"write {{{listed}}}" if pairs else f"write [{listed}]"
+    if described := _DESCRIBED.findall(text):
+        named = ", ".join(
+            f"{x}: {{{_with_value(value)}description: {said}}}" for x, said, value in described
+        )
+        return f"write {{{named}}}"
+    if "struct" in text and (pairs_ := re.findall(r"'(\w+)'\s*,\s*([^,()']+)", text)):
+        return f"write {{{', '.join(map(': '.join, pairs_))}}}"
     if re.search(r"\d,\d+\s*(?:;|$)", text) and (";" in text or text.count(",") == 1):
         text = re.sub(r"(?<=\d),(?=\d)", ".", text)
     if told := re.fullmatch(

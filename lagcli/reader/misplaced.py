@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from lagcli.diagnostics import Diagnostic
+from lagcli.reader.friction_meant import friction_meant
 from lagcli.reader.habits import KEYS, MAPS, key_meant
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
@@ -46,12 +47,18 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
         whole = node.entries if isinstance(node, Mapping) and key.label not in KEYS else []
         meant = [key_meant(each.label, KEYS) for each, _ in whole]
         if whole and all(each in {*KEYS} - given for each in meant):
+            given_there = [(each.label, value) for each, value in whole]
             whole = [
                 (replace(each, value=f"{other}"), value)
                 for (each, value), other in zip(whole, meant, strict=True)
             ]
             message = f"unknown key '{key.label}' in the problem"
-            lines = ", ".join(f"{each.label}: {source_of(value)}" for each, value in whole)
+            laws = [friction_meant(key, value, coordinates) for key, value in given_there]
+            lines = ", ".join(
+                law.partition(": its")[0].removeprefix("write ")
+                or f"{each.label}: {source_of(value)}"
+                for law, (each, value) in zip(laws, whole, strict=True)
+            )
             hint = f"leave it out, and begin lines with {lines}"
             mistakes.append(Diagnostic(message, key.span, hint))
             entries += whole

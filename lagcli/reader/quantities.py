@@ -347,8 +347,9 @@ def _pairs(node: DocumentNode, section: str) -> str:
     """`m: 1, k: 2` for `[m = 1, k = 2]`, `{m 1, k 2}` and a list of maps; else nothing."""
     given = []
     if isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
-        relation = r"(\w+)(?:\s*(?:[-=]>|:?=|:|→)\s*|\s+)([\d.]\S*)"
-        given = [re.fullmatch(relation, key.label) for key, _ in node.entries]
+        relation = r"(\w+)(?:\s*(?:[-=]>|:?=|[:：]|→)\s*|\s+)([\d.]\S*)"
+        labels = "，".join(key.label for key, _ in node.entries).split("，")
+        given = [re.fullmatch(relation, label.strip()) for label in labels]
     elif isinstance(node, Mapping) and len(node.entries) > 1 and section == "coordinates":
         numbers = [v for _, v in node.entries if isinstance(v, Scalar)]
         if len(numbers) == len(node.entries) and all(is_constant("x", v.value) for v in numbers):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -20,7 +21,7 @@ from lagcli.reader.names import name_mistakes
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
-from lagcli.reader.undeclared import BY_OTHERS, UNDECLARED
+from lagcli.reader.undeclared import BY_OTHERS, COORDINATE, UNDECLARED
 from lagcli.reader.velocity_quotients import multiplied_out
 from lagcli.record import replace
 
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
     from lagcli.reader.nodes import Scalar
     from lagcli.reader.scope import Role, Scope
 
+#: The letters of ẋ², and its dots.
+_LETTERS, _DOTS = regex(r"(?<!\w)[^\W\d][^\W²³]*"), regex("[\u0307\u0308]")
 #: Characters of a formula that is repeated in a hint, and of one that is read for it, as LaTeX.
 _LONGEST, _LONGEST_GIVEN = 600, 1800
 #: Characters of a formula in which neighbours are exchanged.
@@ -152,6 +155,7 @@ def with_whole(
                  if not _named_in(each) <= {*scope.components.values()}]  # fmt: skip
         words = set(re.findall(r"\w+", re.sub(r"_?[\[{](\w+)[\]}]", r"_\1", node.value)))
         words |= {each.removesuffix("t") for each in words}  # ωt
+        words |= {*_LETTERS.findall(_DOTS.sub("", unicodedata.normalize("NFD", node.value)))}
         if len(whole) > _LONGEST or not all(_is_undeclared(each, role, words) for each in wrong):
             named = [each for each in wrong if each.hint]
             if named and not found[0].hint:
@@ -415,7 +419,8 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
 
 def _is_undeclared(mistake: Diagnostic, role: Role, words: set[str]) -> bool:
     """Whether a name is not declared that the author has written: another mistake."""
-    undeclared = role.order >= 0 and UNDECLARED in mistake.hint and _named_in(mistake) <= words
+    is_open = UNDECLARED in mistake.hint or mistake.hint == COORDINATE
+    undeclared = role.order >= 0 and is_open and _named_in(mistake) <= words
     return undeclared or mistake.message.startswith("the acceleration ")
 
 

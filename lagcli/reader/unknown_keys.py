@@ -120,9 +120,7 @@ def unknown_key(
         hint = f"write at: {{{word}: {written}}}"
     if not hint and isinstance(value, Mapping) and value.entries:
         inner = [(key_meant(each.label, names), source_of(part)) for each, part in value.entries]
-        laws = [friction_meant(each.label, part, along) for each, part in value.entries]
-        lines = ", ".join(law.partition(": its")[0].removeprefix("write ") or f"{each}: {part}"
-                          for law, (each, part) in zip(laws, inner, strict=True))  # fmt: skip
+        lines = ", ".join(f"{each}: {part}" for each, part in inner)
         hint = f"leave it out, and begin lines with {lines}" if all(k for k, _ in inner) else ""
     if "=" in word and not meant and "initial: {" not in hint:
         hint = f"write {name_meant(word)}"

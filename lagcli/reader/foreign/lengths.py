@@ -15,13 +15,13 @@ _VECTORS = regex(rf"\s*{_LETTER}(?:\s*[-−,]\s*{_LETTER})?\s*")
 _SQUARED = r"\s*(?:(?:\^|\*\*)\s*\{?2\}?|²)(?!\w)"
 #: The length of a vector, or the square of it: |r|, ||v||^2, norm(r1 - r2).
 _LENGTH = regex(
-    r"(?:(?:\\?\|){1,2}(?P<bars>[^|()+*/]+?)(?:\\?\|){1,2}"
+    r"(?:(?:\\?\||‖){1,2}(?P<bars>[^|‖()+*/]+?)(?:\\?\||‖){1,2}"
     r"|\b(?:\w+\.)*(?:norm|abs|length|mag|dist|distance)\((?P<called>[^()+*/]+)\))"
     rf"(?P<square>{_SQUARED})?"
 )
-#: The square of a vector or of a speed: v², \vec{r}^2, v.v; the word for a speed alone.
+#: The square of a vector or of a speed: v², ṙ², \vec{r}^2, v.v; the word for a speed alone.
 _SQUARE = regex(
-    rf"(?<![\w.|\\])(?:{_BOLD}\{{?(?P<bold>[a-z])\}}?|(?:v|speed))(?:{_SQUARED}|\s*\.\s*v(?!\w))"
+    rf"(?<![\w.|\\])(?:{_BOLD}\{{?(?P<bold>[a-z])\}}?|(?:v|speed|(?P<rate>ṙ|r['’′])))(?:{_SQUARED}|\s*\.\s*v(?!\w))"
     r"|(?<![\w.])(?P<speed>speed)(?!\w)"
 )
 #: A product of vectors in brackets.
@@ -44,6 +44,7 @@ def components(word: str, names: Vocabulary) -> list[str]:
 
     One that the file does not have is empty; all are where the word is no vector.
     """
+    word = word.replace("ṙ", "r'")
     bare = word.rstrip("'")
     primes = word[len(bare) :]
     stem, index = re.sub(r"_?\d*$", "", bare), re.sub(r"^\D*", "", bare)
@@ -102,7 +103,7 @@ def with_components(text: str, names: Vocabulary) -> str:
         return f" {root}({squares}) " if squares else found[0]
 
     def square(found: re.Match[str]) -> str:
-        squares = _squares(found["bold"] or "v", names)
+        squares = _squares(found["bold"] or ("r'" if found["rate"] else "v"), names)
         root = "sqrt" if found["speed"] else ""
         return f" {root}({squares}) " if squares else found[0]
 

@@ -128,6 +128,7 @@ class Sums(ABC):
                     raise UnclearText  # x 2
                 part = self.power()
                 factor = part.text if _is_names(part.text) else part.within(2)
+                tells |= _number(last.text) and re.search(r"'|\)\^2$", factor) is not None
                 if not over or tells or (last.text[:1] == factor[:1] == "("):
                     text += f"*{factor}"
                     over = False

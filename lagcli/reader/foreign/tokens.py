@@ -34,12 +34,12 @@ _TOKEN = regex(
 SIGNS = {
     **dict.fromkeys(["·", "×", "∙", "⋅", "∗", "•", ".*", "\\cdot", "\\times", "\\ast"], "*"),
     **dict.fromkeys(["÷", "∕", "⁄", "./", "\\div"], "/"),
-    **dict.fromkeys(["−", "–", "—", "‐", "‑"], "-"),
+    **dict.fromkeys([*"−–—‐‑‒―﹣－"], "-"),
     **dict.fromkeys(["**", ".^"], "^"),
     **dict.fromkeys(["==", ":="], "="),
     **dict.fromkeys(["≥", "\\ge", "\\geq", "\\geqslant"], ">="),
     **dict.fromkeys(["≤", "\\le", "\\leq", "\\leqslant"], "<="),
-    "\\{": "(", "\\}": ")", "[": "(", "]": ")", "{": "(", "}": ")", "\\|": "|",
+    "\\{": "(", "\\}": ")", "[": "(", "]": ")", "{": "(", "}": ")", "\\|": "|", "‖": "|",
 }  # fmt: skip
 _SUM_IN_WORDS = regex(r"\b[sS]um(?:me)?\s+(?:over\s+(?:all\s+)?([i-n])\s+)?(?:of|von|de)\s+")
 _RATE_OF_VECTOR = regex(r"\\dot\s*\{?\s*\\(?:vec|mathbf)\s*\{?r\}?\s*\}?(?=\s*[\^²*])")
