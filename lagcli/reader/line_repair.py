@@ -42,12 +42,9 @@ _NO_LINE = regex(
     r"|(?:a ':' is missing behind|a key without) .*; leave it out: a problem has keys with .*"
 )
 _PAIRS = {"[": "]", "{": "}", '"': '"', "'": "'"}
-#: What was added at the end of a line.
-_NEVER_CLOSED = [
-    *((quote, "this quote is never closed") for quote in "\"'"),
-    ("]", "a list '[' is never closed"),
-    ("}", "a map '{' is never closed"),
-]
+#: By what was added at the end of a line.
+_NEVER_CLOSED = {"]": "a list '[' is never closed", "}": "a map '{' is never closed",
+                 **dict.fromkeys("'\"", "this quote is never closed")}  # fmt: skip
 #: Advice that fits many lines; a repair is better.
 _GENERAL = frozenset(
     {
@@ -312,9 +309,8 @@ def _repaired(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
                 if cut
                 else f"write {line.strip()}"
             )
-            added = line.removeprefix(lines[number].rstrip())
-            message = next((x for sign, x in _NEVER_CLOSED if added[-1:] == sign), mistake.message)
-            message = message if len(added) < len(line) else mistake.message
+            added = line[-1] if line.startswith(lines[number].rstrip()) else ""
+            message = _NEVER_CLOSED.get(added, mistake.message)
             return _Repair(replace(mistake, message=message, span=span, hint=hint), changed, change)
     return None
 

@@ -19,10 +19,11 @@ _DECLARATION = regex(
     r"(\w+)(?:\([^()]*\))?\s*(?:=\s*([^;\"]+))?"
 )
 _WITH_ITS_UNIT = regex(r"\s*([^\W\d]\w*)(?:\s*[(\[](rad|deg|k?m|cm|mm|s|kg|g|N|J)[)\]])?\s*")
-#: `m - mass of the cart = 1 kg`, several of them.
+#: `m - mass of the cart = 1 kg`, `x is the height`, several of them.
 _DESCRIBED = regex(
-    r"(?:^|\s)([^\W\d]\w*)\s+[-–—]\s+((?=[^=]*[^\W\d]{3})[^\W\d][^=]*?)(?:\s*=\s*([-.\d][^=]*?))?"
-    r"(?=[,;]?\s+[^\W\d]\w*\s+[-–—]\s|\s*$)"
+    r"(?:^|\s)([^\W\d]\w*)\s+(?:[-–—]|is|ist|est|es|è|means|=(?=\s+(?:the|an?|der|die|das|la)\s))\s+"
+    r"((?=[^=]*[^\W\d]{3})[^\W\d][^=]*?)(?:\s*=\s*([-.\d][^=]*?))?"
+    r"(?=[,;]?\s+[^\W\d]\w*\s+(?:[-–—]|is|ist)\s|\s*$)"
 )
 #: Between two names of a list, where nothing else stands.
 _AND = frozenset("and und et en og och".split())
@@ -58,11 +59,6 @@ def as_names(text: str) -> str:
         return f"write {{{', '.join(map(': '.join, pairs_))}}}"
     if re.search(r"\d,\d+\s*(?:;|$)", text) and (";" in text or text.count(",") == 1):
         text = re.sub(r"(?<=\d),(?=\d)", ".", text)
-    if told := re.fullmatch(
-        r"\s*([^\W\d]\w*)\s+(?:is|ist|est|es|è|=|means)\s+((?:the|a|der|die|das|l[ea']|el|un|une|eine?)\s*\b.*\S)\s*",
-        text,
-    ):
-        return f"write {{{told[1]}: {{description: {told[2]}}}}}"
     text = re.sub(r"^([\w\s,]*\w)\s+(?:y|e|i)\s+([^\W\d]\w*\s*)$", r"\1, \2", text)
     if vector := re.fullmatch(r"\s*\w+\s*=\s*[(\[<]([\w\s,']+)[)\]>](?:\^?T)?\s*", text):
         return f"write [{vector[1].strip()}]"
