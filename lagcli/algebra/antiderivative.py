@@ -154,7 +154,7 @@ def _by_parts(constant: Expr, power: int, factor: Expr, x: Symbol) -> Expr | Non
 
 
 def _of_elementary(factor: Expr, x: Symbol) -> Expr | None:
-    """Integral of exp, sin, cos, sinh or cosh of an argument linear in x, with a constant."""
+    """Of exp, sin, cos, sinh, cosh or a root of an argument linear in x, with a constant."""
     constant, function = factor.as_independent(x, as_Add=False)
     if function == 1:
         return factor * x
@@ -165,10 +165,12 @@ def _of_elementary(factor: Expr, x: Symbol) -> Expr | None:
         sympy.cosh: sympy.sinh,
         sympy.sinh: sympy.cosh,
     }
-    rule = table.get(function.func)
+    base, exponent = function.as_base_exp()
+    is_root = exponent.is_Rational and not exponent.is_Integer
+    rule = (lambda u: u ** (exponent + 1) / (exponent + 1)) if is_root else table.get(function.func)
     if rule is None:
         return None
-    argument = function.args[0]
+    argument = base if is_root else function.args[0]
     slope = argument.diff(x)
     if slope == 0 or not free_of(slope, [x]):
         return None

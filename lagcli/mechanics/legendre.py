@@ -371,7 +371,8 @@ def _positive_roots(closure: Expr, s: Symbol) -> list[Expr]:
         ratio = -polynomial.coeff_monomial(s**low) / polynomial.coeff_monomial(s**high)
         above, below = simplify(ratio).as_numer_denom()
         power = sympy.Rational(1, high - low)
-        signed = [(sign * above) ** power / (sign * below) ** power for sign in (1, -1)]
+        first = -1 if above.could_extract_minus_sign() else 1  # no quotient of imaginary roots
+        signed = [(sign * above) ** power / (sign * below) ** power for sign in (first, -first)]
         return [root for root in signed if not root.has(sympy.I)]
     return _by_radicals(polynomial)
 

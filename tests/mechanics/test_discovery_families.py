@@ -11,6 +11,7 @@ charge in crossed fields has the eight of the oscillator in a frame that drifts 
 import re
 
 import pytest
+import sympy
 
 from lagcli.algebra import is_zero
 from lagcli.mechanics.discovery.summary import summary
@@ -181,6 +182,24 @@ V: {V.replace("R", R).replace("kexp", "k*exp")}
         ("{a: {}, q: {}}", "[x]", "x'^2/2 - (a - 2*q*cos(2*t))*x^2/2", "q=0"),
         ("{k: {}, n: {}}", "[x, y]",
          "(x'^2 + y'^2)/2 + k*((x^2 - y^2)*cos(2*n*t)/2 + x*y*sin(2*n*t))", "k=0 n=0"),
+        # another time: tau' = 1/f, or -1/tau with x = tau y (Emden and Fowler; Kepler at s = -1)
+        ("{s: {}}", "[x]", "t^2*x'^2/2 - t^s*x^4/4", "s=-2 s=1 s=4"),
+        ("{k: POS, s: {}}", "[x, y]", "t^2*(x'^2 + y'^2)/2 + k*t^s/sqrt(x^2 + y^2)", "s=-2 s=-1"),
+        ("{c: POS, d: {}}", "[x]", "exp(c*t)*x'^2/2 - exp(d*t)*x^4/4", "d=-c d=5*c d=2*c"),
+        # in the arc length x^(n + 1) the power 2 or -2; damped, with any power
+        ("{n: POS, m: {}}", f"{{x: {POS}}}", "x^(2*n)*x'^2/2 - x^m", "m=2*n+2 m=-2*n-2 m=n+1"),
+        ("{c: POS, a: POS, n: POS}", f"{{x: {POS}}}", "exp(c*t)*(x'^2 - a*x^2)/2 - exp(c*t)*x^n",
+         "a=2*c**2*n/(n+2)**2"),
+        # Larmor's frame turns it into Kepler's problem; a quadratic integral beside a quartic one
+        ("{k: POS, B: POS, w: {}}", "[x, y]",
+         "(x'^2 + y'^2)/2 + B*(x*y' - y*x')/2 + k/sqrt(x^2 + y^2) - w*(x^2 + y^2)/2", "w=-B**2/4"),
+        ("{A: POS, c: {}}", f"{{x: {POS}, y: {{}}}}",
+         "(x'^2 + y'^2)/2 - A*(x^2 + y^2)/2 - x^2*y - y^3/3 - c/x^2", "c=0"),
+        # of the inertia: Bianchi's groups, a plane in place of a sphere, squares of sines
+        ("{a: POS, b: {}}", "[x, y, z]", "(exp(2*a*z)*x'^2 + exp(2*b*z)*y'^2 + z'^2)/2", "b=a b=0"),
+        ("{w: POS, l: {}}", "[x, y]",
+         "(x'^2 + y'^2 + l*(x*y' - y*x')^2 - w^2*(x^2 + y^2))/(2*(1 + l*(x^2 + y^2)))", "l=0"),
+        ("{a: POS, b: {}}", "[x, y]", "(a + b*cos(2*x))*(x'^2 + y'^2)/sin(2*x)^2", "b=a b=-a b=0"),
         # a power is linear at n = 2, constant at n = 1; -2: Jackiw, Physics Today 25 (1972) 23
         ("{m: POS, k: POS, n: {}}", f"{{x: {POS}}}", "m*x'^2/2 - k*x^n", "n=0 n=1 n=2 n=-2"),
         ("{m: POS, k: POS, j: {}}", f"{{s: {POS}}}", "m*s'^2/2 - k*s^(2*j)", "j=0 j=1/2 j=1 j=-1"),
@@ -194,7 +213,10 @@ V: {V.replace("R", R).replace("kexp", "k*exp")}
 def test_special_values_are_those_of_the_family(parameters, coordinates, L, values):
     text = f"{{parameters: {parameters}, coordinates: {coordinates}, L: {L}}}"
     cases = derive(text.replace("POS", POS)).special_cases
-    assert set(values.split()) <= {f"{c.parameter}={c.value}" for c in cases}
+    found = {(str(c.parameter), sympy.simplify(c.value)) for c in cases}
+    named = (each.split("=") for each in values.split())
+    locals_ = {str(s): s for c in cases for s in (c.parameter, *c.value.free_symbols)}
+    assert {(p, sympy.simplify(sympy.sympify(v, locals_))) for p, v in named} <= found
 
 
 @pytest.mark.parametrize(
@@ -240,6 +262,8 @@ CHANGING = {
     "t^3*(m*x'^2/2 - k*x^2/(2*t^2))": "Euler, any strength",
     "m*x'^2/2 - k*x^2/(2*t^4)": "inverted time",
     "t*(m*x'^2/2 - k*x^2/(2*t^4) + m*x^2/(8*t^2))": "the same, with a growing mass",
+    "t^4*(m*x'^2 - k*x^2)/2": "spherical Bessel functions of order 1",
+    "m*x'^2/2 - k*x^2/2 + 3*m*x^2/t^2": "of order 2",
 }
 
 
@@ -487,3 +511,37 @@ def test_bertrands_exponents_are_found_in_any_coordinates(coordinates):
     text = f"coordinates: {coordinates}\nparameters: {given}\nL: m*({rates})/2 - k*{r}^n/n\n"
     cases = {str(c.value): c.number for c in derive(text).special_cases}
     assert cases == {"-2": 6, "-1": 7, "2": 17}
+
+
+COUNTED = {  # text: how many charges, whatever the signs of parameters without one
+    "parameters: [l], coordinates: [x], L: x'^2/(2*(1 + l*x^2))": 5,
+    "parameters: [a, b], coordinates: [x], L: (a + b*x)*x'^2/2": 5,
+    "parameters: [b], coordinates: [x, y, z], T: (x'^2 + y'^2 + z'^2)/2, V: sqrt(b^2)": 12,
+    f"parameters: {{m: {POS}, H: {POS}}}, coordinates: [r, phi], "
+    "L: -m*sqrt(1 - H^2*r^2 - r'^2/(1 - H^2*r^2) - r^2*phi'^2)": 6,
+    f"parameters: {{g: {POS}, k: {{}}}}, coordinates: {{r: {POS}, theta: {{}}, phi: {{}}}}, "
+    "L: (r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2)/2 + g*cos(theta)*phi' + k/r - g^2/(2*r^2)":
+    7,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", COUNTED)
+def test_all_are_found_and_real_where_the_motion_is(text):
+    """An arc length, a modulus, de Sitter's static patch, a monopole (McIntosh and Cisneros)."""
+    made = derive(f"{{{text}}}")
+    kept = digits_of(made)
+    assert len(kept) == COUNTED[text]
+    assert min(kept.values()) > 20
+    assert made.discovery.stopped == []
+
+
+@pytest.mark.parametrize(
+    "mass", ["m + k/sqrt(x^2 + y^2)", "m + k*sqrt(x^2 + y^2)", "m + k*(x^2 + 2*y^2)"]
+)
+def test_the_lagrangian_of_a_mass_that_depends_on_the_place_is_negative(mass):
+    """H = sqrt(p^2 + M^2) gives L = -M sqrt(1 - v^2), M > 0 (Landau and Lifshitz II, section 8)."""
+    head = f"parameters: {{m: {POS}, k: {POS}}}\ncoordinates: [x, y]\n"
+    L = derive(f"{head}H: sqrt(p_x^2 + p_y^2 + ({mass})^2)\n").system.L
+    known = derive(f"{head}L: -({mass})*sqrt(1 - x'^2 - y'^2)\n").system
+    values = dict(zip(sorted(L.free_symbols, key=str), (3, 5, 2, 0.3, 7, 0.4), strict=True))
+    assert abs(sympy.N((L - known.L).xreplace(values))) < 1e-12

@@ -85,6 +85,17 @@ def _arc_length(g: Expr, x: Symbol) -> Expr | None:
     return antiderivative(function, x, rules=False)
 
 
+def _by_half_angles(entry: Expr) -> Expr:
+    """With squares for factors 1 +- cos u, and then sin u = 2 sin(u/2) cos(u/2)."""
+    factors = [f.as_base_exp() for f in sympy.Mul.make_args(sympy.factor_terms(entry))]
+    images: dict[Expr, Expr] = {}
+    for base, _ in factors:
+        for wave in base.atoms(sympy.cos) if _half_angle(base) != base else ():
+            u = wave.args[0]
+            images[sympy.sin(u)] = 2 * sympy.sin(u / 2) * sympy.cos(u / 2)
+    return sympy.Mul(*(_half_angle(base).xreplace(images) ** n for base, n in factors))
+
+
 def _half_angle(factor: Expr) -> Expr:
     """a (1 + cos u) = 2 a cos^2(u/2), a (1 - cos u) = 2 a sin^2(u/2)."""
     for wave in factor.atoms(sympy.cos):
@@ -134,7 +145,11 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
         powers = [p for e in alone for b, p in [e.as_base_exp()] if b == x and p.is_odd]
         found |= {x ** (p / 2 + 1): None for p in powers}
         below = sorted(alone, key=lambda e: not e.is_Pow)  # dx^2/b tells where b is positive
-        sums = list(dict.fromkeys(b for e in below for b in _bases(e) if b.is_Add))
+        place = metric.q.index(x)
+        own = sympy.factor(metric.g[place][place])
+        turned = bool(sympy.Mul(*(f for f in sympy.Mul.make_args(own) if not f.is_Pow)).is_negative)
+        bases = dict.fromkeys(b for e in below for b in _bases(e) if b.is_Add)
+        sums = [-b if turned else b for b in bases]
         for k, b in enumerate(sums):
             # modulo a prime 4 k + 3 the roots of b and -b are never both there
             if any(free_of(sympy.cancel(b / c), [x]) for c in sums[:k]):
@@ -171,8 +186,8 @@ def _along(x: Symbol, metric: Metric, K: Expr) -> Iterator[Expr]:
 
 
 def _parts(metric: Metric) -> list[Expr]:
-    """Factors of the components of the metric and of their terms."""
-    entries = [sympy.factor_terms(e) for row in metric.g for e in row if e != 0]
+    """Factors of the components of the metric and of their terms, 1 +- cos u as squares."""
+    entries = [sympy.factor_terms(_by_half_angles(e)) for row in metric.g for e in row if e != 0]
     entries += [t for e in entries for t in sympy.Add.make_args(sympy.expand(e))]
     return list(dict.fromkeys(f for e in entries for f in sympy.Mul.make_args(e)))
 

@@ -26,6 +26,7 @@ _MOST_LINEAR = 12  # all differences and sums of four constants
 #: Terms: two bodies in space need more than 10,000; 35,000 of hyperbolic functions take 17 s.
 _MOST_COMMON = 20_000
 _POWERS = (-2, -1, 1, 2)
+_KINDS = ("symbol", "root", "sin", "cos", "abs")
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,8 +128,9 @@ class ExactSolver:
         constants = [
             (self.points.constants[g], self.field.generators[g].expression)
             for g, constant in enumerate(self.points.constant)
-            if constant and self.field.generators[g].kind in ("symbol", "root", "sin", "cos")
+            if constant and self.field.generators[g].kind in _KINDS
         ]
+        constants.sort(key=lambda each: not isinstance(each[1], sympy.Abs))  # |b| is b or -b here
         if not linear:
             return constants
         pairs = list(combinations(constants, 2))

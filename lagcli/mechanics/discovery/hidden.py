@@ -85,7 +85,8 @@ class QuadraticIntegrals:
         self.functions = self.spaces(kinds, MOST_UNKNOWNS // slots)
         if not self.functions and n * (n + 1) // 2 <= MOST_UNKNOWNS:
             self.functions = [sympy.S.One]
-        self.of_field = _of_field(equations) if self.linear else []
+        units = flat.translations if flat else ()
+        self.of_field = _of_field(equations, self.X, units) if self.linear else []
 
     def spaces(self, kinds: Kinds, most: int) -> list[Expr]:
         """A bounded number of functions of the coordinates."""
@@ -235,16 +236,20 @@ def _length(expression: Expr) -> tuple[int, str]:
     return sympy.count_ops(expression), str(expression)
 
 
-def _of_field(equations: SlotEquations) -> list[Expr]:
-    """Terms of what multiplies the velocities in the forces, times monomials.
+def _of_field(equations: SlotEquations, X: Sequence[Expr], units: Sequence[Vector]) -> list[Expr]:
+    """Terms of what multiplies the velocities in the forces, along the units, times monomials.
 
     That of a monopole is x_k/r^3, and the linear part of its integrals x_k/r = x_k r^2/r^3.
     """
-    q, v = equations.q, equations.v
+    v = equations.v
     still = dict.fromkeys(v, sympy.S.Zero)
-    slopes = [simplify(f.diff(x).xreplace(still)) for f in equations.forcing for x in v]
-    terms = dict.fromkeys(t for s in slopes for t in bare_terms(s, q))
-    monomials = [sympy.S.One, *q, *products_of_two(q)]
+    field = [[f.diff(x).xreplace(still) for x in v] for f in equations.forcing]
+    if units:
+        field = [[dot(E, [dot(row, F) for row in field]) for F in units] for E in units]
+    terms = dict.fromkeys(
+        t for row in field for s in row for t in bare_terms(simplify(s), equations.q)
+    )
+    monomials = [sympy.S.One, *X, *products_of_two(X)]
     made = dict.fromkeys(t * m for t in terms for m in monomials)
     return list(made) if len(made) <= _MOST_OF_FIELD else []
 

@@ -183,12 +183,14 @@ class Setting:
 
     @cached_property
     def spacetime(self) -> Isometries | None:
-        """Those of g where L is the length sqrt(g) of the path (t, q), whatever its parameter.
+        """Those of g where L is the length sqrt(-g) of the path (t, q), whatever its parameter.
+
+        With g positive along space, roots of its components are real where L is.
 
         Landau, Lifshitz, *The Classical Theory of Fields*, section 87.
         """
         t, q, v = self.system.t, self.system.q, self.system.qdot
-        square = self.system.L**2
+        square = -(self.system.L**2)
         if self.dynamics.constraints.equations or self.quadratic_mass or not self.canonical:
             return None
         if not square.is_polynomial(*v) or sympy.Poly(square, *v).total_degree() > 2:

@@ -18,12 +18,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, product
 
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import is_zero, simplify, to_expression
+from lagcli.algebra import dot, is_zero, simplify, to_expression
 from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.signs import sign
@@ -38,8 +38,6 @@ from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Problem
 from lagcli.values import with_values_of
-
-_RATIOS = (1, 2, 3)
 
 Value = tuple[Symbol, Expr]
 
@@ -61,21 +59,31 @@ class SpecialCase:
 
 
 def candidates(
-    system: System, factors: Sequence[Expr], exponents: Sequence[Exponent]
+    system: System, factors: Sequence[Expr], exponents: Sequence[Exponent], ratios: Sequence[int]
 ) -> list[Value]:
-    """Each once: roots of the factors, and frequencies that are commensurate."""
+    """Each once: roots of the factors, and exponents with frequencies in these ratios."""
     found: dict[Value, None] = {}
     for factor in factors:
         found |= dict.fromkeys(_solved(factor, system.parameters))
-    found |= dict.fromkeys(_commensurate(system.parameters, exponents))
-    # of two signs the positive one: the other is the same system reflected
+    found |= dict.fromkeys(_commensurate(system.parameters, exponents, ratios))
     return [
         (parameter, value)
         for parameter, value in found
-        if not (
-            value.free_symbols and value.could_extract_minus_sign() and (parameter, -value) in found
-        )
+        if not (value.free_symbols and value.could_extract_minus_sign())
+        or (parameter, -value) not in found
+        or not _is_reflected(system, parameter)
     ]
+
+
+def _is_reflected(system: System, parameter: Symbol) -> bool:
+    """Whether -p for p is the same system with some axes, or the time, turned round."""
+    L, turned = system.L, system.L.xreplace({parameter: -parameter})
+    for time, *axes in product((1, -1), repeat=1 + len(system.q)):
+        moving = zip(axes, system.q, system.qdot, strict=True)
+        images = {x: y for s, q, v in moving for x, y in ((q, s * q), (v, s * time * v))}
+        if is_zero(turned.xreplace({**images, system.t: time * system.t}) - L) is True:
+            return True
+    return False
 
 
 def both_vanish(
@@ -87,6 +95,19 @@ def both_vanish(
         pair for pair in each.values()
         if not any(is_zero(f.xreplace(dict(pair))) is True for f in alone)
     ]  # fmt: skip
+
+
+def both_missing(
+    values: Sequence[Value], inertia: Sequence[Expr], parameters: Sequence[Symbol]
+) -> list[tuple[Value, Value]]:
+    """Two parameters that are 0 together, each of which was tried, or one of the inertia."""
+    tried = [p for p, value in values if value == 0]
+    missing = [p for p in parameters if p in tried or _admissible(p, sympy.S.Zero)]
+    return [
+        ((p, sympy.S.Zero), (r, sympy.S.Zero))
+        for p, r in combinations(missing, 2)
+        if {p, r} <= {*tried} or {p, r} & {*inertia}
+    ]
 
 
 def _both_vanish(
@@ -149,23 +170,45 @@ def exchanged(dynamics: Dynamics) -> list[Value]:
 def special_powers(equations: SlotEquations) -> list[Expr]:
     """What vanishes where powers of coordinates are what others are not.
 
-    One in the forcing is constant or of degree one, so that the equation may be linear; one in the
-    inertia is a square, so that it may be that of a circle, or two are equal, and may turn into
-    each other (Kasner's metrics).
+    One in the forcing is constant or of degree one, or is so over the inertia of a coordinate
+    alone, so that the equation may be linear; one in the inertia is a square, so that it may be
+    that of a circle, or two are equal, and may turn into each other (Kasner's metrics).
     """
     q, inertia = equations.q, [m for row in equations.mass for m in row]
-    squares = _open_exponents(inertia, q)
+    squares, forces = _open_exponents(inertia, q), _open_exponents(equations.forcing, q)
+    alone = [p.exp for m in inertia for p in m.atoms(sympy.Pow) if p.base in q and len(q) == 1]
     return [
-        *(e - k for e in _open_exponents(equations.forcing, q) for k in (0, 1)),
+        *(e - k for e in forces for k in (0, 1)),
+        *(e - n - 1 for e in forces for n in alone),
         *(e - 2 for e in squares),
         *(e - f for e, f in combinations(squares, 2)),
     ]
 
 
+def special_inertia(equations: SlotEquations) -> list[Expr]:
+    """What vanishes where a term of the inertia is missing, or two exponentials in it are alike.
+
+    And where a + b cos(q) is a square.
+    """
+    inertia = sympy.Tuple(*(m for row in equations.mass for m in row))
+    waves = [f for f in inertia.atoms(sympy.exp) if not free_of(f, equations.q)]
+    slopes = (simplify(f.args[0].diff(x)) for f in waves for x in equations.q)
+    rates = sorted({r for r in slopes if r != 0 and free_of(r, equations.q)}, key=str)
+    alike = [r + sign * s for r, s in combinations(rates, 2) for sign in (-1, 1)]
+    for wave in sorted(inertia.atoms(sympy.cos, sympy.cosh), key=str):
+        sums = [f for f in sympy.preorder_traversal(sympy.factor(inertia)) if f.is_Add]
+        for a, b in ((f.coeff(wave, 0), f.coeff(wave)) for f in sums if not free_of(f, [wave])):
+            alike += [a - b, a + b] if free_of(sympy.Tuple(a, b), equations.q) else []
+    moving = {equations.t, *equations.q, *equations.v}
+    return [*sorted(inertia.free_symbols - moving, key=str), *alike]
+
+
 def _open_exponents(formulas: Sequence[Expr], q: Sequence[Symbol]) -> list[Expr]:
-    """Those with parameters, of powers of coordinates."""
-    powers = {p for f in formulas for p in f.atoms(sympy.Pow)}
-    found = {p.exp for p in powers if p.exp.free_symbols and not free_of(p.base, q)}
+    """Those with parameters, of powers of coordinates; n - 1 of x^n/x as well as n."""
+    powers = {p.as_base_exp() for f in formulas for p in f.atoms(sympy.Pow)}
+    for term in (term for f in formulas for term in sympy.Add.make_args(sympy.expand(f))):
+        powers |= {*term.as_powers_dict().items()}
+    found = {e for base, e in powers if e.free_symbols and not free_of(base, q)}
     return sorted(found, key=sympy.default_sort_key)
 
 
@@ -181,15 +224,17 @@ def damped_powers(accelerations: Sequence[Expr], system: System) -> Iterator[Val
     for x, u, acceleration in zip(q, system.qdot, accelerations, strict=True):
         others = dict.fromkeys({*q, *system.qdot} - {x, u}, sympy.S.Zero)
         own = sympy.expand(acceleration.xreplace(others))
-        drag, force = own.coeff(u), own.coeff(u, 0)
-        if drag == 0 or not free_of(drag, [system.t, x, u]) or not force.is_polynomial(x):
+        drag, force = own.coeff(u), _by_power(own.coeff(u, 0), x)
+        if drag == 0 or not free_of(drag, [system.t, x, u]) or force is None:
             continue
-        constant, linear, square = (force.coeff(x, k) for k in range(3))
-        for n in sorted(degree for degree in degrees if degree > 1):
-            critical = sympy.Rational(2 * (n + 1), (n + 3) ** 2) * drag**2
-            if n == 2 and free_of(force, [system.t]):
+        constant, linear, square = (force.get(sympy.Integer(k), sympy.S.Zero) for k in range(3))
+        still = free_of(sympy.Tuple(constant, linear, square), [system.t])
+        open_ = [n for n in force if n.free_symbols]
+        for n in (*map(sympy.Integer, sorted(k for k in degrees if k > 1)), *open_):
+            critical = 2 * (n + 1) * drag**2 / (n + 3) ** 2
+            if n == 2 and still:
                 relation = linear**2 - 4 * square * constant - critical**2
-            elif constant == 0 and free_of(linear, [system.t]):
+            elif constant == 0 and still:
                 relation = linear + critical
             else:
                 continue
@@ -198,11 +243,55 @@ def damped_powers(accelerations: Sequence[Expr], system: System) -> Iterator[Val
     yield from found
 
 
+def _by_power(force: Expr, x: Symbol) -> dict[Expr, Expr] | None:
+    """The coefficients of x^n by n, which may have parameters; None of another function of x."""
+    found: dict[Expr, Expr] = {}
+    for term in sympy.Add.make_args(force):
+        coefficient, rest = term.as_independent(x, as_Add=False)
+        exponent = rest.as_powers_dict()[x]
+        if not free_of(sympy.powsimp(rest / x**exponent), [x]):
+            return None
+        found[exponent] = found.get(exponent, sympy.S.Zero) + coefficient
+    return found
+
+
 def rates_of_driving(L: Expr, t: Symbol) -> list[Expr]:
     """What vanishes where a sine, cosine or exponential of time in L is constant."""
     waves = {f for f in L.atoms(sympy.sin, sympy.cos, sympy.exp) if t in f.free_symbols}
     rates = {sympy.numer(sympy.together(f.args[0].diff(t))) for f in waves}
     return sorted((rate for rate in rates if rate.free_symbols), key=sympy.default_sort_key)
+
+
+def steady_in_another_time(equations: SlotEquations, rest: Expr) -> Iterator[Expr]:
+    """What vanishes where f(t) T - g(t) V, V of degree n, does not change in another time.
+
+    With tau' = 1/f it is T - f g V; with x = tau y and the time -1/tau it is T - f g tau^(n + 2) V
+    (Liouville).  For f = t^p exp(r t), one of them 0, tau is t^(1 - p) or exp(-r t).
+    """
+    t, q = equations.t, equations.q
+    inertia = {_time_factor(m, t) for row in equations.mass for m in row if m != 0}
+    if len(inertia) > 1:
+        return
+    p, r = inertia.pop() or (None, None)
+    for term in sympy.Add.make_args(sympy.expand(rest)):
+        s, d = _time_factor(term, t) or (None, None)
+        if p is None or s is None or r is None or d is None:
+            continue
+        n = simplify(dot(q, [term.diff(x) for x in q]) / term)
+        more = [n + 2] if free_of(n, q) else []
+        if r == d == 0:
+            yield from (p + s + (1 - p) * k for k in (0, *more))
+        elif p == s == 0:
+            yield from (r + d - r * k for k in (0, *more))
+
+
+def _time_factor(term: Expr, t: Symbol) -> tuple[Expr, Expr] | None:
+    """p and r of a term that has the factor t^p exp(r t), and is else free of t."""
+    factor = sympy.powsimp(term.as_independent(t, as_Add=False)[1])
+    rate = simplify(t * factor.diff(t) / factor)
+    slope = rate.diff(t)
+    found = simplify(rate - t * slope), slope
+    return found if free_of(sympy.Tuple(*found), [t]) else None
 
 
 def resonant_waves(functions: Sequence[Expr], rest: Expr, q: Sequence[Symbol]) -> Iterator[Expr]:
@@ -227,13 +316,15 @@ def _wave_numbers(formulas: Sequence[Expr], q: Sequence[Symbol]) -> list[tuple[S
 # -- candidates ---------------------------------------------------------------------------
 
 
-def _commensurate(parameters: Sequence[Symbol], exponents: Sequence[Exponent]) -> Iterator[Value]:
+def _commensurate(
+    parameters: Sequence[Symbol], exponents: Sequence[Exponent], ratios: Sequence[int]
+) -> Iterator[Value]:
     """f = r g or g = r f for two frequencies: r^2 (f^2 + g^2)^2 = (1 + r^2)^2 f^2 g^2.
 
     Of two roots of one polynomial the sum and the product have no roots in them.
     """
     squares = list(dict.fromkeys(_squares(exponents)))
-    for ratio in _RATIOS:
+    for ratio in ratios:
         for one, other in combinations(squares, 2):
             total, product = simplify(one + other), simplify(one * other)
             relation = ratio**2 * total**2 - (1 + ratio**2) ** 2 * product

@@ -25,6 +25,7 @@ from lagcli.mechanics.discovery.slots import point_slots
 from lagcli.mechanics.discovery.special import (
     SpecialCase,
     Value,
+    both_missing,
     both_vanish,
     candidates,
     damped_powers,
@@ -33,9 +34,10 @@ from lagcli.mechanics.discovery.special import (
     problem_at,
     rates_of_driving,
     resonant_waves,
+    special_inertia,
     special_powers,
+    steady_in_another_time,
 )
-from lagcli.mechanics.discovery.spectrum import Exponent
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.problem_data import Problem
 from lagcli.record import replace
@@ -45,7 +47,8 @@ _UNITS = 56_000_000  # three frequencies: 11 values take 45 million
 _FOR_PIVOTS = 0.3  # of these
 _MOST_UNKNOWNS = 150  # measured: up to 378
 _MOST_VALUES = 16  # measured: at most 5
-_MOST_PAIRS = 3
+_MOST_PAIRS = 5
+_RATIOS = (1, 2, 3)
 _MOST_OPERATIONS = 20  # measured: at most 2
 _NOT_TRIED = "not all special values of the parameters were tried"
 _NOT_ALL = "not all special values of the parameters were sought"
@@ -65,6 +68,7 @@ def special_cases(
     allowed = Allowance(_UNITS)
     variables = (system.t, *discovery.system.q, *discovery.system.qdot)
     found: list[SpecialCase] = []
+    everything: list[tuple[SpecialCase, Sequence[NoetherCharge]]] = []
     try:
         together: list[tuple[Value, Value]] = []
         if searched.dynamics.constraints.equations:
@@ -72,14 +76,21 @@ def special_cases(
         else:
             lower, pairs = _factors(searched, allowed)
             together = both_vanish(pairs, lower, system.parameters)
+            at_rest = system.L.xreplace(dict.fromkeys(system.qdot, sympy.S.Zero))
             factors = lower + special_powers(searched.equations)
+            factors += special_inertia(searched.equations)
             factors += rates_of_driving(system.L, system.t)
+            if system.t in system.L.free_symbols:
+                factors += steady_in_another_time(searched.equations, at_rest)
             if searched.isometries is not None:
-                at_rest = system.L.xreplace(dict.fromkeys(system.qdot, sympy.S.Zero))
                 factors += resonant_waves(searched.isometries.functions, at_rest, system.q)
-            if len(system.q) == 1 or searched.time_functions.exponents:
+            exponents = searched.time_functions.exponents
+            if len(system.q) == 1 or exponents or _NOT_ALL in discovery.words:
                 factors += system.parameters  # a term less: linear, with functions of time
-            values = candidates(system, factors, _exponents(searched))
+            # without charges with these functions of time only those of a frame may be alike
+            ratios = _RATIOS if _is_timed(searched) else (1,)
+            values = candidates(system, factors, exponents, ratios)
+            together += both_missing(values, special_inertia(searched.equations), system.parameters)
             if searched.accelerations:
                 values += damped_powers(searched.accelerations, system)
         for choice in _choices(values, together, found, discovery.words):
@@ -88,10 +99,13 @@ def special_cases(
                 continue
             there = _at(discovery, choice, search)
             allowed.check()
+            if there is not None and there.stopped and not discovery.stopped:
+                discovery.words.append(_NOT_TRIED)
             if there is None or not _has_more(there, discovery):
                 continue
+            held = (c for case, all_ in everything if _holds(case, choice) for c in all_)
             known = [
-                part for c in discovery.charges
+                part for c in (*discovery.charges, *held)
                 for part in _real_parts(_at_values(c.charge, choice, variables), c.charge)
                 if not part.has(*NO_VALUE)  # divided by what is 0 there
             ]  # fmt: skip
@@ -102,6 +116,7 @@ def special_cases(
             if charges:
                 number, given = len(there.charges), tuple(choice[1:])
                 found.append(SpecialCase(*choice[0], number, charges, there.degree, given))
+                everything.append((found[-1], there.charges))
     except TooMuchWork:
         discovery.words.append(_NOT_TRIED)
     if found and searched.degree > 2:  # the values come from the searches up to second degree
@@ -115,11 +130,12 @@ def _choices(
     found: Sequence[SpecialCase],
     words: list[str],
 ) -> Iterator[tuple[Value, ...]]:
-    """One value at a time, then two where neither was found by then to suffice."""
+    """One value at a time, then two, those first of which neither was found to suffice."""
     yield from ((value,) for value in values[:_MOST_VALUES])
-    left = [pair for pair in pairs if not any(_holds(case, pair) for case in found)]
-    yield from left[:_MOST_PAIRS]
-    if len(values) > _MOST_VALUES or len(left) > _MOST_PAIRS:
+    pairs = list({frozenset(pair): pair for pair in pairs}.values())
+    pairs.sort(key=lambda pair: any(_holds(case, pair) for case in found))
+    yield from pairs[:_MOST_PAIRS]
+    if len(values) > _MOST_VALUES or len(pairs) > _MOST_PAIRS:
         words.append(_NOT_TRIED)
 
 
@@ -172,11 +188,19 @@ def _named_as(charge: NoetherCharge, naming: Naming) -> NoetherCharge:
 
 
 def _has_more(there: Discovery, here: Discovery) -> bool:
-    """More charges, or more point symmetries: L_z in place of an integral of second degree."""
-    return len(there.charges) > len(here.charges) or (
-        len(there.charges) == len(here.charges)
-        and len(there.point_charges) > len(here.point_charges)
+    """More charges up to some degree: L_z in place of one of second, that in place of fourth."""
+    return any(
+        sum(_degree(c, there) <= d for c in there.charges)
+        > sum(_degree(c, here) <= d for c in here.charges)
+        for d in range(1, 5)
     )
+
+
+def _degree(charge: NoetherCharge, of: Discovery) -> int:
+    """That of an integral in the velocities; 1 of all point symmetries."""
+    if charge in of.point_charges or not charge.charge.is_polynomial(*of.system.qdot):
+        return 1
+    return int(sympy.Poly(charge.charge, *of.system.qdot).total_degree())
 
 
 def _at_values(charge: Expr, values: Sequence[Value], moving: Sequence[Symbol]) -> Expr:
@@ -199,17 +223,14 @@ def _real_parts(charge: Expr, given: Expr) -> list[Expr]:
     ]
 
 
-def _exponents(discovery: Discovery) -> tuple[Exponent, ...]:
-    """Those of the linear part, where any charge has such a function of time."""
+def _is_timed(discovery: Discovery) -> bool:
+    """Whether any charge has a sine, cosine or exponential of time."""
     t = discovery.system.t
-    timed = any(
+    return any(
         t in f.free_symbols
         for c in discovery.charges
         for f in c.charge.atoms(sympy.sin, sympy.cos, sympy.exp)
     )
-    if not timed:
-        return ()
-    return discovery.time_functions.exponents
 
 
 def _at(

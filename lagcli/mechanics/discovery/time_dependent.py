@@ -28,6 +28,7 @@ from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.spectrum import Exponent, differences, exponents, frequency_of
 
 _MOST_OPERATIONS = 200  # measured: at most 25
+_LARGEST_ORDER = 3
 
 
 def of_changing_coefficients(
@@ -154,11 +155,28 @@ def _elementary(I: Expr, t: Symbol, p: Expr) -> list[Expr]:  # noqa: E741
                 return [sympy.cosh(inside), sympy.sinh(inside)]
             return [sympy.exp(inside), sympy.exp(-inside)]
         return [sympy.sin(frequency_of(I) * t), sympy.cos(frequency_of(I) * t)]
+    terms = simplify(I * t**2).as_poly(t)
+    if terms is not None and terms.degree() == 2 and terms.nth(1) == 0:
+        return _of_bessel(terms.nth(2), -terms.nth(0), t, p)
     Q = simplify(sympy.sqrt(sympy.factor(1 / I))).replace(sympy.Abs, lambda e: e)
     _, Q = Q.as_independent(t, as_Add=False)
     if Q.is_polynomial(t) and sympy.degree(Q, t) == 2:
         return _of_square(simplify(I * Q**2), Q, t)
     return []
+
+
+def _of_bessel(k: Expr, L: Expr, t: Symbol, p: Expr) -> list[Expr]:
+    """sqrt(t) J of order l + 1/2 for I = k - l (l + 1)/t^2: Y_l = l Y/t - Y' of that of l - 1.
+
+    Abramowitz, Stegun, *Handbook of Mathematical Functions*, 10.1.22.
+    """
+    order = (sympy.sqrt(1 + 4 * L) - 1) / 2
+    if not (order.is_Integer and 0 < order <= _LARGEST_ORDER):
+        return []
+    Y = _elementary(k, t, p)
+    for each in range(1, int(order) + 1):
+        Y = [sympy.expand(each * y / t - y.diff(t)) for y in Y]
+    return Y
 
 
 def _of_square(K: Expr, Q: Expr, t: Symbol) -> list[Expr]:

@@ -9,7 +9,7 @@ from flint import arb
 from lagcli.formatters.grammar import to_grammar
 from lagcli.statements.answers import SpecialValue
 from lagcli.verification.claims.canonical_samples import nearby
-from lagcli.verification.comparison import is_zero
+from lagcli.verification.comparison import ComparisonVerdict, compare
 from lagcli.verification.examination import LOOKED_AT, Examination
 from lagcli.verification.linear import Unclear, rank
 from lagcli.verification.states import State, onto_constraints
@@ -45,9 +45,12 @@ def holds(x: Examination, special: SpecialValue, known: Sequence[int]) -> bool:
             continue
         if not all(each.is_finite() for each in (*found, *rates)):
             continue
-        if not all(map(is_zero, rates)):
+        verdicts = {compare(rate, arb(0)) for rate in rates}
+        if ComparisonVerdict.DIFFERENT in verdicts:
             x.refute(what, "a charge that is listed with it is not constant there")
             return False
+        if verdicts - {ComparisonVerdict.EQUAL}:
+            continue
         tried += 1
         values.append([*found, arb(1)])
         if tried == len(everything) + _MORE:
