@@ -10,7 +10,7 @@ from lagcli.reader.by_coordinate import by_name, coordinate_meant, of_vectors
 from lagcli.reader.file_reader import Required
 from lagcli.reader.foreign.words import polar_speed
 from lagcli.reader.growth import growth
-from lagcli.reader.habits import colon_advice, is_angle, key_meant
+from lagcli.reader.habits import colon_advice, is_angle, is_constant, key_meant
 from lagcli.reader.headings import forces_without_headings, without_headings
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.misshapen import as_list, named_formulas, source_of
@@ -403,7 +403,9 @@ def read_by_coordinate(
         file.error(message, heading.span, whole)
         return {}
     named = [key for key, _ in entries if len(key.label) > 2 and _is_name_of(key.label, file)]
-    named = [] if {source_of(value) for _, value in entries} & {*coordinates} else named
+    values = {source_of(value) for _, value in entries}
+    is_other = values & {*coordinates} or (named and all(is_constant("x", x) for x in values))
+    named = [] if is_other else named
     if section == "forces" and len(coordinates) == 1 and named and len(entries) > 1:
         laws = (_of_friction(key.label, source_of(value), coordinates[0]) for key, value in entries)
         total = " + ".join(laws).replace("+ -", "- ")

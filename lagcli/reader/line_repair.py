@@ -163,7 +163,8 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"^(\s*)[*•·–—+]\s+(?=[^\W\d]\w*\s*$)", r"\1- ", line),
     lambda line: unescape(line) if re.search(r"&\w+;", line) else line,
     lambda line: re.sub(r"^[A-Za-z][a-z ]*\s([TVLH])\s*=\s*(?=\S)", r"\1: ", line),
-    lambda line: re.sub(rf"^({'|'.join(KEYS)})\s+(?=[^\s:=])", r"\1: ", line),
+    lambda line: re.sub(rf"^({'|'.join(KEYS)})(?:\s+(?=[^\s:=])|(?=[\[{{]))", r"\1: ", line),
+    lambda line: re.sub(r"(?<=\w)\s*(?=\{\s*\w+:\s)", ": ", line),  # {m{value: 1}}
     lambda line: re.sub(
         r"^(\s*\"?[^\W\d]\w*'?\"?(?:\((?:t=)?0\))?)\s*(?:<-|←|:=|->|→|=>|=|：)\s*", r"\1: ", line
     ),

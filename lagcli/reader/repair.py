@@ -125,6 +125,9 @@ def with_whole(
     constant = None if of_words else _CONSTANT.search(node.value)
     if constant and not {*re.findall(r"\w+", constant[0])} & scope.kinds.keys():
         hint = _with_constant(node.value, constant, scope, is_equation=read is read_equation)
+        added = re.search(rf"\s*[-+]\s*{_CONSTANT.pattern}\s*$", node.value)
+        if added and what in {"T", "V", "L", "H"}:
+            hint = f"write {node.value[: added.start()]}: a constant has no effect on the motion"
         return [replace(found[0], hint=hint)]
     too_large = "the limit is" in found[0].hint
     in_lines = any(each.message.startswith("two lines without") for each in found)
@@ -230,18 +233,18 @@ def unmoved(
 
 
 def _with_constant(whole: str, word: re.Match[str], scope: Scope, *, is_equation: bool) -> str:
-    """`x + y = C` for `x + y = const.`; a sum has no need of a constant."""
+    """`x + y = C` for `x + y = const.`, without the constant beside another right side."""
     name = next((each for each in ("C", "C_0") if each not in scope.kinds), "C_1")
     sides = [each.strip() for each in re.split("==?", whole)]
     if len(sides) == 3 and len(named := [x for x in sides if not _CONSTANT.fullmatch(x)]) == 2:
         return f"write {' = '.join(named)}"
-    if not is_equation and (added := re.search(rf"\s*[-+]\s*{_CONSTANT.pattern}\s*$", whole)):
-        return f"write {whole[: added.start()]}: a constant has no effect on the motion"
     sign = "" if not is_equation or "=" in whole else "= "
-    whole = f"{whole[: word.start()]}{sign}{name}{whole[word.end() :]}"
-    return (
-        f"a constant has a name and a value: write {whole}, and declare {name} under 'parameters'"
-    )
+    sign = "*" if not sign and re.search(r"[\w)]\s*$", whole[: word.start()]) else sign
+    before = whole[: word.start()]
+    before = before.rstrip() if sign == "*" else before
+    whole = f"{before}{sign}{name}{whole[word.end() :]}"
+    hint = f"a constant has a name and a value: write {whole}"
+    return f"{hint}, and declare {name} under 'parameters'"
 
 
 def _example(text: str, scope: Scope) -> str:
