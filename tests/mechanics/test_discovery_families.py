@@ -200,6 +200,11 @@ V: {V.replace("R", R).replace("kexp", "k*exp")}
         ("{w: POS, l: {}}", "[x, y]",
          "(x'^2 + y'^2 + l*(x*y' - y*x')^2 - w^2*(x^2 + y^2))/(2*(1 + l*(x^2 + y^2)))", "l=0"),
         ("{a: POS, b: {}}", "[x, y]", "(a + b*cos(2*x))*(x'^2 + y'^2)/sin(2*x)^2", "b=a b=-a b=0"),
+        # a fibre of AdS3, and a flat plane in null coordinates a^2, a R^(n - 1)
+        ("{a: {assume: nonzero}}", f"{{x: {{}}, y: {POS}, z: {{}}}}",
+         "(x'^2 + y'^2)/(2*y^2) + a*(z' + x'/y)^2/2", "a=-1"),
+        ("{n: {}}", f"{{a: {POS}, R: {POS}}}",
+         "6*n*R^(n-2)*(a*R*a'^2 + (n-1)*a^2*a'*R') + (n-1)*a^3*R^n", "n=3/2 n=7/8 n=1/3 n=4/3"),
         # a power is linear at n = 2, constant at n = 1; -2: Jackiw, Physics Today 25 (1972) 23
         ("{m: POS, k: POS, n: {}}", f"{{x: {POS}}}", "m*x'^2/2 - k*x^n", "n=0 n=1 n=2 n=-2"),
         ("{m: POS, k: POS, j: {}}", f"{{s: {POS}}}", "m*s'^2/2 - k*s^(2*j)", "j=0 j=1/2 j=1 j=-1"),
@@ -516,6 +521,8 @@ def test_bertrands_exponents_are_found_in_any_coordinates(coordinates):
 COUNTED = {  # text: how many charges, whatever the signs of parameters without one
     "parameters: [l], coordinates: [x], L: x'^2/(2*(1 + l*x^2))": 5,
     "parameters: [a, b], coordinates: [x], L: (a + b*x)*x'^2/2": 5,
+    f"parameters: {{m: {POS}, c: {POS}, g: {POS}}}, coordinates: [x], "
+    "T: m*x'^2/2, V: m*g*x, forces: {x: -m*c*x'^2}": 5,
     "parameters: [b], coordinates: [x, y, z], T: (x'^2 + y'^2 + z'^2)/2, V: sqrt(b^2)": 12,
     f"parameters: {{m: {POS}, H: {POS}}}, coordinates: [r, phi], "
     "L: -m*sqrt(1 - H^2*r^2 - r'^2/(1 - H^2*r^2) - r^2*phi'^2)": 6,

@@ -141,9 +141,12 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
     shared = [1 / J for J in _joint(metric) if x in J.free_symbols]
     if any(not free_of(_without_functions(e), [x]) for e in (*alone, *shared)):
         found |= {1 / x: None, **dict.fromkeys(x**k for k in range(1, _degree(alone, x) + 1))}
-        # X has the slope x^(p/2) where the metric has x^p
+        # X has the slope x^(p/2) where the metric has x^p, or that power beside a turn
         powers = [p for e in alone for b, p in [e.as_base_exp()] if b == x and p.is_odd]
-        found |= {x ** (p / 2 + 1): None for p in powers}
+        found |= {x ** (p / 2 + k): None for p in powers for k in (1, 0)}
+        # one that is no integer stands between two null directions, as a dR^n in a da dR^n
+        broken = [p for e in alone for b, p in [e.as_base_exp()] if b == x and not p.is_integer]
+        found |= {x**n: None for p in broken for n in (p - 1, p, p + 1)}
         below = sorted(alone, key=lambda e: not e.is_Pow)  # dx^2/b tells where b is positive
         place = metric.q.index(x)
         own = sympy.factor(metric.g[place][place])

@@ -28,6 +28,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import DIGITS, Evaluator
 
 _SMALL = mpf(10) ** -15
+_FIRST = mpf(19) / 17  # of the parameters: no exponent with which a component is 0
 _POINTS = (mpf(3) / 7, mpf(8) / 11)  # for the first symbol; the others follow at steps of 1/13
 
 
@@ -119,9 +120,29 @@ class Metric:
             return sympy.S.Zero
         if not self._is_constant(planes):
             return None
-        i, j = planes[0]
+        i, j = next(plane for plane in planes if simplify(self._area(*plane, *plane)) != 0)
         K = simplify(self.riemann(i, j, i, j) / self._area(i, j, i, j))
         return K if free_of(K, self.q) else None
+
+    def constant_where(self, parameters: Sequence[Symbol]) -> Expr:
+        """What vanishes with parameters at which the curvature is constant, by rational points.
+
+        1 where there is none, and where the components there are no rational functions of them.
+        """
+        planes = list(combinations(range(self.n), 2))
+        pairs = list(combinations_with_replacement(planes, 2))
+        sides = [(self.riemann(*a, *b), self._area(*a, *b)) for a, b in pairs]
+        points = [{x: sympy.Rational(k, j) for j, x in enumerate(self.q, k)} for k in (2, 3, 5)]
+        values = [(R.xreplace(at), area.xreplace(at)) for at in points for R, area in sides]
+        first = next(((R, area) for R, area in values if area != 0), None)
+        found = sympy.S.Zero
+        for R, area in values if first else ():
+            assert first is not None
+            condition = sympy.numer(sympy.together(R * first[1] - first[0] * area))
+            if condition.atoms(sympy.Function) or not condition.is_polynomial(*parameters):
+                return sympy.S.One
+            found = sympy.gcd(found, condition)
+        return found
 
     def _area(self, i: int, j: int, k: int, m: int) -> Expr:
         return self.g[i][k] * self.g[j][m] - self.g[i][m] * self.g[j][k]
@@ -142,9 +163,10 @@ class Metric:
                 if not all(isinstance(x, mpf) and mpmath.isfinite(x) for x in values):
                     return False
                 R, area = values[: len(pairs)], values[len(pairs) :]
-                if area[0] == 0:
+                largest = max(range(len(area)), key=lambda k: abs(area[k]))
+                if area[largest] == 0:
                     return False
-                found.append(R[0] / area[0])
+                found.append(R[largest] / area[largest])
                 scale = max(map(abs, area)) * (1 + abs(found[0]))
                 if any(abs(r - found[0] * a) > _SMALL * scale
                        for r, a in zip(R, area, strict=True)):  # fmt: skip
@@ -156,6 +178,6 @@ def _point(symbols: Sequence[Symbol], q: Sequence[Symbol], start: mpf) -> dict[S
     """Parameters that are the same at all points, coordinates that are not."""
     step = mpf(1) / 13
     fixed = [s for s in symbols if s not in q]
-    return {s: 1 + k * step for k, s in enumerate(fixed)} | {
+    return {s: _FIRST + k * step for k, s in enumerate(fixed)} | {
         s: start + k * step for k, s in enumerate(q)
     }

@@ -163,7 +163,21 @@ class Setting:
         """Those that the linear part of the forces suggests, in Cartesian coordinates if any."""
         if self.isometries is not None and self.isometries.flat:
             return self.isometries.times
-        return time_functions(self.equations, self.accelerations, potential=self.canonical)
+        given = self._of_exponential or self.accelerations
+        return time_functions(self.equations, given, potential=self.canonical)
+
+    @property
+    def _of_exponential(self) -> tuple[Expr] | None:
+        """K x where u = exp(c x) obeys u'' = K u, as under a drag -c x'^2 and a constant force."""
+        if self.accelerations is None or len(self.accelerations) > 1:
+            return None
+        [x], [v], [acceleration] = self.system.q, self.system.qdot, self.accelerations
+        for u in self.coordinate_kinds.exponentials:
+            c = u.args[0].diff(x)
+            K = simplify(c * acceleration + c**2 * v**2)
+            if K != 0 and free_of(K, (x, v, self.system.t)):
+                return (K * x,)
+        return None
 
     @cached_property
     def isometries(self) -> Isometries | None:

@@ -28,6 +28,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.equations import solve_for
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.slots import SlotEquations
@@ -38,6 +39,8 @@ from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Problem
 from lagcli.values import with_values_of
+
+_MOST_CURVED = 3  # coordinates
 
 Value = tuple[Symbol, Expr]
 
@@ -200,7 +203,15 @@ def special_inertia(equations: SlotEquations) -> list[Expr]:
         for a, b in ((f.coeff(wave, 0), f.coeff(wave)) for f in sums if not free_of(f, [wave])):
             alike += [a - b, a + b] if free_of(sympy.Tuple(a, b), equations.q) else []
     moving = {equations.t, *equations.q, *equations.v}
-    return [*sorted(inertia.free_symbols - moving, key=str), *alike]
+    own = sorted(inertia.free_symbols - moving, key=str)
+    if (
+        own
+        and 1 < len(equations.q) <= _MOST_CURVED
+        and free_of(inertia, [equations.t, *equations.v])
+    ):
+        curved = Metric(equations.q, equations.mass).constant_where(own)
+        alike += [factor for factor, _ in sympy.factor_list(curved)[1]]
+    return [*own, *alike]
 
 
 def _open_exponents(formulas: Sequence[Expr], q: Sequence[Symbol]) -> list[Expr]:
