@@ -70,30 +70,8 @@ def special_cases(
     found: list[SpecialCase] = []
     everything: list[tuple[SpecialCase, Sequence[NoetherCharge]]] = []
     try:
-        together: list[tuple[Value, Value]] = []
-        if searched.dynamics.constraints.equations:
-            values = exchanged(discovery.dynamics)
-        else:
-            lower, pairs = _factors(searched, allowed)
-            together = both_vanish(pairs, lower, system.parameters)
-            at_rest = system.L.xreplace(dict.fromkeys(system.qdot, sympy.S.Zero))
-            factors = lower + special_powers(searched.equations)
-            factors += special_inertia(searched.equations)
-            factors += rates_of_driving(system.L, system.t)
-            if system.t in system.L.free_symbols:
-                factors += steady_in_another_time(searched.equations, at_rest)
-            if searched.isometries is not None:
-                factors += resonant_waves(searched.isometries.functions, at_rest, system.q)
-            exponents = searched.time_functions.exponents
-            if len(system.q) == 1 or exponents or _NOT_ALL in discovery.words:
-                factors += system.parameters  # a term less: linear, with functions of time
-            # without charges with these functions of time only those of a frame may be alike
-            ratios = _RATIOS if _is_timed(searched) else (1,)
-            values = candidates(system, factors, exponents, ratios)
-            together += both_missing(values, special_inertia(searched.equations), system.parameters)
-            if searched.accelerations:
-                values += damped_powers(searched.accelerations, system)
-        for choice in _choices(values, together, found, discovery.words):
+        values, pairs = _to_try(searched, discovery, allowed)
+        for choice in _choices(values, pairs, found, discovery.words):
             if any(sympy.count_ops(value) > _MOST_OPERATIONS for _, value in choice):
                 discovery.words.append(_NOT_TRIED)
                 continue
@@ -122,6 +100,35 @@ def special_cases(
     if found and searched.degree > 2:  # the values come from the searches up to second degree
         discovery.words.append(_NOT_ALL)
     return tuple(found)
+
+
+def _to_try(
+    searched: Discovery, discovery: Discovery, allowed: Allowance
+) -> tuple[list[Value], list[tuple[Value, Value]]]:
+    """Single values, and pairs of them."""
+    system, equations = searched.system, searched.equations
+    if searched.dynamics.constraints.equations:
+        return exchanged(discovery.dynamics), []
+    factors, pairs = _factors(searched, allowed)
+    discovery.words += [_NOT_ALL] if _NOT_ALL in searched.words else []
+    together = both_vanish(pairs, factors, system.parameters)
+    inertia = special_inertia(equations)
+    at_rest = system.L.xreplace(dict.fromkeys(system.qdot, sympy.S.Zero))
+    factors += [*special_powers(equations), *inertia, *rates_of_driving(system.L, system.t)]
+    if system.t in system.L.free_symbols:
+        factors += steady_in_another_time(equations, at_rest)
+    if searched.isometries is not None:
+        factors += resonant_waves(searched.isometries.functions, at_rest, system.q)
+    exponents = searched.time_functions.exponents
+    if len(system.q) == 1 or exponents or _NOT_ALL in searched.words:
+        factors += system.parameters  # a term less: linear, with functions of time
+    # without charges with these functions of time only those of a frame may be alike
+    ratios = _RATIOS if _is_timed(searched) else (1,)
+    values = candidates(system, factors, exponents, ratios)
+    together += both_missing(values, inertia, system.parameters)
+    if searched.accelerations:
+        values += damped_powers(searched.accelerations, system)
+    return values, together
 
 
 def _choices(
