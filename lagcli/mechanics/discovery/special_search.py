@@ -68,7 +68,7 @@ def special_cases(
     allowed = Allowance(_UNITS)
     variables = (system.t, *discovery.system.q, *discovery.system.qdot)
     found: list[SpecialCase] = []
-    everything: list[tuple[SpecialCase, Sequence[NoetherCharge]]] = []
+    searches: list[tuple[SpecialCase, Discovery]] = []
     try:
         values, pairs = _to_try(searched, discovery, allowed)
         for choice in _choices(values, pairs, found, discovery.words):
@@ -79,11 +79,11 @@ def special_cases(
             allowed.check()
             if there is not None and there.stopped and not discovery.stopped:
                 discovery.words.append(_NOT_TRIED)
-            if there is None or not _has_more(there, discovery):
+            less = [discovery, *(each for case, each in searches if _holds(case, choice))]
+            if there is None or not all(_has_more(there, each) for each in less):
                 continue
-            held = (c for case, all_ in everything if _holds(case, choice) for c in all_)
             known = [
-                part for c in (*discovery.charges, *held)
+                part for each in less for c in each.charges
                 for part in _real_parts(_at_values(c.charge, choice, variables), c.charge)
                 if not part.has(*NO_VALUE)  # divided by what is 0 there
             ]  # fmt: skip
@@ -94,7 +94,7 @@ def special_cases(
             if charges:
                 number, given = len(there.charges), tuple(choice[1:])
                 found.append(SpecialCase(*choice[0], number, charges, there.degree, given))
-                everything.append((found[-1], there.charges))
+                searches.append((found[-1], there))
     except TooMuchWork:
         discovery.words.append(_NOT_TRIED)
     if found and searched.degree > 2:  # the values come from the searches up to second degree
