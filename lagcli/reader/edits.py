@@ -89,7 +89,9 @@ def is_node(start: int, end: int, root: DocumentNode, text: str) -> bool:
 def _elsewhere(name: str, edit: Edit, text: str) -> list[Edit]:
     """The other places of a name, or of a text that was to be one, such as `x-cart`."""
     better = edit.written.rstrip("'")
-    others = re.finditer(rf"(?<!\w){re.escape(name)}(?!\w)", text) if better.isidentifier() else ()
+    behind = r"(?![\w'])" if name.endswith("'") else r"(?!\w)"
+    form = rf"(?<!\w){re.escape(name)}{behind}"
+    others = re.finditer(form, text) if better.isidentifier() else ()
     return [Edit(m.start(), m.end(), better) for m in others if m.start() != edit.start]
 
 

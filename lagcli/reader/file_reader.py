@@ -34,7 +34,7 @@ from lagcli.reader.misshapen import (
 )
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
-from lagcli.reader.number_units import unit_in_formula
+from lagcli.reader.number_units import in_digits, unit_in_formula
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import INITIAL, VALUES, Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import closest
@@ -365,7 +365,11 @@ class FileReader:
     ) -> Expression:
         """A formula whose names are all known and allowed in its role."""
         alone = node.value.strip() if isinstance(node, Scalar) else ""
-        if wrong := unit_in_formula(alone, what, self.scope.kinds, role in _NUMERIC):
+        number = in_digits(alone) if role in _NUMERIC and alone not in self.scope.kinds else alone
+        wrong = unit_in_formula(number, what, self.scope.kinds, role in _NUMERIC)
+        if number != alone and not wrong:
+            wrong = "a number is written in digits", f"write {number}"
+        if wrong:
             self.error(wrong[0], node.span, wrong[1])
             return UNREADABLE
         return self._formula(node, what, role, read_expression, before) or UNREADABLE

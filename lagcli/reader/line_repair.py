@@ -158,6 +158,15 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     _assumed,
     lambda line: re.sub(r"\\\[([A-Z])([a-z]+)\]", lambda m: m[1].lower() + m[2], line),
     lambda line: re.sub(r"^([TVLH]:)\s+[a-z][a-z ]*:(?=\s)", r"\1", line),
+    lambda line: (
+        re.sub(  # [x_{1}, x[2], Subscript[x, 3]]
+            r"Subscript\[(\w+),\s*(\w+)\]|(?<![\w:])([^\W\d]\w*?)_?(?:\[(\d+)\]|_\{(\w+)\})",
+            lambda m: "_".join(filter(None, m.groups())),
+            line,
+        )
+        if re.match(r"\s*\w+:\s+[\[{]", line)
+        else line
+    ),
     _with_units,
     lambda line: re.sub(r"^(\s*[\w ]+:\s+)(\|[^|]+\|.*)$", r'\1"\2"', line),
     lambda line: re.sub(r"^(\s*)[*•·–—+]\s+(?=[^\W\d]\w*\s*$)", r"\1- ", line),
@@ -168,6 +177,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(
         r"^(\s*\"?[^\W\d]\w*'?\"?(?:\((?:t=)?0\))?)\s*(?:<-|←|:=|->|→|=>|=|：)\s*", r"\1: ", line
     ),
+    lambda line: re.sub(r"^(\s+[^\W\d]\w*)(?=\s*(?:#.*)?$)", r"\1:", line),
     _with_blanks,
     _formula,
     lambda line: re.sub(r"^(\s*[\w ]+:\s+)-\s+(?=\S)", r"\1-", line),
@@ -268,7 +278,14 @@ def _without_tabs(text: str, mistake: Diagnostic, read: Reading) -> _Repair | No
         return None
     whole = text.replace("\t", " ")
     is_mixed = re.search(r"^ +\S", text, re.MULTILINE)
-    return None if is_mixed and not read(Source("", whole))[0] else _Repair(mistake, whole, str)
+    if is_mixed and not read(Source("", whole))[0]:
+        return None
+    lines = [
+        f"{k}" for k, line in enumerate(text.split("\n"), start=1) if re.match(r" *\t\s*\S", line)
+    ]
+    also = " and ".join(filter(None, [", ".join(lines[1:-1]), *lines[1:][-1:]]))
+    hint = f"{mistake.hint}, also in line{'s' * bool(lines[2:])} {also}" if also else mistake.hint
+    return _Repair(replace(mistake, hint=hint), whole, str)
 
 
 def _at(mistake: Diagnostic, moved: int) -> Diagnostic:
@@ -312,6 +329,8 @@ def _repaired(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
             )
             added = line[-1] if line.startswith(lines[number].rstrip()) else ""
             message = _NEVER_CLOSED.get(added, mistake.message)
+            left = lines[number].strip().removeprefix(line.strip()).strip()
+            message = f"no '{left}' ends a line" if left in {*";,."} else message
             return _Repair(replace(mistake, message=message, span=span, hint=hint), changed, change)
     return None
 

@@ -10,6 +10,7 @@ from lagcli.expression import FUNCTIONS, Call, Diff, Expression, Name, PartialCa
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.reader.foreign.words import VELOCITIES, Vocabulary, rate_meant, square_of_speed
 from lagcli.reader.habits import foreign_function, habits, instead, is_angle, meanings
+from lagcli.reader.number_units import in_digits
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import alike, closest, did_you_mean
 from lagcli.reader.undeclared import COORDINATE, UNDECLARED
@@ -265,6 +266,8 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return COORDINATE
     if said := _meant(name, what, "unlike"):
         return said
+    if (number := in_digits(name)) != name:
+        return f"write {number}"
     multipliers = list(scope.of_kind("multiplier")) if role.multipliers else []
     if len(multipliers) == 1 and re.fullmatch(r"[A-Z]\w?|F_?\w|lam\w*|λ", name):
         return f"the multiplier of the constraint is {multipliers[0]}; or {UNDECLARED}"

@@ -6,7 +6,7 @@ import re
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagcli.reader.habits import number_and_unit, unit_at_end, unit_behind
+from lagcli.reader.habits import meanings, number_and_unit, unit_at_end, unit_behind
 from lagcli.reader.regex import regex
 
 if TYPE_CHECKING:
@@ -23,7 +23,39 @@ _LETTERS = {
     "kg": "m", "N": "F", "kN": "F", "N/m": "k", "N/cm": "k", "kg/s": "c", "m/s": "v",
     "rad/s": "omega", "Hz": "f", "J": "E", "W": "P",
 }  # fmt: skip
+_IN_WORDS = regex(r"(?:an?\s+)?[^\W\d_]{3,}(?:[\s-]+[^\W\d_][\w/^*]*)*")
 _TIME = (("s", Fraction(1)),)
+
+
+def in_digits(text: str) -> str:
+    """`12` for `twelve`, `3/2` for `one and a half`, `0.25 m` for `a quarter of a m`."""
+    if not _IN_WORDS.fullmatch(text):
+        return text
+    numbers = meanings("numbers")
+    words = "|".join(sorted((*numbers, "and", "an?", "of", "point"), key=len, reverse=True))
+    found = re.fullmatch(
+        rf"\s*((?:minus|negative)\s+)?((?:(?:{words})(?:[\s-]+|$))+)(.*)", text, re.IGNORECASE
+    )
+    given = re.split(r"[\s-]+", found[2].casefold().strip()) if found else []
+    if not found or not {*given} & {*numbers}:
+        return text
+    total = part = scale = Fraction(0)
+    for each in given:
+        if each in {"and", "point"}:
+            total, part, scale = total + part, Fraction(0), Fraction(each == "point")
+        elif each in numbers and scale:
+            scale /= 10
+            part += scale * Fraction(numbers[each])
+        elif each in numbers and (value := Fraction(numbers[each])) < 1:
+            part = (part or 1) * value
+        elif each in numbers:
+            low = part % value if value >= 100 else Fraction(0)
+            part += (low or 1) * value - low
+    number, unit = (total + part) * (-1 if found[1] else 1), found[3]
+    if not unit:
+        return f"{number}" if not scale else f"{float(number):g}"
+    written = f"{float(number):g} {unit}"
+    return written if unit_behind(written) else text
 
 
 def unit_mistake(
@@ -67,7 +99,9 @@ def unit_in_formula(
     def is_unit(text: str) -> bool:
         """Whether a text is a unit, and none of its names is one of the file."""
         words = re.findall(r"[^\W\d]\w*", text)
-        known = [word in names for word in (re.sub("[²³]$", "", each) for each in words)]
+        known = [re.sub("[²³]$", "", each) in names for each in words]
+        known = [is_known or (any(known) and each[0] == "u")  # of m u²
+                 for is_known, each in zip(known, words, strict=True)]  # fmt: skip
         return not (words and all(known)) and unit_behind(f"1 {text}") == text != ""
 
     text = re.sub(r"^[\[(]\s*([^\W\d][^\])]*?)\s*[\])]\s*([-\d.]+)$", r"\2 \1", text)  # [kg] 1
@@ -107,6 +141,22 @@ def _in_base_units(text: str) -> tuple[float, str]:
         for base, power in meant.powers:
             powers[base] = powers.get(base, Fraction(0)) + power * exponent
     return factor, str(Unit(tuple((base, power) for base, power in powers.items() if power)))
+
+
+def in_unit(text: str, unit: str) -> tuple[str, str] | None:
+    """What is wrong with `500 g` beside its unit kg, and what to write; None without a unit."""
+    number, own = number_and_unit(in_digits(text).replace("°", " deg"))
+    if not own or not unit_behind(f"1 {unit}"):
+        return None
+    message = f"the unit '{own}' cannot stand behind a number"
+    if own == unit or number.count(".") > 1:
+        return message, f"write {number}"
+    if _ANGLE.fullmatch(own) and own != unit and unit.startswith("rad"):
+        return message, f"angles are in radians: write {number}*pi/{30 if own == 'rpm' else 180}"
+    (factor, base), (other, same) = _in_base_units(own), _in_base_units(unit)
+    if base != same:
+        return message, f"write a number of {unit}, which {own} is not, or unit: {own}"
+    return message, f"write {float(Fraction(number)) * factor / other:.10g}"
 
 
 def run_mistake(text: str, option: str) -> tuple[str, str] | None:

@@ -15,6 +15,7 @@ from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, entries_of, named_formulas, source_of, swept
 from lagcli.reader.names import NO_VALUE
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
+from lagcli.reader.number_units import in_digits, in_unit
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.suggest import closest, did_you_mean
@@ -52,6 +53,13 @@ _FORMULA = "a formula, without arguments, stands under definitions"
 _OF_TIME = regex(r"(\w+)\(t\)")
 _ONE_NAME = regex(r"write (\w+)(?:, without .*)?")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
+_SPOKEN_SIGNS = (
+    (r"\b(?:is|strictly|always|must be)\b", ""),
+    (r"\b(?:at least|not (?:negative|less than)|[glbh]\w+er (?:than )?or equal(?: to)?)\b", ">="),
+    (r"\b(?:greater|larger|bigger|more|higher) than\b|\babove\b", ">"),
+    (r"\b(?:less|smaller|lower) than\b|\bbelow\b", "<"),
+    (r"\bnot (?:equal to )?(?=0)", "!="),
+)
 _ASSUMED = ("assume", "value")
 
 
@@ -69,7 +77,16 @@ def read_coordinates(file: FileReader, node: DocumentNode) -> tuple[Coordinate, 
 
 
 def _moving(text: str) -> list[str]:
-    """The names with primes or dots in the lines of the energies, in their order there."""
+    """The names with primes, dots or momenta in the energies, in their order there."""
+    if energy := re.search(r"^H:(.*)$", text, re.MULTILINE):
+        momenta = re.findall(r"(?<!\w)p(?:_(\w+)|([qrxyz]\d?|theta|phi|psi)(?!\w))", energy[1])
+        alone = [
+            x for x in ("q", "x", "r", "theta", "phi") if re.search(rf"(?<!\w){x}(?!\w)", energy[1])
+        ]
+        stem = re.search(r"(?<!\w)([qx]_?)1(?!\w)", energy[1])
+        names = ("".join(each) for each in momenta)
+        names = (f"{stem[1] if stem else 'q_'}{x}" if x.isdigit() else x for x in names)
+        return [*dict.fromkeys(names)] or alone[:1]
     lines = re.findall(r"^(?:[TLV]|definitions|constraints|  +\w+):(.*)$", text, re.MULTILINE)
     rates = re.findall(
         r"([^\W\d]\w*)'+(?![\w'(])|\\dot\s*\{?\\?(\w+)|([^\W\d_]+)_?dot\b", "\n".join(lines)
@@ -117,13 +134,16 @@ def read_parameters(
             described.append((key, given))
         elif isinstance(given, Scalar) and (both := _with_words(given.value, file.scope.kinds)):
             file.error(f"the value of '{key.label}' is a number alone", given.span, both)
+        elif isinstance(given, Scalar) and "unit" in attributes and (
+            other := in_unit(given.value, source_of(attributes["unit"]))
+        ):  # fmt: skip
+            file.error(other[0], given.span, other[1])
         elif "value" in attributes:
             what = f"the value of '{key.label}'"
             value = file.expression(attributes["value"], what, VALUES)
         if isinstance(node, Mapping):
-            unit = source_of(attributes["unit"]) if "unit" in attributes else ""
             found_ = file.diagnostics[before:]
-            file.diagnostics[before:] = [replace(x, hint=_in_map(x.hint, unit)) for x in found_]
+            file.diagnostics[before:] = [replace(x, hint=_in_map(x.hint)) for x in found_]
         integer = "integer" in attributes and file.yes_or_no(attributes["integer"], "integer")
         said = _said(file, attributes)
         parameters.append(
@@ -140,10 +160,9 @@ def read_parameters(
     return tuple(parameters)
 
 
-def _in_map(hint: str, unit: str = "") -> str:
+def _in_map(hint: str) -> str:
     """`write value: 1, unit: m` for `write {value: 1, unit: m}`, which stands in braces already."""
-    bare = re.sub(r"write \{((?:value|unit|assume|description): [^{}]*)\}$", r"write \1", hint)
-    return re.sub(rf"write value: (.*), unit: {re.escape(unit)}$", r"write \1", bare)
+    return re.sub(r"write \{((?:value|unit|assume|description): [^{}]*)\}", r"write \1", hint)
 
 
 def _in_order(node: DocumentNode | None) -> str:
@@ -183,7 +202,7 @@ def _with_words(text: str, known: Collection[str]) -> str:
 def is_described(text: str, known: Collection[str]) -> bool:
     """Whether a value is words, such as `mass of the bob`, and no name of the file is in it."""
     words = re.split(r"[ ,.-]+", text.strip())
-    if any(word in known or not word.isalpha() for word in words):
+    if any(word in known or not word.isalpha() for word in words) or in_digits(text) != text:
         return False
     longest = max(words, key=len)
     if len(words) > 1:
@@ -288,15 +307,20 @@ def _declared(
         file.scope.refused += [key.label for key, _ in entries]
         return
     for key, value in entries:
-        if broken := re.fullmatch(r"(\w+)(?<!_)\s*=?\s*(\{.*)", key.label):
-            whole = f"{broken[1]}: {broken[2]}: {'' if value is None else source_of(value)}"
-            file.error(f"a ':' is missing behind '{broken[1]}'", key.span, f"write {whole}")
+        if broken := re.fullmatch(r"(\w+)(?<!_)\s*([=:]?)\s*(\{.*)", key.label):
+            whole = f"{broken[1]}: {broken[3]}: {'' if value is None else source_of(value)}"
+            missing = "blank" if broken[2] == ":" else "':'"
+            file.error(f"a {missing} is missing behind '{broken[1]}'", key.span, f"write {whole}")
             file.scope.refused.append(broken[1])
         elif (of_time := _OF_TIME.fullmatch(key.label)) and isinstance(value, Scalar):
             whole = f"write definitions: {{{of_time[1]}: {value.value}}}"
             hint = f"a function of time is a formula: {whole}, and {of_time[1]} where it is used"
             file.error(f"'{key.label}' is not a constant", key.span, hint)
             file.scope.refused.append(of_time[1])
+        elif section == "parameters" and (better := _without_primes(file, key)):
+            hint = f"write {better}: a prime is a velocity"
+            file.error(f"'{key.label}' is not a name", key.span, hint)
+            file.scope.refused.append(key.label)
         elif with_unit := _with_unit(key, value):
             file.error(f"the unit in '{key.label}' is not a part of its name", key.span, with_unit)
             file.scope.refused.append(key.label)
@@ -332,6 +356,15 @@ def _renamed(names: list[Scalar]) -> tuple[Scalar, str] | None:
     tail = wrong[0][1].partition(", without")
     listed = ", ".join(better.get(each.label, each.label) for each in names)
     return wrong[0][0], f"write [{listed}]{tail[1]}{tail[2]}"
+
+
+def _without_primes(file: FileReader, key: Scalar) -> str:
+    """A name that is free, `m2` for `m'`; nothing for the velocity of a coordinate."""
+    found = re.fullmatch(r"([^\W\d]\w*?)['’′″]+", key.label)
+    if found is None or found[1] in file.scope.of_kind("coordinate"):
+        return ""
+    words = {*re.findall(r"\w+", key.text.source.text)}
+    return next(x for k in range(2, len(words) + 3) if (x := f"{found[1]}{k}") not in words)
 
 
 def _with_unit(key: Scalar, value: DocumentNode | None) -> str:
@@ -430,7 +463,10 @@ def _sign(node: DocumentNode | None, known: Container[str]) -> str:
         return word
     if assumed := re.search(r"\(.*\b(positive|negative|nonnegative|real)\s*=\s*True", node.value):
         return assumed[1]
-    found = re.fullmatch(r"\s*\w*\s*(\W+?)\s*0?\s*", node.value)
+    text = re.sub(r"\bzero\b", "0", node.value)
+    for form, sign in _SPOKEN_SIGNS:
+        text = re.sub(form, f" {sign} ", text)
+    found = re.fullmatch(r"\s*\w*\s*(\W+?)\s*0?\s*", text)
     return SIGNS.get(found[1], "") if found else ""
 
 

@@ -30,7 +30,7 @@ from lagcli.reader.misshapen import (
 )
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar, Sequence
-from lagcli.reader.number_units import run_mistake
+from lagcli.reader.number_units import run_mistake, unit_mistake
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import INITIAL, NUMBERS, POSITION, QUESTION, Role
 from lagcli.reader.suggest import closest, did_you_mean
@@ -61,7 +61,13 @@ def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]
     """The state at t = 0, by coordinate and by velocity."""
     initial: dict[Name, Expression] = {}
     coordinates = list(file.scope.of_kind("coordinate"))
-    entries = list(file.entries(node, "initial", by_name(node, file.scope)))
+    hint = by_name(node, file.scope)
+    for value in re.findall(r": ([\d.]+ ?[^\W\d][^,{}]*)", hint if hint[:6] == "write " else ""):
+        of_unit = unit_mistake(value)
+        if of_unit and " with " in of_unit[1]:  # x(0) = 10 cm
+            braces = re.sub(r"^write ([^{}]*)$", r"write {\1}", hint)
+            hint = f"{braces}; {of_unit[1]}"
+    entries = list(file.entries(node, "initial", hint))
     headings = [
         key for key, value in entries
         if not isinstance(value, Scalar)

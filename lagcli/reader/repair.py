@@ -46,6 +46,7 @@ _MULTIPLIER = regex(
     r"\s*[,;]?\s*\(?(?:with|where|and|mit|avec|con)\s+(?:the\s+)?(?:Lagrange\s+)?(?:multiplier\s+)?"
     r"(?:lambda|lam|λ)\w*\)?\s*$"
 )
+DECLARE = "and declare {} under 'parameters'"
 #: A word for a constant.
 _CONSTANT = regex(
     r"(?i:(?<![\w.])(?:(?:is\s+|a\s+)*(?:[ck]onst(?:ant[ae]?|ans)?|cst|cte|costante)(?!\w))"
@@ -124,7 +125,9 @@ def with_whole(
     of_words = role.order < 0 or is_sentence(node.value, scope.kinds)
     constant = None if of_words else _CONSTANT.search(node.value)
     if constant and not {*re.findall(r"\w+", constant[0])} & scope.kinds.keys():
-        hint = _with_constant(node.value, constant, scope, is_equation=read is read_equation)
+        whole, name = with_constant(node.value, scope, is_equation=read is read_equation)
+        hint = f"a constant has a name and a value: write {whole}, {DECLARE.format(name)}"
+        hint = hint if name else f"write {whole}"
         added = re.search(rf"\s*[-+]\s*{_CONSTANT.pattern}\s*$", node.value)
         if added and what in {"T", "V", "L", "H"}:
             hint = f"write {node.value[: added.start()]}: a constant has no effect on the motion"
@@ -232,19 +235,20 @@ def unmoved(
             if _named_in(each) & names else each for each in found]  # fmt: skip
 
 
-def _with_constant(whole: str, word: re.Match[str], scope: Scope, *, is_equation: bool) -> str:
-    """`x + y = C` for `x + y = const.`, without the constant beside another right side."""
+def with_constant(whole: str, scope: Scope, *, is_equation: bool) -> tuple[str, str]:
+    """`x + y = C` and C for `x + y = const.`; without it beside another right side."""
+    word = _CONSTANT.search(whole)
+    if word is None:
+        return whole, ""
     name = next((each for each in ("C", "C_0") if each not in scope.kinds), "C_1")
     sides = [each.strip() for each in re.split("==?", whole)]
     if len(sides) == 3 and len(named := [x for x in sides if not _CONSTANT.fullmatch(x)]) == 2:
-        return f"write {' = '.join(named)}"
+        return " = ".join(named), ""
     sign = "" if not is_equation or "=" in whole else "= "
     sign = "*" if not sign and re.search(r"[\w)]\s*$", whole[: word.start()]) else sign
     before = whole[: word.start()]
     before = before.rstrip() if sign == "*" else before
-    whole = f"{before}{sign}{name}{whole[word.end() :]}"
-    hint = f"a constant has a name and a value: write {whole}"
-    return f"{hint}, and declare {name} under 'parameters'"
+    return f"{before}{sign}{name}{whole[word.end() :]}", name
 
 
 def _example(text: str, scope: Scope) -> str:

@@ -39,9 +39,17 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     texts = [re.sub("={2,}", "=", as_equation(each)) for each in texts_of(node)]
     given = [part.strip() for each in texts for part in equations_in(each)]
     given = [each for each in given if _FORMULA.search(each)] or [_ROLLING]
+    constants = set()
+    if given != [_ROLLING]:  # the file is refused
+        from lagcli.reader.repair import DECLARE, with_constant
+
+        named_ = [with_constant(each, file.scope, is_equation=True) for each in given]
+        given = [whole for whole, _ in named_]
+        constants = {DECLARE.format(name) for _, name in named_ if name}
     names = [f"c{place}" for place in range(1, len(given) + 1)] if given[1:] else ["name"]
     written = ", ".join(map("{}: {}".format, names, given))
-    hint = f"write {{{written}}}" if given[1:] else f"write {written}"
+    hint = f"write {{{written}}}" if given[1:] or constants else f"write {written}"
+    hint = ", ".join([hint, *constants])
     if any(map(_INEQUALITY.search, texts)):
         gaps = (f"{name}: {gap}" for each in given for name, gap in _gaps("floor", each))
         file.error(_A_CONTACT, node.span, f"write contacts: {{{', '.join(gaps)}}}")

@@ -36,6 +36,7 @@ from lagcli.reader.misshapen import (
     values_of,
 )
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.potential_meant import GRAVITY, potential_meant
 from lagcli.reader.regex import regex
 from lagcli.reader.suggest import closest, did_you_mean
 
@@ -50,7 +51,6 @@ _PROBLEM = "the problem"
 _WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
 #: The number of a state.
 _STATE = regex(r"(?:[-+*/\d.() ]|pi|e(?=[-+\d]))+")
-_GRAVITY = frozenset({"gravity", "gravitation", "weight", "gravitational_acceleration"})
 _RANGES = frozenset({"range", "domain", "bounds", "interval", "limits"})
 _DEFINED = "a formula with a name stands under definitions"
 _MANUAL = "leave it out, or see lagcli help problem-format"
@@ -193,8 +193,8 @@ def _meant_of_problem(
         and (not hint or (near in MAPS - {shape} and is_list))
     ):
         meant, hint = shape, f"the key is {shape}"
-    if word.casefold() in _GRAVITY and (weight := _weight(value, around)):
-        return None, weight
+    if energy_ := potential_meant(word, value, around, _coordinates(around)):
+        return None, energy_
     if hint.startswith("constants stand") and (letter := _letter_used(word, around)):
         hint = hint.replace(f"{{{word}:", f"{{{letter}:")
     above = [k.label for k, _ in around.entries if k.start < key.start][-1:]
@@ -361,31 +361,6 @@ def _quadratic_form(word: str, value: DocumentNode, coordinates: list[str]) -> s
     return f"write {key}: ({' + '.join(terms).replace('+ -', '- ')})/2" if terms else ""
 
 
-def _weight(value: DocumentNode, around: Mapping) -> str:
-    """`write V: m*g*y` with all bodies, where no formula has g; else nothing."""
-    given = {key.label: node for key, node in around.entries}
-    formulas = " ".join(
-        source_of(given[each]) for each in ("V", "L", "H", "forces") if each in given
-    )
-    numbers = re.findall(r"\d+(?:\.\d+)?", source_of(value).split("m")[0])
-    heights = []
-    for _, point in getattr(given.get("points"), "entries", ()):
-        parts = {key.label: node for key, node in getattr(point, "entries", ())}
-        axes = [source_of(each) for each in getattr(parts.get("position"), "items", ())]
-        if "mass" in parts and axes:
-            mass, y = source_of(parts["mass"]), axes[-1]
-            sign = "-" * bool(re.fullmatch(r"-[^-+]*", y))
-            y = f"({y})" if re.search(r"\S\s*[-+]", y) else y.removeprefix(sign)
-            heights.append(f"{sign}{mass}*g*{y}")
-    if re.search(r"(?<!\w)(?:g|gravity)(?!\w)", formulas) or "L" in given or "H" in given:
-        return ""
-    y = next((x for x in "zy" if x in _coordinates(around)), (*_coordinates(around), "y")[0])
-    before = [source_of(given["V"])] if "V" in given else []
-    whole = " + ".join(before + (heights or [f"m*g*{y}"])).replace("+ -", "- ")
-    of_g = f", with g: {numbers[-1]} under parameters" if numbers else ""
-    return f"it has a potential energy: write V: {whole}{of_g}"
-
-
 def _of_range(written: str) -> str:
     """`write assume: positive` for `r > 0` and `[0, inf]`; a coordinate has no other range."""
     written = written.strip("'\"")
@@ -470,7 +445,7 @@ def _advice_in_problem(word: str, value: str) -> str:
         return f"write {part}: {{{key}: {value or '…'}}}"
     if is_constant(word, value):
         return _of_constant(word, value)
-    if word.casefold() in {*_GRAVITY, "spring", "field"}:
+    if word.casefold() in {*GRAVITY, "field"}:
         return "it has a potential energy: write V: m*g*y"
     return ""
 

@@ -216,7 +216,8 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
             return Diagnostic("each equation has a name", span, f"write {inner[1]}: {{{inner_}}}")
         hint = f"write {inner[1]}: {{{inner[2]}}}"
         return Diagnostic("a map on the line of its key stands in braces", span, hint)
-    if word and word[1] in meanings("keys").values():
+    is_joined = re.match(r"\s*\w+:[\[{]", lines[line - 1])
+    if word and word[1] in meanings("keys").values() and not is_joined:
         return Diagnostic("two keys on one line", span, f"begin a new line with '{word[1]}:'")
     return Diagnostic("a second ':' in one value", span, "put the whole value in quotes")
 

@@ -129,6 +129,9 @@ class Sums(ABC):
                 part = self.power()
                 factor = part.text if _is_names(part.text) else part.within(2)
                 tells |= _number(last.text) and re.search(r"'|\)\^2$", factor) is not None
+                moving = {*re.findall(r"[^\W\d]\w*", factor)} & {*self.names.coordinates}
+                of_number = _number(last.text) and factor[0] == "(" and not self.names.momenta
+                tells |= of_number and bool(moving)  # k/4(x + a)
                 if not over or tells or (last.text[:1] == factor[:1] == "("):
                     text += f"*{factor}"
                     over = False

@@ -1,0 +1,126 @@
+"""Weight and springs under keys of their own, which are terms of V."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from lagcli.reader.habits import is_angle, is_constant, number_and_unit
+from lagcli.reader.misshapen import source_of
+from lagcli.reader.nodes import DocumentNode, Mapping
+from lagcli.reader.regex import regex
+
+GRAVITY = frozenset(
+    "gravity gravitation weight gravitational_acceleration gravitational_field gravity_vector "
+    "gravity_direction acceleration_of_gravity g_vec g_vector".split()
+)
+_SPRING = regex(
+    r"(?:linear_|torsion(?:al)?_)?(?:springs?|stiffness(?:es)?|elastic(?:ity)?)"
+    r"(?:_?(?:constants?|stiffness|rate|coefficients?|force|energy|k))?"
+    r"|restoring_force|feder(?:konstante|steifigkeit)?|steifigkeit|raideur|ressort|muelle|molla",
+    re.IGNORECASE,
+)
+_COEFFICIENT = r"[\d.]+|[^\W\d]\w{0,2}(?:_\w+)?"
+
+
+def potential_meant(
+    word: str, value: DocumentNode, around: Mapping, coordinates: Sequence[str]
+) -> str:
+    """`it has a potential energy: write V: …`; nothing where it is not clear what is meant."""
+    given = {key.label: node for key, node in around.entries}
+    potential = source_of(given["V"]) if "V" in given else ""
+    remark = ""
+    if _SPRING.fullmatch(word.replace(" ", "_")):
+        terms = _of_springs(value, coordinates)
+        named = {*re.findall(r"[^\W\d]\w*", " ".join(terms))} - {*coordinates}
+        if potential and named <= {*re.findall(r"\w+", potential)}:
+            return f"leave it out: {', '.join(sorted(named))} stands in V" if named else ""
+        if not terms and not is_constant(word, source_of(value)):
+            return "the energy of a spring stands in V: k*(x - l_0)^2/2"
+    elif word.casefold() in GRAVITY and not {"L", "H"} & {*given}:
+        formulas = potential + " " + (source_of(given["forces"]) if "forces" in given else "")
+        if re.search(r"(?<!\w)(?:g|gravity)(?!\w)", formulas):
+            return ""
+        terms, number = _of_weight(value, given.get("points"), coordinates)
+        declared = source_of(given["parameters"]) if "parameters" in given else ""
+        is_declared = re.search(r"(?<!\w)g(?=\s*(?:[:,\]=]|$))", declared, re.MULTILINE)
+        remark = f", with g: {number} under parameters" if number and not is_declared else ""
+        if not terms and coordinates and is_angle(coordinates[0]):
+            return f"it has a potential energy, as in V: -m*g*l*cos({coordinates[0]})"
+    else:
+        return ""
+    whole = " + ".join(filter(None, (potential, *terms))).replace("+ -", "- ")
+    return f"it has a potential energy: write V: {whole}{remark}" if terms else ""
+
+
+def _of_springs(value: DocumentNode, coordinates: Sequence[str]) -> list[str]:
+    """`k*x^2/2` for the k of the only coordinate, and for each of `{x: k}`; nothing for others."""
+    laws = [(key.label, source_of(node)) for key, node in getattr(value, "entries", ())]
+    alone = [("", source_of(value))] if not laws else []
+    terms = []
+    for name, law in (*laws, *alone):
+        x = name or (coordinates[0] if len(coordinates) == 1 else "")
+        found = re.fullmatch(rf"-?\s*({_COEFFICIENT})(?:\s*\*?\s*{re.escape(x)})?", law)
+        energy = re.fullmatch(r".*\^\s*2\s*/\s*2|(?:0?\.5|1/2|\(1/2\))\s*\*.*\^\s*2", law)
+        if energy and not name and "'" not in law:
+            terms.append(law)
+        elif x not in coordinates or found is None or found[1] in coordinates:
+            return []
+        else:
+            terms.append(f"{found[1]}*{x}^2/2")
+    return terms
+
+
+def _of_weight(
+    value: DocumentNode, points: DocumentNode | None, coordinates: Sequence[str]
+) -> tuple[list[str], str]:
+    """The terms of V, `m*g*y` for each body, and the number that g is.
+
+    The field is a vector, whose component is negative along an axis that points upwards, or a
+    size, which is downwards.
+    """
+    field = _components(value)
+    number = next((found[0] for each in (field.values() if field else [source_of(value)])
+                   if (found := re.search(r"(?<![\w.])\d+(?:\.\d+)?", each))
+                   and float(found[0])), "")  # fmt: skip
+    terms = []
+    for mass, axes in _bodies(points, coordinates):
+        last = list(axes)[-1]
+        for axis, component in (field or {last: "-g"}).items():
+            height = axes.get(axis, axes[last] if axis == "z" or len(axes) == 1 else "0")
+            sign = "" if component.startswith("-") else "-"
+            size, unit = number_and_unit(component.lstrip("-+ "))
+            size = "g" if unit or re.fullmatch(r"[\d.]+", size) else size
+            if height.startswith("-") and not re.search(r"\S\s*[-+]", height):
+                sign, height = "-" * (not sign), height.removeprefix("-")
+            factors = (f"({x})" if re.search(r"\S\s*[-+]", x) else x for x in (mass, size, height))
+            terms += [sign + "*".join(factors)] if height not in {"0", "0.0"} else []
+    return terms, number
+
+
+def _components(value: DocumentNode) -> dict[str, str]:
+    """`{y: -g}` for `[0, -g]`, `(0, -g, 0)` and `{y: -g}`; empty for a size."""
+    written = source_of(value)
+    listed = re.fullmatch(r"[\[(<](.*,.*)[\])>]", written)
+    pairs = [(key.label, source_of(node)) for key, node in getattr(value, "entries", ())]
+    pairs = [*zip("xyz", listed[1].split(","), strict=False)] if listed else pairs
+    field = {axis: each.strip() for axis, each in pairs if axis in {"x", "y", "z"}}
+    return {axis: each for axis, each in field.items() if not re.fullmatch(r"[-+]?0?\.?0*", each)}
+
+
+def _bodies(
+    points: DocumentNode | None, coordinates: Sequence[str]
+) -> Iterator[tuple[str, dict[str, str]]]:
+    """The masses of the points, with their components by axis; of m itself without points."""
+    bodies = 0
+    for _, point in getattr(points, "entries", ()):
+        parts = {key.label: node for key, node in getattr(point, "entries", ())}
+        axes = [source_of(each) for each in getattr(parts.get("position"), "items", ())]
+        if "mass" in parts and axes:
+            bodies += 1
+            yield source_of(parts["mass"]), dict(zip("xyz", axes, strict=False))
+    if not bodies:
+        own = {x: x for x in ("x", "y", "z") if x in coordinates}
+        other = next(iter(coordinates), "y")
+        if own or not (is_angle(other) or other in {"r", "rho", "ρ"}):
+            yield "m", own or {"y": other}
