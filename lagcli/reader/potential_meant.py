@@ -31,6 +31,11 @@ def potential_meant(
     potential = source_of(given["V"]) if "V" in given else ""
     remark = ""
     if _SPRING.fullmatch(word.replace(" ", "_")):
+        number, unit = number_and_unit(source_of(value))
+        is_free = not re.search(r"(?<!\w)k(?!\w)", around.text.source.text)
+        if unit and is_free and len(coordinates) == 1 and not potential:
+            whole = f"V: k*{coordinates[0]}^2/2, with k: {{value: {number}, unit: {unit}}}"
+            return f"it has a potential energy: write {whole} under parameters"
         terms = _of_springs(value, coordinates)
         named = {*re.findall(r"[^\W\d]\w*", " ".join(terms))} - {*coordinates}
         if potential and named <= {*re.findall(r"\w+", potential)}:

@@ -9,7 +9,7 @@ from lagcli.expression import FUNCTIONS
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
 from lagcli.reader.constants import value_cycle
-from lagcli.reader.habits import SIGNS, is_constant, name_meant, spoken_unit, unit_behind
+from lagcli.reader.habits import SIGNS, habits, is_constant, name_meant, spoken_unit, unit_behind
 from lagcli.reader.headings import without_headings
 from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, entries_of, named_formulas, source_of, swept
@@ -53,13 +53,6 @@ _FORMULA = "a formula, without arguments, stands under definitions"
 _OF_TIME = regex(r"(\w+)\(t\)")
 _ONE_NAME = regex(r"write (\w+)(?:, without .*)?")
 _ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
-_SPOKEN_SIGNS = (
-    (r"\b(?:is|strictly|always|must be)\b", ""),
-    (r"\b(?:at least|not (?:negative|less than)|[glbh]\w+er (?:than )?or equal(?: to)?)\b", ">="),
-    (r"\b(?:greater|larger|bigger|more|higher) than\b|\babove\b", ">"),
-    (r"\b(?:less|smaller|lower) than\b|\bbelow\b", "<"),
-    (r"\bnot (?:equal to )?(?=0)", "!="),
-)
 _ASSUMED = ("assume", "value")
 
 
@@ -80,9 +73,7 @@ def _moving(text: str) -> list[str]:
     """The names with primes, dots or momenta in the energies, in their order there."""
     if energy := re.search(r"^H:(.*)$", text, re.MULTILINE):
         momenta = re.findall(r"(?<!\w)p(?:_(\w+)|([qrxyz]\d?|theta|phi|psi)(?!\w))", energy[1])
-        alone = [
-            x for x in ("q", "x", "r", "theta", "phi") if re.search(rf"(?<!\w){x}(?!\w)", energy[1])
-        ]
+        alone = re.findall(r"(?<!\w)(?:[qxr]|theta|phi)(?!\w)", energy[1])
         stem = re.search(r"(?<!\w)([qx]_?)1(?!\w)", energy[1])
         names = ("".join(each) for each in momenta)
         names = (f"{stem[1] if stem else 'q_'}{x}" if x.isdigit() else x for x in names)
@@ -161,7 +152,7 @@ def read_parameters(
 
 
 def _in_map(hint: str) -> str:
-    """`write value: 1, unit: m` for `write {value: 1, unit: m}`, which stands in braces already."""
+    """`write value: 1, unit: m` for `write {value: 1, unit: m}`, where braces stand already."""
     return re.sub(r"write \{((?:value|unit|assume|description): [^{}]*)\}", r"write \1", hint)
 
 
@@ -463,8 +454,8 @@ def _sign(node: DocumentNode | None, known: Container[str]) -> str:
         return word
     if assumed := re.search(r"\(.*\b(positive|negative|nonnegative|real)\s*=\s*True", node.value):
         return assumed[1]
-    text = re.sub(r"\bzero\b", "0", node.value)
-    for form, sign in _SPOKEN_SIGNS:
+    text = node.value
+    for form, sign in habits()["signs"] if re.search(r"\b(?:than|least|not|zero)\b", text) else ():
         text = re.sub(form, f" {sign} ", text)
     found = re.fullmatch(r"\s*\w*\s*(\W+?)\s*0?\s*", text)
     return SIGNS.get(found[1], "") if found else ""

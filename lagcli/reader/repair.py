@@ -411,6 +411,8 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     value = re.sub(
         r"\\(?:math(?:cal|scr|rm)|cal)\s*(?:\{\s*([^\W\d])\s*\}|\s([^\W\d])\b)", r"\1\2", value
     )
+    if "u" not in scope.kinds and scope.energies.get("T") == value:
+        value = re.sub(r"(?<![^\W_])u(?![\w(])", "v", value)  # of m*u^2/2
     value = re.sub(r"&\s*=|=\s*&", "=", re.sub(r"\\\\\s*$", "", value))  # of an alignment
     sides = re.split("==?", value)
     if equation and len(sides) == 3 and re.fullmatch(r"\s*\w+\([\w, ]*\)\s*", sides[0]):

@@ -77,7 +77,7 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
         message = f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once"
         hint = _one_by_one(excerpt.value) if start == "comparison" else CASE
         if re.fullmatch(r"\s*\w*\s*(?:<=|≤)\s*0\s*", excerpt.value) and start == "expression":
-            hint = "leave it out: of negative signs there is only assume: negative, which is < 0"
+            hint = "write {assume: real}: no assumption says <= 0"
         if start == "expression" and re.search(r"<[^<>]+>", excerpt.value):
             hint = "group with parentheses ( ), without '<' and '>'"
         return Diagnostic(message, _span(token, excerpt), hint)
