@@ -9,7 +9,7 @@ from flint import arb
 from lagcli.formatters.grammar import to_grammar
 from lagcli.statements.answers import SpecialValue
 from lagcli.verification.claims.canonical_samples import nearby
-from lagcli.verification.comparison import ComparisonVerdict, compare
+from lagcli.verification.comparison import ComparisonVerdict, compare, is_zero
 from lagcli.verification.examination import LOOKED_AT, Examination
 from lagcli.verification.linear import Unclear, rank
 from lagcli.verification.states import State, onto_constraints
@@ -18,8 +18,13 @@ from lagcli.verification.states import State, onto_constraints
 _MORE = 4
 
 
-def holds(x: Examination, special: SpecialValue, known: Sequence[int]) -> bool:
-    """Whether the charges that are listed with a value are constant there, and new ones."""
+def holds(
+    x: Examination, special: SpecialValue, known: Sequence[int], others: Sequence[SpecialValue]
+) -> bool:
+    """Whether the charges that are listed with a value are constant there, and new ones.
+
+    With two values those of one of them, which is among the others, are known.
+    """
     what = f"the special value {special.parameter} = {to_grammar(special.value)}"
     places = x.places(what, [*special.values.values(), *special.charges.values()])
     if places is None:
@@ -35,6 +40,8 @@ def holds(x: Examination, special: SpecialValue, known: Sequence[int]) -> bool:
     if first is None:
         x.unchecked.append(what)
         return True
+    given = [p for each in others if special.given for p in _of_one(x, each, first)]
+    known = [*known, *given]
     everything = [*(p for p in known if first.at(p).is_finite()), *charges]
     tried, values = 0, []
     for state in nearby(first, 4 * (len(everything) + _MORE)):
@@ -58,6 +65,15 @@ def holds(x: Examination, special: SpecialValue, known: Sequence[int]) -> bool:
             return not complete or _counted(x, what, special, values)
     x.unchecked.append(what)
     return True
+
+
+def _of_one(x: Examination, one: SpecialValue, state: State) -> Sequence[int]:
+    """The charges of a case of one parameter, if the state has its value."""
+    what = f"the special value {one.parameter} = {to_grammar(one.value)}"
+    places = None if one.given else x.places(what, [one.value, *one.charges.values()])
+    if places is None or not is_zero(state.at(places[0]) - state.environment[one.parameter, 0]):
+        return ()
+    return places[1:]
 
 
 def _counted(
