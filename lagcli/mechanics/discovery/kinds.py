@@ -105,7 +105,7 @@ def kinds(
             and cyclic
             and unit is None
             and not inertia[x].atoms(*CIRCULAR)
-            and _is_of_no_circle(inertia[x][equations.q.index(x)], equations.q)
+            and _is_of_no_circle(x, equations)
         ):
             found.lengths.append(x)
     found.radii = [
@@ -146,15 +146,21 @@ def _has_twin(x: Symbol, equations: SlotEquations, L: Expr) -> bool:
     )
 
 
-def _is_of_no_circle(inertia: Expr, q: Sequence[Symbol]) -> bool:
-    """Whether it is no square of a radius: where a circle shrinks to a point it falls as r^2.
+def _is_of_no_circle(x: Symbol, equations: SlotEquations) -> bool:
+    """Whether its inertia is no square of a radius: as a circle shrinks to a point it falls as r^2.
 
-    1 + x^2 vanishes nowhere, and r^(2 p) falls so for p = 1 alone.
+    1 + x^2 vanishes nowhere, r^(2 p) falls so for p = 1 alone, and with r'^2/r^2 no point is near.
     """
+    q, places = equations.q, {y: k for k, y in enumerate(equations.q)}
+    inertia = equations.mass[places[x]][places[x]]
     above, below = sympy.fraction(sympy.together(inertia))
     if not free_of(below, q) or any(not free_of(e, q) for e in inertia.atoms(sympy.exp)):
         return True
-    inside = [x for x in q if x in above.free_symbols]
+    inside = [y for y in q if y in above.free_symbols]
+    for y in inside:
+        own = sympy.denom(sympy.together(equations.mass[places[y]][places[y]]))
+        if len(inside) == 1 and own.xreplace({y: sympy.S.Zero}) == 0:
+            return True
     if not above.is_polynomial(*inside):
         base, exponent = above.as_independent(*q, as_Add=False)[1].as_base_exp()
         return base in q and exponent != 2

@@ -265,7 +265,10 @@ def _nullity(C: list[list[Vector]]) -> int:
     ad = mpmath.matrix(
         [[mpmath.fsum(x[a] * C[a][b][c] for a in range(n)) for b in range(n)] for c in range(n)]
     )
-    sizes = [abs(z) for z in mpmath.eig(ad, left=False, right=False)]
+    try:
+        sizes = [abs(z) for z in mpmath.eig(ad, left=False, right=False)]
+    except RuntimeError:  # mpmath's iteration did not end: no name
+        return -1
     return sum(size < _OF_BLOCK * max(sizes) for size in sizes)
 
 

@@ -197,7 +197,16 @@ class Setting:
 
     @cached_property
     def spacetime(self) -> Isometries | None:
-        """Those of g where L is the length sqrt(-g) of the path (t, q), whatever its parameter.
+        """Those of the metric of space and time; None where there are none."""
+        equations = self.of_spacetime
+        if equations is None or not Isometries.apply(equations):
+            return None
+        found = Isometries(equations, sympy.S.Zero, self.allowed)
+        return found if found.functions else None
+
+    @cached_property
+    def of_spacetime(self) -> SlotEquations | None:
+        """Of g where L is the length sqrt(-g) of the path (t, q), whatever its parameter.
 
         With g positive along space, roots of its components are real where L is.
 
@@ -211,13 +220,10 @@ class Setting:
             return None
         rate = sympy.Dummy("t'", real=True)
         whole = sympy.Poly(square, *v).homogenize(rate).as_expr()
-        mass = tuple(tuple(whole.diff(a, b) / 2 for a in (rate, *v)) for b in (rate, *v))
+        moving = (rate, *v)
+        mass = tuple(tuple(_with_squares(whole.diff(a, b) / 2) for a in moving) for b in moving)
         forcing = (sympy.S.Zero,) * len(mass)
-        equations = SlotEquations(sympy.Dummy("s"), (t, *q), (rate, *v), mass, forcing)
-        if not Isometries.apply(equations):
-            return None
-        found = Isometries(equations, sympy.S.Zero, self.allowed)
-        return found if found.functions else None
+        return SlotEquations(sympy.Dummy("s"), (t, *q), moving, mass, forcing)
 
     def _with_linear_terms(self, i: int) -> Expr:
         """A force in the form that has linear terms: simplified, or as it was derived.
@@ -236,3 +242,9 @@ class Setting:
             *(m.free_symbols for row in self.equations.mass for m in row),
             *(f.free_symbols for f in self.equations.forcing),
         )
+
+
+def _with_squares(formula: Expr) -> Expr:
+    """(1 + a x)^2 for 1 + 2 a x + a^2 x^2, so that its root is 1 + a x."""
+    above, below = sympy.fraction(sympy.together(formula))
+    return sympy.sqf(above) / sympy.sqf(below)

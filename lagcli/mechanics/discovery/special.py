@@ -179,13 +179,29 @@ def special_powers(equations: SlotEquations) -> list[Expr]:
     """
     q, inertia = equations.q, [m for row in equations.mass for m in row]
     squares, forces = _open_exponents(inertia, q), _open_exponents(equations.forcing, q)
-    alone = [p.exp for m in inertia for p in m.atoms(sympy.Pow) if p.base in q and len(q) == 1]
+    shared = _by_base(inertia, q[0]) if len(q) == 1 else {}
+    alone = [
+        e - n - int(base != sympy.E)
+        for base, exponents in (_by_base(equations.forcing, q[0]).items() if shared else ())
+        for e in exponents for n in shared.get(base, ())
+    ]  # fmt: skip
     return [
         *(e - k for e in forces for k in (0, 1)),
-        *(e - n - 1 for e in forces for n in alone),
+        *(each for each in alone if each.free_symbols),
         *(e - 2 for e in squares),
         *(e - f for e, f in combinations(squares, 2)),
     ]
+
+
+def _by_base(formulas: Sequence[Expr], x: Symbol) -> dict[Expr, list[Expr]]:
+    """The exponents of powers of x, 1 + x, ..., and by e the rates of exponentials of x."""
+    found: dict[Expr, list[Expr]] = {}
+    for term in (t for f in formulas for t in sympy.Add.make_args(sympy.expand_mul(f))):
+        for base, exponent in term.as_powers_dict().items():
+            rate = sympy.sympify(exponent).diff(x) if base == sympy.E else sympy.sympify(exponent)
+            if rate != 0 and free_of(rate, [x]) and (base == sympy.E or not free_of(base, [x])):
+                found.setdefault(base, []).append(rate)
+    return found
 
 
 def special_inertia(equations: SlotEquations) -> list[Expr]:
@@ -259,7 +275,7 @@ def _by_power(force: Expr, x: Symbol) -> dict[Expr, Expr] | None:
     found: dict[Expr, Expr] = {}
     for term in sympy.Add.make_args(force):
         coefficient, rest = term.as_independent(x, as_Add=False)
-        exponent = rest.as_powers_dict()[x]
+        exponent = sympy.sympify(rest.as_powers_dict()[x])
         if not free_of(sympy.powsimp(rest / x**exponent), [x]):
             return None
         found[exponent] = found.get(exponent, sympy.S.Zero) + coefficient
@@ -280,6 +296,9 @@ def steady_in_another_time(equations: SlotEquations, rest: Expr) -> Iterator[Exp
     (Liouville).  For f = t^p exp(r t), one of them 0, tau is t^(1 - p) or exp(-r t).
     """
     t, q = equations.t, equations.q
+    for term in sympy.Add.make_args(sympy.expand(rest)):  # 1/r^2 keeps a dilation, in a trap too
+        n = _degree_in(term, q)
+        yield from [n + 2] if n is not None and n.free_symbols else []
     inertia = {_time_factor(m, t) for row in equations.mass for m in row if m != 0}
     if len(inertia) > 1:
         return
@@ -288,12 +307,18 @@ def steady_in_another_time(equations: SlotEquations, rest: Expr) -> Iterator[Exp
         s, d = _time_factor(term, t) or (None, None)
         if p is None or s is None or r is None or d is None:
             continue
-        n = simplify(dot(q, [term.diff(x) for x in q]) / term)
-        more = [n + 2] if free_of(n, q) else []
+        n = _degree_in(term, q)
+        more = [] if n is None else [n + 2]
         if r == d == 0:
             yield from (p + s + (1 - p) * k for k in (0, *more))
         elif p == s == 0:
             yield from (r + d - r * k for k in (0, *more))
+
+
+def _degree_in(term: Expr, q: Sequence[Symbol]) -> Expr | None:
+    """n of a homogeneous function of the coordinates (Euler)."""
+    n = simplify(dot(q, [term.diff(x) for x in q]) / term)
+    return n if free_of(n, q) else None
 
 
 def _time_factor(term: Expr, t: Symbol) -> tuple[Expr, Expr] | None:

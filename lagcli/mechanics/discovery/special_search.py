@@ -112,11 +112,10 @@ def _to_try(
     factors, pairs = _factors(searched, allowed)
     discovery.words += [_NOT_ALL] if _NOT_ALL in searched.words else []
     together = both_vanish(pairs, factors, system.parameters)
-    inertia = special_inertia(equations)
+    inertia = special_inertia(searched.of_spacetime or equations)
     at_rest = system.L.xreplace(dict.fromkeys(system.qdot, sympy.S.Zero))
     factors += [*special_powers(equations), *inertia, *rates_of_driving(system.L, system.t)]
-    if system.t in system.L.free_symbols:
-        factors += steady_in_another_time(equations, at_rest)
+    factors += steady_in_another_time(equations, at_rest)
     if searched.isometries is not None:
         factors += resonant_waves(searched.isometries.functions, at_rest, system.q)
     exponents = searched.time_functions.exponents
@@ -125,7 +124,8 @@ def _to_try(
     # without charges with these functions of time only those of a frame may be alike
     ratios = _RATIOS if _is_timed(searched) else (1,)
     values = candidates(system, factors, exponents, ratios)
-    together += both_missing(values, inertia, system.parameters)
+    both = inertia if searched.quadratic_mass else system.parameters
+    together += both_missing(values, both, system.parameters)
     if searched.accelerations:
         values += damped_powers(searched.accelerations, system)
     return values, together
