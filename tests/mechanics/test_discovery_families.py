@@ -171,6 +171,11 @@ V: {V.replace("R", R).replace("kexp", "k*exp")}
 @pytest.mark.parametrize(
     ("parameters", "coordinates", "L", "values"),
     [
+        # in the arc length the power 2; Ermakov; space and time without curvature
+        ("{a: POS, b: {}}", "[x]", "exp(2*a*x)*x'^2/2 - exp(b*x)", "b=2*a b=a b=-2*a"),
+        ("{n: {}}", f"{{x: {POS}}}", "(1 + x)^2*x'^2/2 - (1 + x)^n", "n=4 n=2 n=-4"),
+        ("{a: POS, n: {}}", f"{{x: {POS}}}", "x'^2/2 - a*x^2/2 - x^n", "n=-2 n=1 n=2"),
+        ("{m: POS, g: POS, h: {}}", "[x]", "-m*sqrt(1 + 2*g*x + h*x^2 - x'^2)", "h=g**2"),
         # damped with x^3, x^2 and x^5: Leach, J. Math. Phys. 26 (1985) 2510
         ("{c: POS, a: POS}", "[x]", "exp(c*t)*(x'^2/2 - a*x^2/2 - x^4/4)", "a=2*c**2/9"),
         ("{c: POS, a: POS}", "[s]", "exp(-2*c*t)*(s'^2/2 - a*s^2/2 + s^3)", "a=24*c**2/25"),
@@ -523,6 +528,10 @@ COUNTED = {  # text: how many charges, whatever the signs of parameters without 
     "parameters: [a, b], coordinates: [x], L: (a + b*x)*x'^2/2": 5,
     f"parameters: {{m: {POS}, c: {POS}, g: {POS}}}, coordinates: [x], "
     "T: m*x'^2/2, V: m*g*x, forces: {x: -m*c*x'^2}": 5,
+    f"parameters: {{g: {POS}}}, coordinates: [x], L: -sqrt((1 + g*x)^2 - x'^2)": 3,
+    f"parameters: {{a: {POS}, b: {POS}}}, coordinates: [x, y, u, v], T: x'^2 + y'^2 "
+    "+ (x' - a*u'*sin(u))^2 + (y' + a*u'*cos(u))^2 "
+    "+ (x' - b*v'*sin(v))^2 + (y' + b*v'*cos(v))^2": 7,  # Galilei, and the inner energy
     "parameters: [b], coordinates: [x, y, z], T: (x'^2 + y'^2 + z'^2)/2, V: sqrt(b^2)": 12,
     f"parameters: {{m: {POS}, H: {POS}}}, coordinates: [r, phi], "
     "L: -m*sqrt(1 - H^2*r^2 - r'^2/(1 - H^2*r^2) - r^2*phi'^2)": 6,
@@ -534,7 +543,7 @@ COUNTED = {  # text: how many charges, whatever the signs of parameters without 
 
 @pytest.mark.parametrize("text", COUNTED)
 def test_all_are_found_and_real_where_the_motion_is(text):
-    """An arc length, a modulus, de Sitter's static patch, a monopole (McIntosh and Cisneros)."""
+    """Arc lengths, space and time, two rods with a hinge, a monopole (McIntosh and Cisneros)."""
     made = derive(f"{{{text}}}")
     kept = digits_of(made)
     assert len(kept) == COUNTED[text]

@@ -224,6 +224,16 @@ def test_without_brackets_the_number_of_charges_alone_makes_a_motion_integrable(
     assert verified(problem, answers).complete
 
 
+@pytest.mark.parametrize("V", ["-k/sqrt(x^2 + y^2) + a/x^2", "k/x^2 + a/y^2", "k*x^4 + a*y^4"])
+def test_two_special_values_have_the_charges_of_each(V):
+    """Without both forces the particle is free; the charges without one are known by then."""
+    text = f"coordinates: [x, y]\nparameters: [k, a]\nT: (x'^2 + y'^2)/2\nV: {V}\n"
+    _, answers, algebra = sheet(text, "algebra")
+    assert not answers.warnings
+    free = [s for s in algebra.special if set(s.values) == {"k", "a"}]
+    assert [s.number for s in free] == [8]
+
+
 @pytest.mark.parametrize("length", ["l", "2*l", "l + 1"])
 def test_charges_at_a_special_value_are_examined_on_the_constraints(length):
     """Two oscillators, one of them on a string: L_z is constant for equal springs."""
