@@ -23,6 +23,8 @@ _LETTERS = {
     "kg": "m", "N": "F", "kN": "F", "N/m": "k", "N/cm": "k", "kg/s": "c", "m/s": "v",
     "rad/s": "omega", "Hz": "f", "J": "E", "W": "P",
 }  # fmt: skip
+#: A number that is converted: not one of a thousand digits.
+_NUMBER = regex(r"[-+]?(?:\d{1,20}\.?\d{0,20}|\.\d{1,20})(?:[eE][-+]?\d{1,2}|/[1-9]\d{0,20})?")
 _IN_WORDS = regex(r"(?:an?\s+)?[^\W\d_]{3,}(?:[\s-]+[^\W\d_][\w/^*]*)*")
 _TIME = (("s", Fraction(1)),)
 
@@ -71,7 +73,7 @@ def unit_mistake(
         return None
     hint = f"write {number}: numbers are in the units of the file"
     factor, base = _in_base_units(unit)
-    if abs(factor - 1) > 1e-9 and number.count(".") < 2:
+    if abs(factor - 1) > 1e-9 and _NUMBER.fullmatch(number):
         value = f"{float(Fraction(number)) * factor:.6g}"
         hint = (
             f"numbers are in the units of the file: write {number} with {unit}, {value} with {base}"
@@ -140,18 +142,20 @@ def _in_base_units(text: str) -> tuple[float, str]:
         factor *= meant.factor ** float(exponent)
         for base, power in meant.powers:
             powers[base] = powers.get(base, Fraction(0)) + power * exponent
-    return factor, str(Unit(tuple((base, power) for base, power in powers.items() if power)))
+    return factor, str(
+        Unit(tuple((base, power) for base, power in sorted(powers.items()) if power))
+    )
 
 
 def in_unit(text: str, unit: str) -> tuple[str, str] | None:
     """What is wrong with `500 g` beside its unit kg, and what to write; None without a unit."""
     number, own = number_and_unit(in_digits(text).replace("°", " deg"))
-    if not own or not unit_behind(f"1 {unit}"):
+    if not own or not unit_behind(f"1 {unit}") or not _NUMBER.fullmatch(number):
         return None
     message = f"the unit '{own}' cannot stand behind a number"
-    if own == unit or number.count(".") > 1:
+    if own == unit:
         return message, f"write {number}"
-    if _ANGLE.fullmatch(own) and own != unit and unit.startswith("rad"):
+    if _ANGLE.fullmatch(own) and unit.startswith("rad"):
         return message, f"angles are in radians: write {number}*pi/{30 if own == 'rpm' else 180}"
     (factor, base), (other, same) = _in_base_units(own), _in_base_units(unit)
     if base != same:

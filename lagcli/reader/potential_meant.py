@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from lagcli.reader.habits import is_angle, is_constant, number_and_unit
 from lagcli.reader.misshapen import source_of
@@ -20,6 +20,8 @@ _SPRING = regex(
     r"|restoring_force|feder(?:konstante|steifigkeit)?|steifigkeit|raideur|ressort|muelle|molla",
     re.IGNORECASE,
 )
+_ENERGY = regex(r"[^']*\^\s*2\s*/\s*2|(?:0?\.5|1/2|\(1/2\))\s*\*[^']*\^\s*2")
+_SUM = regex(r"\S\s*[-+]")
 _COEFFICIENT = r"[\d.]+|[^\W\d]\w{0,2}(?:_\w+)?"
 
 
@@ -60,14 +62,12 @@ def potential_meant(
 
 def _of_springs(value: DocumentNode, coordinates: Sequence[str]) -> list[str]:
     """`k*x^2/2` for the k of the only coordinate, and for each of `{x: k}`; nothing for others."""
-    laws = [(key.label, source_of(node)) for key, node in getattr(value, "entries", ())]
-    alone = [("", source_of(value))] if not laws else []
+    given = [(key.label, source_of(node)) for key, node in getattr(value, "entries", ())]
+    only = coordinates[0] if len(coordinates) == 1 else ""
     terms = []
-    for name, law in (*laws, *alone):
-        x = name or (coordinates[0] if len(coordinates) == 1 else "")
+    for x, law in given or [(only, source_of(value))]:
         found = re.fullmatch(rf"-?\s*({_COEFFICIENT})(?:\s*\*?\s*{re.escape(x)})?", law)
-        energy = re.fullmatch(r".*\^\s*2\s*/\s*2|(?:0?\.5|1/2|\(1/2\))\s*\*.*\^\s*2", law)
-        if energy and not name and "'" not in law:
+        if not given and _ENERGY.fullmatch(law):
             terms.append(law)
         elif x not in coordinates or found is None or found[1] in coordinates:
             return []
@@ -84,23 +84,23 @@ def _of_weight(
     The field is a vector, whose component is negative along an axis that points upwards, or a
     size, which is downwards.
     """
-    field = _components(value)
-    number = next((found[0] for each in (field.values() if field else [source_of(value)])
-                   if (found := re.search(r"(?<![\w.])\d+(?:\.\d+)?", each))
-                   and float(found[0])), "")  # fmt: skip
+    field, written = _components(value), source_of(value)
+    numbers = re.findall(r"(?<![\w.])\d+(?:\.\d+)?", " ".join(field.values()) or written)
+    size = written.lstrip("-") if re.fullmatch(r"-?g\w{0,3}", written) else "g"
     terms = []
     for mass, axes in _bodies(points, coordinates):
         last = list(axes)[-1]
-        for axis, component in (field or {last: "-g"}).items():
+        for axis, component in (field or {last: f"-{size}"}).items():
             height = axes.get(axis, axes[last] if axis == "z" or len(axes) == 1 else "0")
-            sign = "" if component.startswith("-") else "-"
-            size, unit = number_and_unit(component.lstrip("-+ "))
-            size = "g" if unit or re.fullmatch(r"[\d.]+", size) else size
-            if height.startswith("-") and not re.search(r"\S\s*[-+]", height):
+            is_sum = _SUM.search(component) is not None
+            sign = "" if component.startswith("-") and not is_sum else "-"
+            size, unit = number_and_unit(component if is_sum else component.lstrip("-+ "))
+            size = "g" if len(field) == 1 and (unit or re.fullmatch(r"[\d.]+", size)) else size
+            if height.startswith("-") and not _SUM.search(height):
                 sign, height = "-" * (not sign), height.removeprefix("-")
-            factors = (f"({x})" if re.search(r"\S\s*[-+]", x) else x for x in (mass, size, height))
+            factors = (f"({x})" if _SUM.search(x) else x for x in (mass, size, height))
             terms += [sign + "*".join(factors)] if height not in {"0", "0.0"} else []
-    return terms, number
+    return terms, numbers[0] if numbers and any("*g*" in term for term in terms) else ""
 
 
 def _components(value: DocumentNode) -> dict[str, str]:
@@ -115,17 +115,15 @@ def _components(value: DocumentNode) -> dict[str, str]:
 
 def _bodies(
     points: DocumentNode | None, coordinates: Sequence[str]
-) -> Iterator[tuple[str, dict[str, str]]]:
+) -> list[tuple[str, dict[str, str]]]:
     """The masses of the points, with their components by axis; of m itself without points."""
-    bodies = 0
+    found = []
     for _, point in getattr(points, "entries", ()):
         parts = {key.label: node for key, node in getattr(point, "entries", ())}
         axes = [source_of(each) for each in getattr(parts.get("position"), "items", ())]
         if "mass" in parts and axes:
-            bodies += 1
-            yield source_of(parts["mass"]), dict(zip("xyz", axes, strict=False))
-    if not bodies:
-        own = {x: x for x in ("x", "y", "z") if x in coordinates}
-        other = next(iter(coordinates), "y")
-        if own or not (is_angle(other) or other in {"r", "rho", "ρ"}):
-            yield "m", own or {"y": other}
+            found.append((source_of(parts["mass"]), dict(zip("xyz", axes, strict=False))))
+    own = {x: x for x in ("x", "y", "z") if x in coordinates}
+    other = next(iter(coordinates), "y")
+    is_height = not (is_angle(other) or other in {"r", "rho", "ρ"})
+    return found or [("m", own or {"y": other})] * bool(own or is_height)
