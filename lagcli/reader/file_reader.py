@@ -36,7 +36,7 @@ from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import in_digits, unit_in_formula
 from lagcli.reader.regex import regex
-from lagcli.reader.scope import INITIAL, VALUES, Kind, Role, Scope, name_mistake
+from lagcli.reader.scope import INITIAL, NUMBERS, VALUES, Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import closest
 from lagcli.reader.text import Mistake
 from lagcli.reader.unknown_keys import unknown_key
@@ -365,7 +365,8 @@ class FileReader:
     ) -> Expression:
         """A formula whose names are all known and allowed in its role."""
         alone = node.value.strip() if isinstance(node, Scalar) else ""
-        number = in_digits(alone) if role in _NUMERIC and alone not in self.scope.kinds else alone
+        is_open = role in {*_NUMERIC, NUMBERS} and alone not in self.scope.kinds
+        number = in_digits(alone) if is_open else alone
         wrong = unit_in_formula(number, what, self.scope.kinds, role in _NUMERIC)
         if number != alone and not wrong:
             wrong = "a number is written in digits", f"write {number}"

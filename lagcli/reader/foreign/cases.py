@@ -13,7 +13,7 @@ _FORMS = (
     rf"(?P<then>.+?)\s+(?:if|when)\s+{_RELATION}\s+else\s+(?P<other>.+)",
     rf"\(?{_RELATION}\)?\s*\?\s*(?P<then>[^?]+?)\s*:\s*(?P<other>[^?]+)",
     rf"if\s+\(?{_RELATION}\)?\s*(?:[:,]|\s+then\b)\s*(?P<then>.+?){_OTHERWISE}",
-    rf"(?:np\.where|where|if_else|ifelse|piecewise|If|IF)[\[(]{_RELATION},(?P<then>[^,]+),(?P<other>[^,]+)[\])]",
+    rf"(?:np\.where|where|if_else|ifelse|piecewise|[Ii]f|IF)[\[(]{_RELATION},(?P<then>[^,]+),(?P<other>[^,]+)[\])]",
     rf"Piecewise\[\{{\{{(?P<then>[^,]+),{_RELATION}\}},\s*(?:\{{(?P<other>[^,]+),[^,]+\}}\}}|(?P<_>)[^,]+)\]",
     rf"(?:\w+\.)?Piecewise\(\((?P<then>[^,]+),{_RELATION}\),\s*\((?P<other>[^,]+),[^,]+\)\)",
     rf"(?P<then>.+?)\s*,?\s+(?:for|if|when)\s+{_RELATION}(?:[,;]\s*(?:else\s+)?(?P<other>0).*)?",
