@@ -293,12 +293,10 @@ def steady_in_another_time(equations: SlotEquations, rest: Expr) -> Iterator[Exp
     """What vanishes where f(t) T - g(t) V, V of degree n, does not change in another time.
 
     With tau' = 1/f it is T - f g V; with x = tau y and the time -1/tau it is T - f g tau^(n + 2) V
-    (Liouville).  For f = t^p exp(r t), one of them 0, tau is t^(1 - p) or exp(-r t).
+    (Liouville).  For f = t^p exp(r t), one of them 0, tau is t^(1 - p) or exp(-r t).  Without the
+    time that is n = -2, which keeps a dilation, in a trap too.
     """
     t, q = equations.t, equations.q
-    for term in sympy.Add.make_args(sympy.expand(rest)):  # 1/r^2 keeps a dilation, in a trap too
-        n = _degree_in(term, q)
-        yield from [n + 2] if n is not None and n.free_symbols else []
     inertia = {_time_factor(m, t) for row in equations.mass for m in row if m != 0}
     if len(inertia) > 1:
         return
@@ -307,18 +305,12 @@ def steady_in_another_time(equations: SlotEquations, rest: Expr) -> Iterator[Exp
         s, d = _time_factor(term, t) or (None, None)
         if p is None or s is None or r is None or d is None:
             continue
-        n = _degree_in(term, q)
-        more = [] if n is None else [n + 2]
+        n = simplify(dot(q, [term.diff(x) for x in q]) / term)  # Euler
+        more = [n + 2] if free_of(n, q) else []
         if r == d == 0:
             yield from (p + s + (1 - p) * k for k in (0, *more))
         elif p == s == 0:
             yield from (r + d - r * k for k in (0, *more))
-
-
-def _degree_in(term: Expr, q: Sequence[Symbol]) -> Expr | None:
-    """n of a homogeneous function of the coordinates (Euler)."""
-    n = simplify(dot(q, [term.diff(x) for x in q]) / term)
-    return n if free_of(n, q) else None
 
 
 def _time_factor(term: Expr, t: Symbol) -> tuple[Expr, Expr] | None:
