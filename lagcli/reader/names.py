@@ -210,7 +210,7 @@ def _other_name(node: Name, scope: Scope, role: Role, what: str) -> Iterator[Dia
         elif node.primes:
             yield Diagnostic("a momentum has no primes", span)
     elif (
-        not scope.refused and name not in FUNCTIONS
+        not scope.may_be(name) and name not in FUNCTIONS
     ):  # else it may be one of those that could not be declared
         yield Diagnostic(
             f"unknown name '{name}' in {what}", span, _advice(name, scope, role, node.primes, what)
@@ -326,7 +326,7 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         elif scope.kinds.get(name) == "parameter" and node.arguments == (Name("t"),):
             hint = f"a function of time is declared as such: functions: {{{name}: [t]}}"
         yield Diagnostic(message, node.span, hint)
-    elif not scope.refused or instead(name) or foreign_function(name):
+    elif not scope.may_be(name) or instead(name) or foreign_function(name):
         functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]
         spelled = name.lower() if len(name) > 1 and name.isupper() else name  # LN
         best = "" if foreign_function(name) else closest(spelled, functions)

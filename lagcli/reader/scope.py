@@ -119,6 +119,13 @@ class Scope:
         """The names of one kind, in the order of their declaration."""
         return (name for name, other in self.kinds.items() if other == kind)
 
+    def may_be(self, name: str) -> bool:
+        """Whether a name that is unknown may be one that could not be declared.
+
+        Beside L an energy V is another mistake, and hides no name but its own.
+        """
+        return name in self.refused or not {*self.refused} <= {"L", "T", "V"}
+
     @property
     def free(self) -> list[str]:
         """The coordinates to which no constraint gives a value; all where each has one."""
