@@ -149,10 +149,9 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
         found |= {x**n: None for p in broken for n in (p - 1, p, p + 1)}
         below = sorted(alone, key=lambda e: not e.is_Pow)  # dx^2/b tells where b is positive
         place = metric.q.index(x)
-        own = sympy.factor(metric.g[place][place])
-        turned = bool(sympy.Mul(*(f for f in sympy.Mul.make_args(own) if not f.is_Pow)).is_negative)
+        own = metric.g[place][place]
         bases = dict.fromkeys(b for e in below for b in _bases(e) if b.is_Add)
-        sums = [-b if turned else b for b in bases]
+        sums = [-b if sympy.cancel(own * b).is_negative else b for b in bases]
         for k, b in enumerate(sums):
             # modulo a prime 4 k + 3 the roots of b and -b are never both there
             if any(free_of(sympy.cancel(b / c), [x]) for c in sums[:k]):

@@ -198,7 +198,7 @@ def _by_base(formulas: Sequence[Expr], x: Symbol) -> dict[Expr, list[Expr]]:
     found: dict[Expr, list[Expr]] = {}
     for term in (t for f in formulas for t in sympy.Add.make_args(sympy.expand_mul(f))):
         for base, exponent in term.as_powers_dict().items():
-            rate = sympy.sympify(exponent).diff(x) if base == sympy.E else sympy.sympify(exponent)
+            rate = exponent.diff(x) if base == sympy.E else exponent
             if rate != 0 and free_of(rate, [x]) and (base == sympy.E or not free_of(base, [x])):
                 found.setdefault(base, []).append(rate)
     return found
@@ -275,7 +275,7 @@ def _by_power(force: Expr, x: Symbol) -> dict[Expr, Expr] | None:
     found: dict[Expr, Expr] = {}
     for term in sympy.Add.make_args(force):
         coefficient, rest = term.as_independent(x, as_Add=False)
-        exponent = sympy.sympify(rest.as_powers_dict()[x])
+        exponent = rest.as_powers_dict().get(x, sympy.S.Zero)
         if not free_of(sympy.powsimp(rest / x**exponent), [x]):
             return None
         found[exponent] = found.get(exponent, sympy.S.Zero) + coefficient
