@@ -68,6 +68,18 @@ def declared(
             file.scope.refused.append("")
         if "multiplier" in attributes:
             text = file.scalar(attributes["multiplier"], "'multiplier'")
+            label = "" if text is None else text.label
+            law = source_of(attributes.get("equation", value))
+            sides = re.fullmatch("([^=<>{]+?)(?: *= *([^=<>{]+))?", law)
+            if (
+                sides and label[:1] == "-" and label[1:].isidentifier()
+            ):  # right = left has the other
+                meant = {"equation": f"{sides[2] or 0} = {sides[1]}", "multiplier": label[1:]}
+                given = {k.label: source_of(v) for k, v in value.entries} | meant
+                hint = f"write {{{', '.join(map(': '.join, given.items()))}}}"
+                file.error(f"the multiplier '{label}' is not a name", value.span, hint)
+                file.scope.refused.append(label[1:])
+                return Declared(key, multiplier, attributes)
             if text is not None:
                 multiplier, place = text.label, text.span
     file.declare(multiplier, kind, place)

@@ -10,7 +10,7 @@ from lagcli.reader.by_coordinate import by_name, coordinate_meant, of_vectors
 from lagcli.reader.file_reader import Required
 from lagcli.reader.foreign.words import polar_speed
 from lagcli.reader.growth import growth
-from lagcli.reader.habits import colon_advice, is_angle, is_constant, key_meant
+from lagcli.reader.habits import KEYS, colon_advice, is_angle, is_constant, key_meant
 from lagcli.reader.headings import forces_without_headings, without_headings
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.misshapen import as_list, named_formulas, source_of
@@ -90,23 +90,18 @@ def _usual_energy(file: FileReader) -> str:
     known = {*file.scope.of_kind("parameter")}
     turning = [x for x in coordinates if is_angle(x)]
     squares = polar_speed((*coordinates,)) if coordinates else ""
-    masses = [x for x in known if re.fullmatch(r"[mM]_?\w?", x)]
     if turning and not squares and coordinates[1:]:
         return ""
 
-    def mass(x: str) -> str:
-        index = re.sub(r"^\D*", "", x)
-        return next((m for m in (f"m{index}", f"m_{index}", "m", *masses) if m in known), "m")
-
     if squares:
-        return f", as in T: {mass('')}/2*({squares})"
+        return f", as in T: {_mass_of(file, '')}/2*({squares})"
     if turning:
         [angle] = turning
         inertia = next((x for x in ("I", "J", "Theta") if x in known), "")
         length = next((x for x in ("l", "L", "ℓ", "R", "r", "a", "b", "d") if x in known), "")
-        inertia = inertia or (f"{mass(angle)}*{length}^2" if length else "I")
+        inertia = inertia or (f"{_mass_of(file, angle)}*{length}^2" if length else "I")
         return f", as in T: {inertia}*{angle}'^2/2"
-    whole = " + ".join(f"{mass(x)}*{x}'^2/2" for x in coordinates)
+    whole = " + ".join(f"{_mass_of(file, x)}*{x}'^2/2" for x in coordinates)
     return f", as in T: {whole}" if whole else ""
 
 
@@ -220,7 +215,14 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
         whole = f"position: [{_by_axes(value)}]"
         whole = f"{key.label}: {{{whole}, {rest_of}}}" if rest_of else whole
         required = Required("position", key.span, f"write {whole}")
-        found = file.attributes(value, what, _POINT_ATTRIBUTES, required)
+        axes = value.items if isinstance(value, Sequence) else ()
+        is_bare = all(isinstance(axis, Scalar) and "=" not in axis.value for axis in axes)
+        found = {}
+        if axes and is_bare and file.sections <= {*KEYS} - {"T", "L", "H"}:  # [x, y]
+            hint = f"write {{position: {source_of(value)}, mass: {_mass_of(file, key.label)}}}"
+            file.error(f"{what} must be a map, not a list", value.span, hint)
+        else:
+            found = file.attributes(value, what, _POINT_ATTRIBUTES, required)
         attributes = {name: attribute for name, (_, attribute) in found.items()}
         if "position" not in attributes:
             file.scope.refused.append("points")
@@ -241,6 +243,13 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
             Point(name=key.label, position=position, mass=mass, force=force, span=key.span)
         )
     return tuple(points)
+
+
+def _mass_of(file: FileReader, name: str) -> str:
+    """The parameter that is most probably the mass of a point: `m_A` of A, m2 of P2, else m."""
+    masses = [x for x in file.scope.of_kind("parameter") if re.fullmatch(r"(?!mu)[mM]_?\w?", x)]
+    own = [x for x in masses if x[1:] and re.search(rf"{x[1:].strip('_')}$", name)]
+    return (*own, *(x for x in masses if not x[1:]), *masses, "m")[0]
 
 
 def _by_axes(node: DocumentNode) -> str:

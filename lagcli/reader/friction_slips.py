@@ -10,15 +10,19 @@ from collections.abc import Iterator, Mapping
 from functools import partial
 from typing import NamedTuple
 
-from lagcli.diagnostics import Diagnostic
+from lagcli.diagnostics import Diagnostic, Source
 from lagcli.expression import Call, Expression, Name, Number, Power, Sum, names_in, walk
 from lagcli.reader.plain_sign import plain_sign
+from lagcli.reader.text import SourceText
 
 _warning = partial(Diagnostic, severity="warning")
 
 
 def friction_slips(
-    forces: Mapping[str, Expression], coordinates: tuple[str, ...], signs: Mapping[str, int]
+    forces: Mapping[str, Expression],
+    coordinates: tuple[str, ...],
+    signs: Mapping[str, int],
+    source: Source,
 ) -> Iterator[Diagnostic]:
     """A warning for each force that drives where friction would brake, or brakes another motion.
 
@@ -30,6 +34,8 @@ def friction_slips(
         Their names.
     signs
         Of the parameters: 1, 0 or -1.
+    source
+        The file.
     """
     laws = {x: [*_laws(force, coordinates, signs)] for x, force in forces.items()}
     for x, found in laws.items():
@@ -38,7 +44,8 @@ def friction_slips(
         for law in own if is_alone else ():
             if law.sign > 0:
                 message = f"this force along {x} drives the motion: it has the sign of {x}'"
-                yield _warning(message, law.term.span, f"friction is opposite to it, as in -c*{x}'")
+                opposite = _opposite(law.term, SourceText.of(source)) or f", as in -c*{x}'"
+                yield _warning(message, law.term.span, f"friction is opposite to it{opposite}")
         others = [law for law in found if law.along != x]
         for law in others if not own and len(others) == 1 and _rates(forces[x]) != {x} else ():
             back = [each for each in laws.get(law.along, ()) if each.along == x]
@@ -47,6 +54,13 @@ def friction_slips(
                 message = f"this force along {x} is against the velocity {law.along}'"
                 hint = f"friction along {x} depends on {x}'"
                 yield _warning(message, law.term.span, hint)
+
+
+def _opposite(term: Expression, text: SourceText) -> str:
+    """`: -mu*m*g*sign(x')`, the term with the other sign; nothing where a parenthesis is cut."""
+    written = text.source.text[slice(*text.offsets(term.span))]
+    other = written[1:].strip() if written[0] == "-" else f"-{written}"
+    return f": {other}" if written.count("(") == written.count(")") else ""
 
 
 class _Law(NamedTuple):

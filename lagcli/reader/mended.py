@@ -86,7 +86,7 @@ class _Mending:
         """The state after the next hint that can be followed; None where none can be."""
         if state.is_read:
             return None
-        for each, place in sorted(state.errors, key=self._rank):
+        for each, place in sorted(state.errors, key=lambda one: (not self.first(one[0]), one[1])):
             known = (self.begin_of(state, place[0]), each.message)
             if known in self.refused or len(self.followed) >= _MOST:
                 continue
@@ -94,10 +94,6 @@ class _Mending:
                 return after
             self.refused.add(known)
         return None
-
-    def _rank(self, error: tuple[Diagnostic, tuple[int, int]]) -> tuple[bool, tuple[int, int]]:
-        """Names before formulas, then by the place: one name is renamed where it stands first."""
-        return not self.first(error[0]), error[1]
 
     def _after(self, state: _State, mistake: Diagnostic, place: tuple[int, int]) -> _State | None:
         """The state after the edit that leaves the fewest mistakes; None where none helps."""

@@ -64,7 +64,11 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
         term = text.source.text[slice(*text.offsets(mistake.span))]
         return only(_squares(places, term, problem), remaining) or only(places, remaining)
 
-    place = only(_other_primes(problem, text, found), [])
+    primes = _other_primes(problem, text, found)
+    begin, stop = text.offsets(found[0].span)
+    within = [each for each in primes if begin <= each[0] and each[1] <= stop]
+    # x' = R*theta: a prime more on one side fits as one less on the other does
+    place = only(primes, []) or (None if found[1:] else only(within, []))
     units = wrong_units(problem, found[0])
     if units[1:] and place is None:
         return units

@@ -94,7 +94,14 @@ def _entries(
             return []
         return [*file.entries(value, what)]
     changed = [name for name in re.findall(r"\w+", said) if name in {*coordinates, "t"}]
-    if changed and "time" not in key.label:
+    rates = any(f"{x}'" in said for x in coordinates) and not re.search("[=>→,]", said)
+    is_charge = rates and re.search(rf"(?<!\w)(?:{'|'.join(coordinates)})(?![\w'])", said)
+    if is_charge and not _usual_change(key.label, coordinates):  # x*y' - y*x'
+        place = f"observables: {{{key.label}: {said}}}"
+        hint = f"a formula of velocities stands under observables: write {place}"
+        file.error(f"{what} must be a map, not a formula", value.span, hint)
+        return []
+    if changed and "time" not in key.label and not is_charge:
         usual = _shift(changed)
     items = [*map(source_of, getattr(value, "items", ()))]
     if len(items) == len(coordinates) and not {*items} <= {*coordinates}:  # [-y, x]

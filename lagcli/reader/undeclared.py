@@ -161,6 +161,12 @@ def _joined(group: list[Diagnostic]) -> Diagnostic:
             if (found := _OTHER_KEY.fullmatch(f"{each.message}: {each.hint}"))]  # fmt: skip
     if len(keys) == len(group) and len({found["key"] for _, found in keys}) > 1:
         return _other_keys(keys)
+    moved = [_MOVED.fullmatch(f"{each.message}: {each.hint}") for each in group]
+    parts = [(each["hint"], each["entry"]) for each in moved if each]
+    if len(parts) == len(group) and len({hint for hint, _ in parts}) == 1:  # of one section
+        entries = dict.fromkeys(entry for _, entry in parts)
+        also = tuple((each.span, "this one too") for each in group[1:])
+        return replace(group[0], hint=f"{parts[0][0]}{', '.join(entries)}}}", related=also)
     hints = {group[0].hint: group[0].hint}
     lines: list[str] = []
     names: list[str] = []

@@ -67,7 +67,8 @@ def slips(problem: Problem) -> list[Diagnostic]:
         if _moves(term) and all(node.primes or node.name in signs for node in names_in(term)):
             message = "a term of V with velocities and constants alone has no effect on the motion"
             found.append(_warning(message, term.span, FRICTION))
-    found += friction_slips(problem.forces, tuple(x.name for x in problem.coordinates), signs)
+    coordinates = tuple(x.name for x in problem.coordinates)
+    found += friction_slips(problem.forces, coordinates, signs, problem.source)
     energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
     roots = (n for formula in energies if formula is not None for n in walk(formula))
     for node in roots:

@@ -20,3 +20,62 @@ def test_an_unknown_name_is_shown_where_it_stands_first(other):
     told = found(f"coordinates: [x]\nparameters: [m, k]\nH: px^2/(2*m) + k*x^2\n{other}\n")
     assert told[0].span.line == 3
     assert told[0].hint == "did you mean 'p_x'?"
+
+
+def hints(written):
+    return [each.hint for each in found(written)]
+
+
+@pytest.mark.parametrize(
+    ("masses", "name", "meant"),
+    [("m, k", "A", "m"), ("m1, m2", "P2", "m2"), ("M, m_A", "A", "m_A")],
+)
+def test_a_position_without_a_mass_is_one_mistake(masses, name, meant):
+    told = hints(f"coordinates: [x, y]\nparameters: [{masses}]\npoints: {{{name}: [x, y]}}\n")
+    assert told == [f"write {{position: [x, y], mass: {meant}}}"]
+
+
+def test_values_of_coordinates_are_one_state():
+    begin = "coordinates: {x: {value: 1}, y: {value: 2}}\nT: (x'^2 + y'^2)/2\n"
+    [hint] = hints(begin)
+    assert hint.endswith("write initial: {x: 1, y: 2}")
+
+
+@pytest.mark.parametrize(("side", "meant"), [("R*q", "R*q'"), ("R*q + 2*R*q", "R*q'")])
+def test_a_rolling_condition_lacks_a_prime(side, meant):
+    told = hints(
+        "coordinates: {x: {unit: m}, q: {unit: rad}}\nparameters: {m: {unit: kg}, R: {unit: m}}\n"
+        f"T: m*(x'^2 + R^2*q'^2)/2\nconstraints: {{rolling: x' = {side}}}\n"
+    )
+    assert told[0].startswith(f"write {meant}") == ("+" not in side)
+
+
+@pytest.mark.parametrize(
+    ("symmetry", "meant"),
+    [
+        ("rotation: m*(x*y' - y*x')", "write {x: -y, y: x}"),
+        ("J: m*(x*y' - y*x')", "write observables: {J: x*p_y - y*p_x}"),
+        ("momentum: m*x'", "write {x: 1}"),
+    ],
+)
+def test_a_charge_is_no_symmetry(symmetry, meant):
+    begin = "coordinates: [x, y]\nparameters: [m]\nT: m*(x'^2 + y'^2)/2\n"
+    [hint] = hints(f"{begin}symmetries: {{{symmetry}}}\n")
+    assert hint.endswith(meant)
+
+
+@pytest.mark.parametrize(
+    ("law", "meant"), [("d*sign(x')", ": -d*sign(x')"), ("-c*x'", ": c*x'"), ("k*x+d*x'", ": -d*x'"),
+                       ("k*x - (c*x')", ", as in -c*x'")]
+)  # fmt: skip
+def test_friction_with_the_wrong_sign_is_told_its_own_formula(law, meant):
+    begin = "coordinates: [x]\nparameters: {k: 1, c: -1, d: 2}\nT: x'^2\n"
+    assert hints(f"{begin}forces: {{x: {law}}}\n") == [f"friction is opposite to it{meant}"]
+
+
+def test_a_multiplier_with_a_sign_is_that_of_the_exchanged_equation():
+    begin = "coordinates: [r]\nparameters: [R]\nT: r'^2\nconstraints: {hoop: "
+    given = "{equation: r = R, multiplier: -N, holds_while: N >= 0}"
+    meant = "{equation: R = r, multiplier: N, holds_while: N >= 0}"
+    assert hints(f"{begin}{given}}}\n") == [f"write {meant}"]
+    assert hints(f"{begin}{meant}}}\n") == []

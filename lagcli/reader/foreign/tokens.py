@@ -127,7 +127,7 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = re.sub(r"\bDerivative\[(\d)\]\[(\w+)\]", lambda m: m[2] + "'" * int(m[1]), text)
     text = _by_letters(_leibniz(with_components(text, names), names), names)
     for name, formula in names.components.items():
-        point, axis = name.split(".")
+        point, _, axis = name.rpartition(".")
         forms = [name, *({f"{axis}_{point}", f"{axis}{point}", f"{point}_{axis}"} - {*names.known})]
         spelled = "|".join(map(re.escape, forms))
         text = re.sub(
