@@ -131,7 +131,7 @@ def prepared(text: str, names: Vocabulary) -> str:
         forms = [name, *({f"{axis}_{point}", f"{axis}{point}", f"{point}_{axis}"} - {*names.known})]
         spelled = "|".join(map(re.escape, forms))
         text = re.sub(
-            rf"(?<![\w.])(?:{spelled}|{point}['’′]\.{axis})(?!\w)['’′]*",
+            rf"(?<![\w.])(?:{spelled}|{re.escape(point)}['’′]\.{axis})(?!\w)['’′]*",
             partial(_component, formula, names),
             text,
         )
