@@ -185,7 +185,7 @@ def walk(node: Expression) -> Iterator[Expression]:
         stack.extend(reversed(children(top)))
 
 
-def names_in(*formulas: Expression) -> list[Name]:
+def name_nodes(*formulas: Expression) -> list[Name]:
     """The names of formulas, as often as they stand there."""
     return [node for each in formulas for node in walk(each) if isinstance(node, Name)]
 

@@ -30,6 +30,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
     length,
+    name_nodes,
     operation_count,
     terms_of,
     walk,
@@ -293,7 +294,7 @@ class _Splitter:
         """What tells the bracket of parameters, its only one, and other parameters of a product."""
         _, above, below = parts_of(term)
         sums = [f for f in above if isinstance(f, Sum)]
-        if len(sums) != 1 or below or not all(map(self._is_parameter, _names(sums[0]))):
+        if len(sums) != 1 or below or not all(map(self._is_parameter, name_nodes(sums[0]))):
             return None
         others = frozenset(f for f in above if self._is_parameter(f))
         return "bracket", signed_key(sums[0])[1], others
@@ -403,10 +404,6 @@ class _Splitter:
     def _shape(self, group: Iterable[Term], whole: Element) -> Expression:
         numerator = self.field.ring.build(group)
         return self.shaper.shape(self.field.element(numerator, whole.denominator))
-
-
-def _names(node: Expression) -> list[Expression]:
-    return [part for part in walk(node) if isinstance(part, Name)]
 
 
 def _sums(nodes: Iterable[Expression]) -> list[Sum]:

@@ -10,7 +10,7 @@ from lagcli.dimensions.demands import LAGRANGIAN
 from lagcli.dimensions.forms import TIME
 from lagcli.dimensions.inference import Inference, gives_units
 from lagcli.dimensions.terms import Reader
-from lagcli.expression import Call, Expression, Name, walk
+from lagcli.expression import Call, Expression, Name, name_nodes, walk
 from lagcli.formatters.latex_math import LatexPrinter
 from lagcli.formatters.latex_names import LatexNames
 from lagcli.formatters.layout import joined
@@ -43,7 +43,9 @@ class Labels:
         if expression == JACOBI_FUNCTION or name == "energy":
             return words("energy")
         shown = joined(UnicodePrinter().show(expression))
-        if len(shown) > _LONGEST or any(n.name == JACOBI_FUNCTION.name for n in _names(expression)):
+        if len(shown) > _LONGEST or any(
+            n.name == JACOBI_FUNCTION.name for n in name_nodes(expression)
+        ):
             return words(name)
         return DrawnName(
             plain=shown,
@@ -110,7 +112,7 @@ class Labels:
         for formula in _formulas(self.problem):
             for node in walk(formula):
                 if isinstance(node, Call) and node.function in {"sin", "cos", "tan"}:
-                    found.update(n.name for n in _names(node) if not n.primes)
+                    found.update(n.name for n in name_nodes(node) if not n.primes)
         return frozenset(found)
 
     @cached_property
@@ -141,10 +143,6 @@ def _is_written(unit: Unit) -> bool:
     return (
         unit.number == 1 and bool(unit.factors) and all(p.denominator == 1 for _, p in unit.factors)
     )
-
-
-def _names(expression: Expression) -> Iterator[Name]:
-    return (node for node in walk(expression) if isinstance(node, Name))
 
 
 def _formulas(problem: Problem) -> Iterator[Expression]:

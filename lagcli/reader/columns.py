@@ -7,7 +7,7 @@ from itertools import starmap
 from typing import TYPE_CHECKING, NamedTuple
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source
-from lagcli.expression import Diff, Expression, Name, Negative, Product, Sum, walk
+from lagcli.expression import Diff, Expression, Name, Negative, Product, Sum, name_nodes
 from lagcli.problem_data import JACOBI_FUNCTION, charge_of
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.misshapen import pieces
@@ -199,7 +199,7 @@ def _read(text: str, option: str, scope: Scope, role: Role) -> Expression:
     mistakes = tuple(name_mistakes(expression, scope, role, option))
     if mistakes:
         raise ProblemError(source, mistakes)
-    shown = {node.name for node in walk(expression) if isinstance(node, Name) and node.primes}
+    shown = {node.name for node in name_nodes(expression) if node.primes}
     if _ENERGY in shown and scope.kinds[_ENERGY] == "multiplier":
         raise ProblemError(source, (Diagnostic("the energy has no primes", expression.span),))
     return expression

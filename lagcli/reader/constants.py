@@ -22,7 +22,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
     folded,
-    names_in,
+    name_nodes,
     postorder,
 )
 from lagcli.reader.builder import mistake
@@ -188,7 +188,7 @@ def value_cycle(values: dict[str, Expression]) -> tuple[str, str] | None:
     from graphlib import CycleError, TopologicalSorter
 
     uses = {
-        name: {node.name for node in names_in(value)} & values.keys()
+        name: {node.name for node in name_nodes(value)} & values.keys()
         for name, value in values.items()
     }
     try:

@@ -11,7 +11,7 @@ from functools import partial
 from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic, Source
-from lagcli.expression import Call, Expression, Name, Number, Power, Sum, names_in, walk
+from lagcli.expression import Call, Expression, Name, Number, Power, Sum, name_nodes, walk
 from lagcli.reader.plain_sign import plain_sign
 from lagcli.reader.text import SourceText
 
@@ -77,7 +77,7 @@ def _laws(
 ) -> Iterator[_Law]:
     terms = force.terms if isinstance(force, Sum) else (force,)
     for term in terms:
-        names = names_in(term)
+        names = name_nodes(term)
         rates = {each.name for each in names if each.primes}
         known = all(each.name in signs for each in names if not each.primes)
         if len(rates) != 1 or not known or not rates <= {*coordinates}:
@@ -111,4 +111,4 @@ def _sign(term: Expression, signs: Mapping[str, int], velocity: int) -> int:
 
 
 def _rates(force: Expression) -> set[str]:
-    return {node.name for node in names_in(force) if node.primes}
+    return {node.name for node in name_nodes(force) if node.primes}

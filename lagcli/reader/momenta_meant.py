@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 
 from lagcli.diagnostics import Source
-from lagcli.expression import Expression, Name, Number, Power, Product, Quotient, Sum, names_in
+from lagcli.expression import Expression, Name, Number, Power, Product, Quotient, Sum, name_nodes
 from lagcli.reader.expressions import read_expression
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.regex import regex
@@ -126,7 +126,7 @@ def _squares(
 
 
 def _has_velocity(node: Expression) -> bool:
-    return any(each.primes for each in names_in(node))
+    return any(each.primes for each in name_nodes(node))
 
 
 def _written(node: Expression, source: SourceText) -> str:

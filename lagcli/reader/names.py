@@ -6,7 +6,17 @@ import re
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.expression import FUNCTIONS, Call, Diff, Expression, Name, PartialCall, Quotient, walk
+from lagcli.expression import (
+    FUNCTIONS,
+    Call,
+    Diff,
+    Expression,
+    Name,
+    PartialCall,
+    Quotient,
+    name_nodes,
+    walk,
+)
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.reader.foreign.words import VELOCITIES, Vocabulary, rate_meant, square_of_speed
 from lagcli.reader.habits import foreign_function, habits, instead, is_angle, meanings
@@ -91,7 +101,7 @@ def derivative_order(expression: Expression, scope: Scope) -> int:
 
 def depends_on_time(expression: Expression, scope: Scope) -> bool:
     """Whether t stands in an expression, or in a definition that it uses."""
-    names = (node.name for node in walk(expression) if isinstance(node, Name))
+    names = (node.name for node in name_nodes(expression))
     return any(
         name == "t" or (name in scope.definitions and scope.definitions[name].time)
         for name in names

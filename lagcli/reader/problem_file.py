@@ -8,7 +8,7 @@ from pathlib import PurePath
 from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source, Span
-from lagcli.expression import names_in
+from lagcli.expression import name_nodes
 from lagcli.problem_data import Problem
 from lagcli.reader.compose import compose, without_wrong_texts
 from lagcli.reader.contacts import declare_contacts, read_contacts
@@ -290,7 +290,7 @@ def _rename(file: FileReader, problem: Problem) -> None:
     energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
     places = (axis for point in problem.points for axis in point.position)
     formulas = [each for each in (*energies, *places, *problem.definitions.values()) if each]
-    used = {part.name for part in names_in(*formulas)}
+    used = {part.name for part in name_nodes(*formulas)}
     unused = [x for x in file.scope.of_kind("coordinate") if x not in used]
     moving = {name for each in file.diagnostics if (name := undeclared_velocity(each))}
     if len(unused) == len(moving) == 1:

@@ -6,7 +6,7 @@ import re
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from lagcli.expression import ZERO, Name, names_in
+from lagcli.expression import ZERO, Name, name_nodes
 from lagcli.problem_data import Constraint, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
 from lagcli.reader.misshapen import as_equation, is_sentence, pieces, source_of, texts_of
@@ -139,7 +139,7 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
         is_read = len(file.diagnostics) == mistakes and not getattr(node, "broken", False)
         if is_read and not file.scope.refused:
             sides = (equation.left, equation.right)
-            moving = {n for n in names_in(*sides) if derivative_order(n, file.scope) >= 0}
+            moving = {n for n in name_nodes(*sides) if derivative_order(n, file.scope) >= 0}
             if len(moving) == 1:  # r = R
                 file.scope.held |= {n.name for n in moving if not n.primes}
             if max(derivative_order(side, file.scope) for side in sides) < 0:

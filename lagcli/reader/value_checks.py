@@ -23,7 +23,7 @@ from lagcli.expression import (
     Quotient,
     Sum,
     folded,
-    names_in,
+    name_nodes,
     terms_of,
     walk,
 )
@@ -64,7 +64,7 @@ def slips(problem: Problem) -> list[Diagnostic]:
         hint = f"it drives the motion; {FRICTION}"
         found.append(_warning("the dissipation is negative", lost.span, hint))
     for term in terms_of(problem.potential or ZERO):
-        if _moves(term) and all(node.primes or node.name in signs for node in names_in(term)):
+        if _moves(term) and all(node.primes or node.name in signs for node in name_nodes(term)):
             message = "a term of V with velocities and constants alone has no effect on the motion"
             found.append(_warning(message, term.span, FRICTION))
     coordinates = tuple(x.name for x in problem.coordinates)
@@ -113,8 +113,8 @@ def _without_inertia(problem: Problem, kinetic: Expression) -> list[Diagnostic]:
     equations += [one.equation for one in problem.contacts]
     elsewhere = [side for equation in equations for side in (equation.left, equation.right)]
     elsewhere += problem.definitions.values()
-    held = {name.name for formula in elsewhere for name in names_in(formula)}
-    moving = {name.name for name in names_in(kinetic) if name.primes}
+    held = {name.name for formula in elsewhere for name in name_nodes(formula)}
+    moving = {name.name for name in name_nodes(kinetic) if name.primes}
     missing = "the coordinate '{0}' is missing in T: {0}' does not occur there".format
     idle = [one for one in problem.coordinates if one.name not in moving | held]
     found = []
@@ -139,7 +139,7 @@ def _in_products_alone(kinetic: Expression, moving: set[str]) -> Iterator[Diagno
     Where the others are 0, such a T is 0 for any value of it, and negative close by.
     """
     for name in sorted(moving):
-        node = next(one for one in names_in(kinetic) if one.name == name and one.primes)
+        node = next(one for one in name_nodes(kinetic) if one.name == name and one.primes)
         if folded(kinetic, partial(_degree_alone, name)) != 1:
             hint = f"the square of {name}' is missing, as in m*{name}'^2/2"
             message = f"T has {name}' in products with other velocities alone"
@@ -238,7 +238,7 @@ def _check_dissipation(file: FileReader, problem: Problem) -> None:
         message = "the dissipation changes its sign with the velocities"
         start, end = SourceText.of(problem.source).offsets(formula.span)
         whole = as_rayleigh(problem.source.text[start:end])
-        rates = {node.name for node in names_in(formula) if node.primes}
+        rates = {node.name for node in name_nodes(formula) if node.primes}
         law = problem.source.text[start:end]
         hint = f"a law of a force: write forces: {{{''.join(rates)}: {law}}}"
         hint = hint if len(rates) == 1 and not problem.forces else FRICTION
@@ -251,7 +251,7 @@ def _check_momenta(file: FileReader, problem: Problem) -> None:
     used = (
         set()
         if problem.hamiltonian is None
-        else {one.name for one in names_in(problem.hamiltonian)}
+        else {one.name for one in name_nodes(problem.hamiltonian)}
     )
     for one in problem.coordinates:
         moved = momentum_meant(one.name, [name for name in names if name != one.name])
@@ -279,7 +279,7 @@ def _check_potential(file: FileReader, problem: Problem) -> None:
     inner = [
         map(_moves, node.terms) for term in wrong for node in walk(term) if isinstance(node, Sum)
     ]
-    rates = {node.name for term in wrong for node in names_in(term) if node.primes}
+    rates = {node.name for term in wrong for node in name_nodes(term) if node.primes}
     if any(len({*each}) > 1 for each in inner):
         hint = FRICTION
     elif len(rates) == 1 and any(_parity(term, problem.definitions) == -1 for term in wrong):
@@ -292,7 +292,7 @@ def _check_potential(file: FileReader, problem: Problem) -> None:
 
 
 def _moves(formula: Expression) -> bool:
-    return any(node.primes for node in names_in(formula))
+    return any(node.primes for node in name_nodes(formula))
 
 
 def _is_misplaced(file: FileReader, term: Expression) -> bool:
@@ -318,7 +318,7 @@ def _is_misplaced(file: FileReader, term: Expression) -> bool:
     factors = above.factors if isinstance(above, Product) else (above,)
     inner = [part for factor in factors if isinstance(factor, Sum) for part in factor.terms]
     plain = [factor for factor in factors if not isinstance(factor, Sum)]
-    outer = [name for factor in (*plain, below) for name in names_in(factor)]
+    outer = [name for factor in (*plain, below) for name in name_nodes(factor)]
     at_a_place = any(derivative_order(name, file.scope) == 0 for name in outer)
     of_a_sum = any(_is_misplaced(file, part) for part in inner)
     return not at_a_place and (of_a_sum or (not inner and folded(term, degree) > 1))

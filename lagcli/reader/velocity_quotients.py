@@ -19,7 +19,7 @@ from lagcli.expression import (
     Power,
     Quotient,
     factors_of,
-    names_in,
+    name_nodes,
     terms_of,
 )
 from lagcli.reader.expressions import read_equation, sides_of
@@ -114,8 +114,8 @@ def without_squares(name: str, written: str, others: Iterable[Equation], scope: 
     [speed] = speeds
     if len(axes) == 1:
         return f"write {axes[0]} = {speed}, or {axes[0]} = -{speed}"
-    related = [each for each in others if {*axes} <= {*map(str, names_in(*sides_of(each)))}]
-    used = {node.name for node in names_in(left, right)}
+    related = [each for each in others if {*axes} <= {*map(str, name_nodes(*sides_of(each)))}]
+    used = {node.name for node in name_nodes(left, right)}
     free = [x for x in scope.of_kind("coordinate") if x not in used]
     angles = [x for x in free if is_angle(x)]
     found = [
@@ -132,7 +132,7 @@ def without_squares(name: str, written: str, others: Iterable[Equation], scope: 
 
 def _holds(equation: Equation, forms: dict[str, str], heading: str) -> bool:
     """Whether velocities along a heading fulfil an equation."""
-    values = {str(node): 0.3 + place for place, node in enumerate(names_in(*sides_of(equation)))}
+    values = {str(node): 0.3 + place for place, node in enumerate(name_nodes(*sides_of(equation)))}
     angle = values.get(heading, 0.0)
     values |= {
         axis: FUNCTIONS[form[-3:]](angle) * (1 - 2 * len(form[:-3])) for axis, form in forms.items()
