@@ -7,7 +7,7 @@ rest is left to SymPy's rules.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -153,28 +153,33 @@ def _by_parts(constant: Expr, power: int, factor: Expr, x: Symbol) -> Expr | Non
     return constant * total
 
 
+#: Of functions of x by x.
+_INTEGRALS: dict[type[Expr], Callable[[Expr], Expr]] = {
+    sympy.exp: sympy.exp,
+    sympy.cos: sympy.sin,
+    sympy.sin: lambda u: -sympy.cos(u),
+    sympy.cosh: sympy.sinh,
+    sympy.sinh: sympy.cosh,
+}
+
+
 def _of_elementary(factor: Expr, x: Symbol) -> Expr | None:
     """Of exp, sin, cos, sinh, cosh or a root of an argument linear in x, with a constant."""
     constant, function = factor.as_independent(x, as_Add=False)
     if function == 1:
         return factor * x
-    table = {
-        sympy.exp: sympy.exp,
-        sympy.cos: sympy.sin,
-        sympy.sin: lambda u: -sympy.cos(u),
-        sympy.cosh: sympy.sinh,
-        sympy.sinh: sympy.cosh,
-    }
     base, exponent = function.as_base_exp()
-    is_root = exponent.is_Rational and not exponent.is_Integer
-    rule = (lambda u: u ** (exponent + 1) / (exponent + 1)) if is_root else table.get(function.func)
-    if rule is None:
+    if exponent.is_Rational and not exponent.is_Integer:
+        argument, integral = base, base ** (exponent + 1) / (exponent + 1)
+    elif (rule := _INTEGRALS.get(function.func)) is not None:
+        argument = function.args[0]
+        integral = rule(argument)
+    else:
         return None
-    argument = base if is_root else function.args[0]
     slope = argument.diff(x)
     if slope == 0 or not free_of(slope, [x]):
         return None
-    return constant * rule(argument) / slope
+    return constant * integral / slope
 
 
 def _by_rules(expression: Expr, x: Symbol) -> Expr | None:

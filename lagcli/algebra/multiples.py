@@ -20,9 +20,8 @@ from lagcli.algebra.generators import ExpressionField
 
 #: Beyond these, an argument is a base argument of its own.
 MAX_MULTIPLE = 10
-_MAX_POWER = (
-    60  # of exponentials, whose powers are one term each: exp(12 c t/5) with a unit of c t/5
-)
+#: Of exponentials, whose powers are one term each: exp(12 c t/5) with a unit of c t/5.
+_MAX_POWER = 60
 MAX_PARTS = 10  # measured: at most 3
 
 _INVERSE = (

@@ -43,9 +43,12 @@ def derive(statements: Statements) -> AlgebraSection | None:
 
     discovery = statements.derivation.discovery
     listed = (*discovery.charges, *discovery.momentum_equations)
-    found = summary(discovery)  # before the special values, which take the work that is left
-    nothing = not listed and not (discovery.stopped and statements.derivation.special_cases)
-    if missing := discovery.unproved or (nothing and "; ".join(discovery.stopped)):
+    missing = discovery.unproved
+    if not missing:
+        found = summary(discovery)  # before the special values, which take the work that is left
+        if not listed and not statements.derivation.special_cases:
+            missing = "; ".join(discovery.stopped)
+    if missing:
         statements.lacks("the algebra of all symmetries", missing)
         return None
     special = tuple(
@@ -105,14 +108,14 @@ def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
     counts += ", modulo constants" if section.with_constants and not section.name else ""
     where = [" where ", *conditions(section.named_where)] if section.named_where else []
     yield Paragraph((f"Dimension {section.dimension}{counts}{named}", *where, f"; {charges}."))
+    verdict = "The motion is integrable."
     if section.integrable is None:
-        yield Paragraph(("Whether the motion is integrable is undecided.",))
+        verdict = "Whether the motion is integrable is undecided."
     elif section.separates:
-        yield Paragraph(("The Hamilton-Jacobi equation separates: the motion is integrable.",))
+        verdict = "The Hamilton-Jacobi equation separates: the motion is integrable."
     elif section.determined:
-        yield Paragraph(("The motion is integrable: these give the state at every time.",))
-    else:
-        yield Paragraph(("The motion is integrable.",))
+        verdict = "The motion is integrable: these give the state at every time."
+    yield Paragraph((verdict,))
     for cases in _alike(section.special):
         number = cases[0].number
         where = [

@@ -298,8 +298,8 @@ class Atoms:
             return None
         whole = self.to_sympy(radicand)
         for a, b in permutations(signed, 2):
-            own = a.free_symbols.isdisjoint(b.free_symbols)  # else factors of one polynomial
-            for power in (1, -1) if own else (-1,):
+            disjoint = a.free_symbols.isdisjoint(b.free_symbols)  # else factors of one polynomial
+            for power in (1, -1) if disjoint else (-1,):
                 if sympy.expand(whole - a * b**power) == 0:
                     return sympy.sqrt(a) * sympy.sqrt(b) ** power
         return None

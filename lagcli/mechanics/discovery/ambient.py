@@ -88,12 +88,12 @@ def _arc_length(g: Expr, x: Symbol) -> Expr | None:
 def _by_half_angles(entry: Expr) -> Expr:
     """With squares for factors 1 +- cos u, and then sin u = 2 sin(u/2) cos(u/2)."""
     factors = [f.as_base_exp() for f in sympy.Mul.make_args(sympy.factor_terms(entry))]
-    images: dict[Expr, Expr] = {}
-    for base, _ in factors:
-        for wave in base.atoms(sympy.cos) if _half_angle(base) != base else ():
-            u = wave.args[0]
-            images[sympy.sin(u)] = 2 * sympy.sin(u / 2) * sympy.cos(u / 2)
-    return sympy.Mul(*(_half_angle(base).xreplace(images) ** n for base, n in factors))
+    halved = [_half_angle(base) for base, _ in factors]
+    pairs = zip(factors, halved, strict=True)
+    angles = {w.args[0] for (base, _), half in pairs if half != base for w in base.atoms(sympy.cos)}
+    images = {sympy.sin(u): 2 * sympy.sin(u / 2) * sympy.cos(u / 2) for u in angles}
+    powers = zip(halved, factors, strict=True)
+    return sympy.Mul(*(half.xreplace(images) ** n for half, (_, n) in powers))
 
 
 def _half_angle(factor: Expr) -> Expr:

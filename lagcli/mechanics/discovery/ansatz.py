@@ -122,7 +122,7 @@ def _fewer(lengths: list[Expr], by_angle: dict[Symbol, list[Expr]], found: Kinds
 
     if found.latitudes and too_many():
         by_angle = {y: f for y, f in by_angle.items() if y not in found.alone}
-    if too_many() or (too_many(lengths) and len(lengths) > 1 and not found.radii):
+    if too_many() or (too_many(lengths) and not found.radii):
         by_angle = {y: [one, sympy.sin(y), sympy.cos(y)] for y in found.angles}
     if too_many():
         by_angle = {}

@@ -126,8 +126,6 @@ class Isometries:
     @cached_property
     def dilation(self) -> Vector:
         """G^ab X_a grad X_b, half the gradient of the square of the distance."""
-        if len(self.functions) == 1:  # no root is torn apart
-            return tuple(simplify(self.functions[0] * x) for x in self._gradients[0])
         inverse = self._gram.inv(method="ADJ")
         n = range(len(self.functions))
         square = sympy.Add(

@@ -157,9 +157,10 @@ def _is_of_no_circle(x: Symbol, equations: SlotEquations) -> bool:
     if not free_of(below, q) or any(not free_of(e, q) for e in inertia.atoms(sympy.exp)):
         return True
     inside = [y for y in q if y in above.free_symbols]
-    for y in inside:
-        own = sympy.denom(sympy.together(equations.mass[places[y]][places[y]]))
-        if len(inside) == 1 and own.xreplace({y: sympy.S.Zero}) == 0:
+    if len(inside) == 1:
+        [r] = inside
+        radial = sympy.denom(sympy.together(equations.mass[places[r]][places[r]]))
+        if radial.xreplace({r: sympy.S.Zero}) == 0:
             return True
     if not above.is_polynomial(*inside):
         base, exponent = above.as_independent(*q, as_Add=False)[1].as_base_exp()

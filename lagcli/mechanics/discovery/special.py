@@ -3,10 +3,10 @@
 They are the roots of the factors on which the rank of the linear systems falls (`pivots`): equal
 masses, the exponents of power laws, the frequency of a frame.  Where the functions of time of
 the ansatz depend on each other, at frequencies in the ratio 1, 2 or 3, the rank tells nothing:
-these are tried too, and the exponents at which a power makes the equations linear.  Under
-constraints equal values are tried of parameters that change places with two coordinates.  At each
-value the whole search is made anew, and what is found there is compared with what is found
-everywhere.
+these are tried too, and what makes an equation linear, a curvature constant, or the system one
+without time.  Under constraints equal values are tried of parameters that change places with two
+coordinates.  At each value the whole search is made anew, and what is found there is compared
+with what is found everywhere.
 
 References
 ----------
@@ -105,7 +105,7 @@ def both_missing(
 ) -> list[tuple[Value, Value]]:
     """Two parameters that are 0 together, each of which was tried, or one of the inertia."""
     tried = [p for p, value in values if value == 0]
-    missing = [p for p in parameters if p in tried or _admissible(p, sympy.S.Zero)]
+    missing = [p for p in parameters if _admissible(p, sympy.S.Zero)]
     return [
         ((p, sympy.S.Zero), (r, sympy.S.Zero))
         for p, r in combinations(missing, 2)
@@ -214,20 +214,27 @@ def special_inertia(equations: SlotEquations) -> list[Expr]:
     slopes = (simplify(f.args[0].diff(x)) for f in waves for x in equations.q)
     rates = sorted({r for r in slopes if r != 0 and free_of(r, equations.q)}, key=str)
     alike = [r + sign * s for r, s in combinations(rates, 2) for sign in (-1, 1)]
+    sums = [f for f in sympy.preorder_traversal(sympy.factor(inertia)) if f.is_Add]
     for wave in sorted(inertia.atoms(sympy.cos, sympy.cosh), key=str):
-        sums = [f for f in sympy.preorder_traversal(sympy.factor(inertia)) if f.is_Add]
         for a, b in ((f.coeff(wave, 0), f.coeff(wave)) for f in sums if not free_of(f, [wave])):
             alike += [a - b, a + b] if free_of(sympy.Tuple(a, b), equations.q) else []
+    return [*_parameters(inertia, equations), *alike]
+
+
+def special_curvature(equations: SlotEquations) -> list[Expr]:
+    """What vanishes where the curvature of the inertia is constant, which in general it is not."""
+    inertia = sympy.Tuple(*(m for row in equations.mass for m in row))
+    parameters = _parameters(inertia, equations)
+    fixed = free_of(inertia, [equations.t, *equations.v])
+    if not (parameters and fixed and 1 < len(equations.q) <= _MOST_CURVED):
+        return []
+    condition = Metric(equations.q, equations.mass).constant_where(parameters)
+    return [factor for factor, _ in sympy.factor_list(condition)[1]]
+
+
+def _parameters(formula: Expr, equations: SlotEquations) -> list[Expr]:
     moving = {equations.t, *equations.q, *equations.v}
-    own = sorted(inertia.free_symbols - moving, key=str)
-    if (
-        own
-        and 1 < len(equations.q) <= _MOST_CURVED
-        and free_of(inertia, [equations.t, *equations.v])
-    ):
-        curved = Metric(equations.q, equations.mass).constant_where(own)
-        alike += [factor for factor, _ in sympy.factor_list(curved)[1]]
-    return [*own, *alike]
+    return sorted(formula.free_symbols - moving, key=str)
 
 
 def _open_exponents(formulas: Sequence[Expr], q: Sequence[Symbol]) -> list[Expr]:

@@ -34,6 +34,7 @@ from lagcli.mechanics.discovery.special import (
     problem_at,
     rates_of_driving,
     resonant_waves,
+    special_curvature,
     special_inertia,
     special_powers,
     steady_in_another_time,
@@ -112,9 +113,13 @@ def _to_try(
     factors, pairs = _factors(searched, allowed)
     discovery.words += [_NOT_ALL] if _NOT_ALL in searched.words else []
     together = both_vanish(pairs, factors, system.parameters)
-    inertia = special_inertia(searched.of_spacetime or equations)
+    moving = searched.of_spacetime or equations
+    inertia = special_inertia(moving)
     at_rest = system.L.xreplace(dict.fromkeys(system.qdot, sympy.S.Zero))
-    factors += [*special_powers(equations), *inertia, *rates_of_driving(system.L, system.t)]
+    factors += [*special_powers(equations), *inertia]
+    if searched.isometries is None and searched.spacetime is None:
+        factors += special_curvature(moving)
+    factors += rates_of_driving(system.L, system.t)
     factors += steady_in_another_time(equations, at_rest)
     if searched.isometries is not None:
         factors += resonant_waves(searched.isometries.functions, at_rest, system.q)
@@ -196,18 +201,16 @@ def _named_as(charge: NoetherCharge, naming: Naming) -> NoetherCharge:
 
 def _has_more(there: Discovery, here: Discovery) -> bool:
     """More charges up to some degree: L_z in place of one of second, that in place of fourth."""
-    return any(
-        sum(_degree(c, there) <= d for c in there.charges)
-        > sum(_degree(c, here) <= d for c in here.charges)
-        for d in range(1, 5)
-    )
+    more, less = _degrees(there), _degrees(here)
+    return any(sum(x <= d for x in more) > sum(x <= d for x in less) for d in {*more})
 
 
-def _degree(charge: NoetherCharge, of: Discovery) -> int:
-    """That of an integral in the velocities; 1 of all point symmetries."""
-    if charge in of.point_charges or not charge.charge.is_polynomial(*of.system.qdot):
-        return 1
-    return int(sympy.Poly(charge.charge, *of.system.qdot).total_degree())
+def _degrees(found: Discovery) -> list[int]:
+    """Those of integrals in the velocities, where they are polynomials; 1 of point symmetries."""
+    v = found.system.qdot
+    hidden = (c.charge for c in found.hidden_charges if c.charge.is_polynomial(*v))
+    degrees = [int(sympy.Poly(charge, *v).total_degree()) for charge in hidden]
+    return degrees + [1] * (len(found.charges) - len(degrees))
 
 
 def _at_values(charge: Expr, values: Sequence[Value], moving: Sequence[Symbol]) -> Expr:

@@ -115,8 +115,7 @@ class Counted:
         if section.in_involution is not None and not self._in_involution(section.in_involution):
             x.refute("the number of charges in involution", "their brackets say otherwise")
             section = replace(section, in_involution=None, integrable=None)
-        all_ = section.special
-        special = tuple(s for s in all_ if holds(x, s, self.places, [o for o in all_ if o != s]))
+        special = tuple(s for s in section.special if holds(x, s, self.places, section.special))
         return replace(section, special=special)
 
     # -- counts ---------------------------------------------------------------------------------

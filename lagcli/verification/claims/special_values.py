@@ -19,11 +19,11 @@ _MORE = 4
 
 
 def holds(
-    x: Examination, special: SpecialValue, known: Sequence[int], others: Sequence[SpecialValue]
+    x: Examination, special: SpecialValue, known: Sequence[int], listed: Sequence[SpecialValue]
 ) -> bool:
     """Whether the charges that are listed with a value are constant there, and new ones.
 
-    With two values those of one of them, which is among the others, are known.
+    With two values those of one of them, if it is listed, are known.
     """
     what = f"the special value {special.parameter} = {to_grammar(special.value)}"
     places = x.places(what, [*special.values.values(), *special.charges.values()])
@@ -40,8 +40,8 @@ def holds(
     if first is None:
         x.unchecked.append(what)
         return True
-    given = [p for each in others if special.given for p in _of_one(x, each, first)]
-    known = [*known, *given]
+    if special.given:
+        known = [*known, *(place for each in listed for place in _of_one(x, each, first))]
     everything = [*(p for p in known if first.at(p).is_finite()), *charges]
     tried, values = 0, []
     for state in nearby(first, 4 * (len(everything) + _MORE)):
