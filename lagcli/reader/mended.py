@@ -101,6 +101,7 @@ class _Mending:
         best: tuple[int, int, _State, list[Edit]] | None = None
         for edits in edits_of(mistake, state.text, state.root):
             start, end, _ = edits[0]
+            others = [at for one, at in state.errors if one is not mistake and at != place]
             owner = state.owner((start, end)) if start < end else None
             number = len(self.followed) if owner is None else owner
             author = " ".join([text[slice(*place)], *(text[e.start : e.end] for e in edits)])
@@ -108,6 +109,7 @@ class _Mending:
                 self._edited(state, edits, number), number, author, mistake.message
             )
             count = 0 if after is None else _count_after(after, edits[0])
+            count += sum(start <= at and upto <= end for at, upto in others)  # not answered by it
             if after is not None and (best is None or count < best[0]):
                 best = (count, number, after, edits)
                 is_whole = (
