@@ -15,6 +15,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.place import NO_VALUE
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import with_gradient
@@ -38,6 +39,8 @@ def gauge_of(
         return sympy.S.Zero
     allowed.spend(_OF_EXPANSION * len(q))
     still = dict.fromkeys(v, sympy.S.Zero)
+    if change.xreplace(still).has(*NO_VALUE):  # (x'^2 + y'^2)^(-1/3) may cancel
+        change = simplify(change)
     by_q = [sympy.expand(change.diff(x).xreplace(still)) for x in v]
     by_t = sympy.expand(change.xreplace(still))
     if any(p.exp.is_negative and p.base.is_Add for p in by_t.atoms(sympy.Pow)):
@@ -71,9 +74,9 @@ def _vanishes(change: Expr, variables: Sequence[Symbol], allowed: Allowance) -> 
 
 
 def _candidates(by_t: Expr, by_q: Sequence[Expr], t: Symbol, q: Sequence[Symbol]) -> list[Expr]:
-    found: dict[Expr, None] = {}
-    for x, slope in zip(q, by_q, strict=True):
-        found.update(dict.fromkeys(x * term for term in _functions(slope, t, q)))
+    found = {x * term: None for x, slope in zip(q, by_q, strict=True)
+             for term in _functions(slope, t, q)}  # fmt: skip
+    by_slopes = list(found)
     left = list(_functions(by_t, t, q))
     seen: set[Expr] = set()
     made: set[Expr] = set()
@@ -93,7 +96,8 @@ def _candidates(by_t: Expr, by_q: Sequence[Expr], t: Symbol, q: Sequence[Symbol]
             made |= _means(term, t)
     found.update(dict.fromkeys(sorted(seen | made, key=sympy.default_sort_key)))
     found.pop(sympy.S.One, None)
-    return list(found)
+    # products of many sines and cosines of t have too many derivatives; G = x G,x + f(t)
+    return list(found) if len(found) <= _MOST_CANDIDATES else by_slopes
 
 
 def _means(term: Expr, t: Symbol) -> set[Expr]:

@@ -78,8 +78,9 @@ def special_cases(
                 continue
             there = _at(discovery, choice, search)
             allowed.check()
-            if there is not None and there.stopped and not discovery.stopped:
+            if there is not None and {*there.stopped} - {*discovery.stopped}:
                 discovery.words.append(_NOT_TRIED)
+                continue  # their number would be too small
             less = [discovery, *(each for case, each in searches if _holds(case, choice))]
             if there is None or not all(_has_more(there, each) for each in less):
                 continue
