@@ -274,6 +274,7 @@ CHANGING = {
     "t*(m*x'^2/2 - k*x^2/(2*t^4) + m*x^2/(8*t^2))": "the same, with a growing mass",
     "t^4*(m*x'^2 - k*x^2)/2": "spherical Bessel functions of order 1",
     "m*x'^2/2 - k*x^2/2 + 3*m*x^2/t^2": "of order 2",
+    "cos(b*t)^2*(m*x'^2 - k*x^2)/2": "a mass that pulsates",
 }
 
 

@@ -205,3 +205,37 @@ def test_each_pair_of_equal_moments_makes_a_top_symmetric():
     special = derive(text_of("uvw", L, "A B C")).special_cases
     assert {f"{s.parameter} = {s.value}" for s in special} == {"B = A", "C = A", "C = B"}
     assert [s.number for s in special] == [5, 5, 5]
+
+
+#: Lamb, *Hydrodynamics*, 6th ed., section 124: the energy, the impulse and its moment.
+BODY_IN_A_FLUID = "a*(x'*cos(q) + y'*sin(q))^2/2 + b*(y'*cos(q) - x'*sin(q))^2/2 + J*q'^2/2"
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_plane_body_with_two_masses_has_the_moment_of_its_impulse(seed):
+    random = Random(seed)
+    a, b = random.sample(range(1, 9), 2)
+    L = BODY_IN_A_FLUID.replace("a*", f"{a}*", 1).replace("b*", f"{b}*", 1)
+    if seed:  # its centre is not its origin
+        L += f" + {random.randint(1, 3)}*(y'*cos(q) - x'*sin(q))*q'/4"
+    derivation = derive(text_of("xyq", L, "J"))
+    kept = digits_of(derivation)
+    assert len(kept) == 4
+    assert min(kept.values()) > 20
+    assert summary(derivation.discovery).independent == 4
+
+
+def test_a_plane_body_with_one_mass_moves_freely_in_three_coordinates():
+    equal = derive(text_of("xyq", BODY_IN_A_FLUID.replace("b*", "a*"), "a J"))
+    assert len(equal.discovery.charges) == 12
+
+
+@pytest.mark.parametrize("power", ["2", "3/2"])
+def test_a_value_without_a_force_has_all_of_free_motion(power):
+    """H = p^4/4 + k r^n: n = 0 leaves the energy, the momenta, L_z and a dilation, as k = 0 does."""
+    text = "{coordinates: [x, y], parameters: [k, n], "
+    derivation = derive(f"{text}H: (p_x^2 + p_y^2)^({power})/4 + k*(x^2 + y^2)^n}}")
+    numbers = {str(case.value): case.number for case in derivation.special_cases if not case.given}
+    at_zero = [case.number for case in derivation.special_cases if case.value == 0]
+    assert at_zero == [5, 5]
+    assert numbers["-2" if power == "2" else "-3/2"] == 3

@@ -134,16 +134,18 @@ def kinds(
 def _has_twin(x: Symbol, equations: SlotEquations, L: Expr) -> bool:
     """Whether another cyclic coordinate has its inertia, as x and y in z^2 (x'^2 + 4 y'^2).
 
-    The two turn into each other, so they are lengths of a plane and no angles.
+    The two turn into each other, so they are lengths of a plane and no angles.  So are those
+    whose principal inertias have a constant ratio while the axes turn, as of a body in a fluid.
     """
-    i = equations.q.index(x)
-    own = equations.mass[i]
-    return any(
-        own[k] == 0 and free_of(L, [y]) and free_of(sympy.cancel(equations.mass[k][k] / own[i]), q)
-        for q in [equations.q]
-        for k, y in enumerate(q)
-        if k != i
-    )
+    q, mass = equations.q, equations.mass
+    i = q.index(x)
+    for k, y in enumerate(q):
+        if k != i and free_of(L, [y]):
+            trace = mass[i][i] + mass[k][k]
+            determinant = mass[i][i] * mass[k][k] - mass[i][k] ** 2
+            if free_of(simplify(determinant / trace**2), q):
+                return True
+    return False
 
 
 def _is_of_no_circle(x: Symbol, equations: SlotEquations) -> bool:

@@ -124,7 +124,11 @@ class Setting:
         """Which coordinates are lengths and which are angles."""
         units = [c.unit for c in self.system.problem.coordinates]
         rows = [x for e in self.dynamics.constraints.equations for x in (*e.row, e.drift)]
-        return kinds(self.system.L, self.equations, units, rows)
+        L = self.system.L
+        turning = {s for f in L.atoms(sympy.sin, sympy.cos) for s in f.free_symbols}
+        if not turning & {*self.system.q} <= self.equations_symbols:
+            L = simplify(L)  # sin(q)^2 + cos(q)^2 is 1
+        return kinds(L, self.equations, units, rows)
 
     @property
     def centred_kinds(self) -> Kinds:
