@@ -52,6 +52,9 @@ def check_energies(file: FileReader, entries: dict[str, tuple[Scalar, DocumentNo
             if both[1:] and "L" not in both:
                 at = whole
                 hint = "leave out L: it is T - V" if whole == "L" else "leave out H: it is derived"
+            if whole == "L" and both == ["V"] and {"L", "V"} <= {*texts}:
+                full = f"{texts['L']} - ({texts['V']})"
+                hint = f"L is T - V: leave out V if L has it, or else put it in, L: {full}"
             if whole == "H" and both == ["V"]:
                 hint = "leave it out where H has its formula, or give T and V"
             rest = (key for key in (whole, *both) if key != at)

@@ -12,7 +12,7 @@ from lagcli.reader.constants import value_cycle
 from lagcli.reader.habits import SIGNS, habits, is_constant, name_meant, spoken_unit, unit_behind
 from lagcli.reader.headings import without_headings
 from lagcli.reader.listed_names import as_names
-from lagcli.reader.misshapen import RANGE, entries_of, named_formulas, source_of, swept
+from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, named_formulas, source_of, swept
 from lagcli.reader.names import NO_VALUE
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
 from lagcli.reader.number_units import in_digits, in_unit
@@ -370,6 +370,8 @@ def _with_unit(key: Scalar, value: DocumentNode | None) -> str:
 def _pairs(node: DocumentNode, section: str) -> str:
     """`m: 1, k: 2` for `[m = 1, k = 2]`, `{m 1, k 2}` and a list of maps; else nothing."""
     given = []
+    if node.text.source.text[node.start] == "[" and (named := by_its_name(node)):
+        return named
     if isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
         relation = r"(\w+)(?:\s*(?:[-=]>|:?=|[:：]|→)\s*|\s+)([\d.]\S*)"
         labels = "，".join(key.label for key, _ in node.entries).split("，")

@@ -166,6 +166,11 @@ def _meant_of_problem(
     word, written = key.label, value.value if isinstance(value, Scalar) else ""
     if meanings("commands").get(word, word) == "sweep" and (options := _varied(value)):
         return None, f"a command, not a key: lagcli sweep FILE {options}"
+    signals = names_in(value) if re.match("(?i)input|control", word) else []
+    if isinstance(value, Sequence) and signals and all(map(str.isidentifier, signals)):
+        scope.refused += signals
+        listed, called = (", ".join(x + end for x in signals) for end in (": [t]", "(t)"))
+        return None, f"functions of the time: write functions: {{{listed}}}, and {called} in forces"
     if whole := _of_each(word, value, around):
         return None, f"each name has its own: write {whole}"
     if written and (state := _state_meant(key, written, around)):
