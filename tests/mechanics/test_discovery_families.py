@@ -287,6 +287,27 @@ def test_linear_equations_whose_coefficients_change_have_five(L):
     assert summary(derive(one_coordinate(L)).discovery).name.startswith("Schrödinger sch(1)")
 
 
+@pytest.mark.parametrize("r", ["t", "-t/2 + 1", "t^2 - 3", "2*t^2 + t", "-3*t"])
+def test_one_solution_of_a_linear_equation_gives_two_charges(r):
+    """u = exp of the integral of r solves x'' = (r' + r^2) x: u x' - u' x, and its square."""
+    own = sympy.sympify(r.replace("^", "**"))
+    stiffness = str(sympy.expand(own.diff("t") + own**2)).replace("**", "^")
+    made = derive(f"coordinates: [x]\nL: (x'^2 + ({stiffness})*x^2)/2\n")
+    kept = digits_of(made)
+    assert len(kept) == 2
+    assert min(kept.values()) > 20
+    assert made.discovery.stopped != []  # the other solution is not elementary
+
+
+@pytest.mark.long
+def test_kepler_with_a_mass_that_changes_linearly_has_the_vector_of_runge_and_lenz():
+    """Mestschersky, Astr. Nachr. 132 (1893) 129: with b = a^2 the root is that of a square."""
+    V = "-k/(sqrt(1 + 2*a*t + b*t^2)*sqrt(x^2 + y^2))"
+    text = f"{{coordinates: [x, y], parameters: [k, a, b], L: (x'^2 + y'^2)/2 - ({V})}}"
+    [case] = (c for c in derive(text).special_cases if not c.given and c.value != 0)
+    assert (str(case.parameter), str(case.value), case.number) == ("b", "a**2", 4)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("sign", ["-", "+"])
 @pytest.mark.parametrize("changing", ["/t^4", "/t^2", "/(t + 1)^4"])

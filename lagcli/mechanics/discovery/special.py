@@ -290,9 +290,11 @@ def _by_power(force: Expr, x: Symbol) -> dict[Expr, Expr] | None:
 
 
 def rates_of_driving(L: Expr, t: Symbol) -> list[Expr]:
-    """What vanishes where a sine, cosine or exponential of time in L is constant."""
+    """What vanishes where a wave of time in L is constant, or a^2 + 2 b t + c t^2 a square."""
     waves = {f for f in L.atoms(sympy.sin, sympy.cos, sympy.exp) if t in f.free_symbols}
     rates = {sympy.numer(sympy.together(f.args[0].diff(t))) for f in waves}
+    roots = {p.base for p in L.atoms(sympy.Pow) if not p.exp.is_Integer and p.base.is_polynomial(t)}
+    rates |= {sympy.discriminant(base, t) for base in roots if sympy.degree(base, t) == 2}
     return sorted((rate for rate in rates if rate.free_symbols), key=sympy.default_sort_key)
 
 

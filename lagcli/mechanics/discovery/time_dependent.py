@@ -5,13 +5,14 @@ where the stretching of time is tau times a function with a difference of two ex
 
 Of one other equation, with mu = exp of the integral of p, x = y/sqrt(mu) and y'' + I y = 0,
 I = q - p'/2 - p^2/4.  Where I is constant, or K/Q^2 with Q of second degree in t, the solutions Y
-are elementary.  A translation then is Y/sqrt(mu), and the stretching of time a product of two Y
-(Lane-Emden of index 1, growing masses).
+are elementary; one is where I = -(r' + r^2) with a polynomial r.  A translation then is Y/sqrt(mu),
+and the stretching of time a product of two Y (Lane-Emden of index 1, growing masses).
 
 References
 ----------
 Kamke, *Differentialgleichungen*, vol. I, part A, section 25.1 (normal form).
 Leach, J. Math. Phys. 18 (1977) 1608 (symmetries of the time-dependent oscillator).
+Kovacic, J. Symb. Comp. 2 (1986) 3 (exp of an integral).
 """
 
 from __future__ import annotations
@@ -57,7 +58,7 @@ def of_changing_coefficients(
         if solution is None:
             continue
         root, Y, p = solution
-        solved = solved and bool(Y)
+        solved = solved and len(Y) > 1
         translations += [simplify(y / root) for y in Y]
         for stretch in _products(Y):
             others += [stretch, simplify(stretch.diff(t)), simplify(p * stretch)]
@@ -145,7 +146,7 @@ def _factors(terms: Sequence[Expr], x: Symbol, moving: set[Symbol]) -> Iterator[
 
 
 def _elementary(I: Expr, t: Symbol, p: Expr) -> list[Expr]:  # noqa: E741
-    """Two solutions of y'' + I y = 0, with hyperbolic functions where p has some."""
+    """Two solutions of y'' + I y = 0, or one, with hyperbolic functions where p has some."""
     if I == 0:
         return [sympy.S.One, t]
     if free_of(I, [t]):
@@ -162,6 +163,21 @@ def _elementary(I: Expr, t: Symbol, p: Expr) -> list[Expr]:  # noqa: E741
     _, Q = Q.as_independent(t, as_Add=False)
     if Q.is_polynomial(t) and sympy.degree(Q, t) == 2:
         return _of_square(simplify(I * Q**2), Q, t)
+    return _of_polynomial(-I, t)
+
+
+def _of_polynomial(P: Expr, t: Symbol) -> list[Expr]:
+    """exp of the integral of r, where P = r' + r^2; the other solution is not elementary."""
+    terms = sympy.Poly(P, t) if P.is_polynomial(t) else None
+    if terms is None or terms.degree() % 2 or not terms.LC().is_positive:
+        return []
+    half = terms.degree() // 2
+    for lead in (sympy.sqrt(terms.LC()), -sympy.sqrt(terms.LC())):
+        r = lead * t**half
+        for k in reversed(range(half)):
+            r += sympy.Poly(P - r**2, t).nth(half + k) / (2 * lead) * t**k
+        if simplify(r.diff(t) + r**2 - P) == 0:
+            return [sympy.exp(sympy.Poly(r, t).integrate().as_expr())]
     return []
 
 
