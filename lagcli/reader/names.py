@@ -280,7 +280,7 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return f"write {number}"
     multipliers = list(scope.of_kind("multiplier")) if role.multipliers else []
     if len(multipliers) == 1 and re.fullmatch(r"[A-Z]\w?|F_?\w|lam\w*|λ", name):
-        return f"the multiplier of the constraint is {multipliers[0]}; or {UNDECLARED}"
+        return f"the multiplier of the constraint: write {multipliers[0]}"
     if rate:
         return f"the velocity of {rate[0]} is {rate[0]}'"
     base = name.removesuffix("2")

@@ -633,7 +633,7 @@ FURTHER = [
     (text(forces="{x: -dV/dx}"), "what an energy contributes is derived"),
     (text(forces="{x: -dF/dx}"), "write diff(F, x)"),
     (text(symmetries="{boost: {x: t, gauge: yes}}"), "leave it out: it is found"),
-    (text(constraints="{c: x = 1}", find="{a: {where: N = 0, for: x}}"), "is lambda_c; or declare"),
+    (text(constraints="{c: x = 1}", find="{a: {where: N = 0, for: x}}"), "the constraint: write lambda_c"),
 ]  # fmt: skip
 
 
