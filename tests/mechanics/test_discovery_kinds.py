@@ -239,3 +239,24 @@ def test_a_value_without_a_force_has_all_of_free_motion(power):
     at_zero = [case.number for case in derivation.special_cases if case.value == 0]
     assert at_zero == [5, 5]
     assert numbers["-2" if power == "2" else "-3/2"] == 3
+
+
+@pytest.mark.parametrize(
+    ("L", "at", "number"),
+    [
+        ("(x'^2 + y'^2)/2 - a*x'*exp(y) - b*exp(y)", "a b", 8),
+        (f"{BODY_IN_A_FLUID.replace('J', '2')} + c*(x*y' - y*x')", "c b", 12),
+    ],
+    ids=["both terms", "equal inertias without a field"],
+)
+def test_beside_a_value_that_is_found_another_term_may_be_missing(L, at, number):
+    """Free motion, which neither value alone leaves: Niederer, Helv. Phys. Acta 45 (1972) 802."""
+    parameters = (
+        "a: {assume: positive}, b: {assume: positive}, c: {}" if "q" in L else "a: {}, b: {}"
+    )
+    q = ", ".join("xyq" if "q" in L else "xy")
+    cases = derive(f'{{coordinates: [{q}], parameters: {{{parameters}}}, L: "{L}"}}').special_cases
+    [case] = (c for c in cases if c.given)
+    named = {case.parameter.name, *(p.name for p, _ in case.given)}
+    assert named in ({*at.split()}, {"a" if p == "b" else p for p in at.split()})
+    assert case.number == number

@@ -105,12 +105,25 @@ def both_missing(
 ) -> list[tuple[Value, Value]]:
     """Two parameters that are 0 together, each of which was tried, or one of the inertia."""
     tried = [p for p, value in values if value == 0]
-    missing = [p for p in parameters if _admissible(p, sympy.S.Zero)]
     return [
-        ((p, sympy.S.Zero), (r, sympy.S.Zero))
-        for p, r in combinations(missing, 2)
-        if {p, r} <= {*tried} or {p, r} & {*inertia}
+        (p, r)
+        for p, r in combinations(missing(parameters), 2)
+        if {p[0], r[0]} <= {*tried} or {p[0], r[0]} & {*inertia}
     ]
+
+
+def missing(parameters: Sequence[Symbol]) -> list[Value]:
+    """0 for each that may be 0."""
+    return [(p, sympy.S.Zero) for p in parameters if _admissible(p, sympy.S.Zero)]
+
+
+def beside(found: Sequence[SpecialCase], zeros: Sequence[Value]) -> Iterator[tuple[Value, Value]]:
+    """Each value that was found, and another parameter that is 0."""
+    for case in (case for case in found if not case.given):
+        for zero in zeros:
+            value = case.value.xreplace(dict([zero]))
+            if zero[0] != case.parameter and _admissible(case.parameter, value):
+                yield zero, (case.parameter, value)
 
 
 def _both_vanish(

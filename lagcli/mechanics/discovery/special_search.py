@@ -25,11 +25,13 @@ from lagcli.mechanics.discovery.slots import point_slots
 from lagcli.mechanics.discovery.special import (
     SpecialCase,
     Value,
+    beside,
     both_missing,
     both_vanish,
     candidates,
     damped_powers,
     exchanged,
+    missing,
     new_charges,
     problem_at,
     rates_of_driving,
@@ -72,7 +74,7 @@ def special_cases(
     searches: list[tuple[SpecialCase, Discovery]] = []
     try:
         values, pairs = _to_try(searched, discovery, allowed)
-        for choice in _choices(values, pairs, found, discovery.words):
+        for choice in _choices(values, pairs, found, discovery.words, missing(system.parameters)):
             if any(sympy.count_ops(value) > _MOST_OPERATIONS for _, value in choice):
                 discovery.words.append(_NOT_TRIED)
                 continue
@@ -142,9 +144,14 @@ def _choices(
     pairs: Sequence[tuple[Value, Value]],
     found: Sequence[SpecialCase],
     words: list[str],
+    zeros: Sequence[Value],
 ) -> Iterator[tuple[Value, ...]]:
-    """One value at a time, then two, those first of which neither was found to suffice."""
+    """One value at a time, then two, those first of which neither was found to suffice.
+
+    Beside each that was found every other parameter may be 0.
+    """
     yield from ((value,) for value in values[:_MOST_VALUES])
+    pairs = [*pairs, *beside(found, zeros)]
     pairs = list({frozenset(pair): pair for pair in pairs}.values())
     pairs.sort(key=lambda pair: any(_holds(case, pair) for case in found))
     yield from pairs[:_MOST_PAIRS]
