@@ -349,6 +349,8 @@ def as_text(node: DocumentNode) -> str:
     if not (first and isinstance(first[0], Scalar)):
         return ""
     written = [(_attribute(key.label), source_of(value)) for key, value in entries]
+    if len(entries) == 1 and written[0][0] in {"name", "id"}:
+        return f"write {written[0][1]}"
     if len(entries) < 2:
         inner_ = entries_of(entries[0][1]) if entries else ""
         return f"write {first[0].value}" + (f": {{{inner_}}}, without '-'" if inner_ else "")

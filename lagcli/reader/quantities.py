@@ -371,7 +371,7 @@ def _pairs(node: DocumentNode, section: str) -> str:
     """`m: 1, k: 2` for `[m = 1, k = 2]`, `{m 1, k 2}` and a list of maps; else nothing."""
     given = []
     if node.text.source.text[node.start] == "[" and (named := by_its_name(node)):
-        return named
+        return named if "{" in named else ""
     if isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
         relation = r"(\w+)(?:\s*(?:[-=]>|:?=|[:：]|→)\s*|\s+)([\d.]\S*)"
         labels = "，".join(key.label for key, _ in node.entries).split("，")
