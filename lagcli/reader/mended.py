@@ -99,9 +99,9 @@ class _Mending:
         """The state after the edit that leaves the fewest mistakes; None where none helps."""
         text = state.text.source.text
         best: tuple[int, int, _State, list[Edit]] | None = None
+        others = [at for one, at in state.errors if one is not mistake and at != place]
         for edits in edits_of(mistake, state.text, state.root):
             start, end, _ = edits[0]
-            others = [at for one, at in state.errors if one is not mistake and at != place]
             owner = state.owner((start, end)) if start < end else None
             number = len(self.followed) if owner is None else owner
             author = " ".join([text[slice(*place)], *(text[e.start : e.end] for e in edits)])

@@ -89,7 +89,7 @@ def kinds(
             for y, m in zip(equations.q, inertia[x], strict=True)
         ) or inertia[x][equations.q.index(x)].free_symbols & (set(equations.q) - {x})
         angle = bool(cyclic and turned) or (x in inside and not _outside(L, x))
-        if cyclic and (unit == "m" or _has_twin(x, equations, L)):
+        if angle and cyclic and (unit == "m" or _has_twin(x, equations, L)):
             angle = False
         (found.angles if angle else found.lengths).append(x)
         if angle and cyclic:
@@ -143,7 +143,7 @@ def _has_twin(x: Symbol, equations: SlotEquations, L: Expr) -> bool:
         if k != i and free_of(L, [y]):
             trace = mass[i][i] + mass[k][k]
             determinant = mass[i][i] * mass[k][k] - mass[i][k] ** 2
-            if free_of(simplify(determinant / trace**2), q):
+            if trace == 0 or free_of(simplify(determinant / trace**2), q):
                 return True
     return False
 
