@@ -56,17 +56,17 @@ def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
     if metric.n == 1:
         length = _arc_length(metric.g[0][0], metric.q[0])
         return [] if length is None else [length]
-    factors, joint = [_of_coordinate(x, metric, K) for x in metric.q], _joint(metric)
-    plain = [[f for f in each if not _has_sums_below(f)] for each in factors]
-    tried = [*product(*factors), *product(joint[1:], *plain)]
-    if len(tried) > _MOST:
-        return []
-    try:
-        found = _solutions(metric, K, [sympy.Mul(*parts) for parts in tried], allowed)
-    except (NoPoint, ZeroDivisionError):
-        return []
-    found = [X for X in found if not free_of(X, metric.q)]
-    return found if len(found) == metric.n + (K != 0) else []
+    for tried in (_of_warped(metric, K), _of_all(metric, K)):
+        if len(tried) > _MOST:
+            return []
+        try:
+            found = _solutions(metric, K, [sympy.Mul(*parts) for parts in tried], allowed)
+        except (NoPoint, ZeroDivisionError):
+            continue
+        found = [X for X in found if not free_of(X, metric.q)]
+        if len(found) == metric.n + (K != 0):
+            return found
+    return []
 
 
 # -- one coordinate --------------------------------------------------------------------------
@@ -74,15 +74,20 @@ def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
 
 def _arc_length(g: Expr, x: Symbol) -> Expr | None:
     """X = c int sqrt(g) dx, with either sign of g and root: term by term, or of a quadratic."""
-    g = sympy.factor_terms(-g if g.could_extract_minus_sign() else g)
-    factors = sympy.Mul.make_args(g)
-    above, below = sympy.fraction(sympy.together(sympy.Mul(*map(_half_angle, factors))))
-    root = simplify(sympy.sqrt(above)) / simplify(sympy.sqrt(below))
-    _, function = root.replace(sympy.Abs, lambda e: e).as_independent(x, as_Add=False)
+    _, function = _root(g).as_independent(x, as_Add=False)
     base, power = function.as_base_exp()
     if abs(power) == sympy.S.Half and base.is_polynomial(x) and sympy.degree(base, x) == 2:
         return _of_quadratic(base, x, inverse=power < 0)
     return antiderivative(function, x, rules=False)
+
+
+def _root(g: Expr) -> Expr:
+    """sqrt(g) or sqrt(-g), with either sign of the root of a square."""
+    g = sympy.factor_terms(-g if g.could_extract_minus_sign() else g)
+    factors = sympy.Mul.make_args(g)
+    above, below = sympy.fraction(sympy.together(sympy.Mul(*map(_half_angle, factors))))
+    root = simplify(sympy.sqrt(above)) / simplify(sympy.sqrt(below))
+    return root.replace(sympy.Abs, lambda e: e)
 
 
 def _by_half_angles(entry: Expr) -> Expr:
@@ -122,9 +127,23 @@ def _of_quadratic(Q: Expr, x: Symbol, *, inverse: bool) -> Expr:
 # -- which functions are tried ---------------------------------------------------------------
 
 
+def _of_warped(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
+    """Products of f and df/ds, as for ds^2 + f^2 dy^2, with waves along cyclic coordinates."""
+    factors = (
+        _along(x, metric, K) if metric.is_cyclic(x) else _profile(x, metric) for x in metric.q
+    )
+    return list(product(*({sympy.S.One: None, **dict.fromkeys(each)} for each in factors)))
+
+
+def _of_all(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
+    factors, joint = [_of_coordinate(x, metric, K) for x in metric.q], _joint(metric)
+    plain = [[f for f in each if not _has_sums_below(f)] for each in factors]
+    return [*product(*factors), *product(joint[1:], *plain)]
+
+
 def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
     one = sympy.S.One
-    if free_of(sympy.Tuple(*(e for row in metric.g for e in row)), [x]):
+    if metric.is_cyclic(x):
         return [one, *_along(x, metric, K)]
     parts = _parts(metric)
     alone = [e for e in parts if e.free_symbols & set(metric.q) == {x}]
@@ -142,7 +161,7 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
     if any(not free_of(_without_functions(e), [x]) for e in (*alone, *shared)):
         found |= {1 / x: None, **dict.fromkeys(x**k for k in range(1, _degree(alone, x) + 1))}
         # X has the slope x^(p/2) where the metric has x^p, or that power beside a turn
-        powers = [p for e in alone for b, p in [e.as_base_exp()] if b == x and p.is_odd]
+        powers = [p for e in alone for b, p in [e.as_base_exp()] if b == x and not p.is_even]
         found |= {x ** (p / 2 + k): None for p in powers for k in (1, 0)}
         # one that is no integer stands between two null directions, as a dR^n in a da dR^n
         broken = [p for e in alone for b, p in [e.as_base_exp()] if b == x and not p.is_integer]
@@ -159,6 +178,24 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
             found |= {sympy.sqrt(b): None, 1 / sympy.sqrt(b): None, 1 / b: None}
             found |= {x / sympy.sqrt(b): None, x / b: None, x**2 / b: None}
     return list(found)
+
+
+def _profile(x: Symbol, metric: Metric) -> Iterator[Expr]:
+    """f and df/ds of ds^2 + f^2 dy^2, s the length along x: X = f cos(c y), f sin(c y), df/ds.
+
+    On a sphere of more dimensions another Y(y) stands for cos(c y), and a factor of the other
+    coordinates before both terms.
+    """
+    others = [y for y in metric.q if y != x]
+    diagonal = [sympy.factor_terms(row[k]) for k, row in enumerate(metric.g)]
+    split = [g.as_independent(*others, as_Add=False) for g in diagonal]
+    own = [part for part, rest in split if free_of(rest, [x])]
+    if len(own) < metric.n:
+        return
+    A = own[metric.q.index(x)]
+    for B in (part for part in own if x in part.free_symbols and part != A):
+        f = _root(B)
+        yield from (f, simplify(f.diff(x) / _root(A)))
 
 
 def _degree(entries: Sequence[Expr], x: Symbol) -> int:

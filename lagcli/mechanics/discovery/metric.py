@@ -39,6 +39,10 @@ class Metric:
         self.q, self.g = q, g
         self.n = len(self.q)
 
+    def is_cyclic(self, x: Symbol) -> bool:
+        """Whether no component depends on the coordinate."""
+        return free_of(sympy.Tuple(*(entry for row in self.g for entry in row)), [x])
+
     @cached_property
     def factors(self) -> list[Metric]:
         """The metrics on their own coordinates whose sum it is: two bodies have one each."""
