@@ -28,6 +28,7 @@ PLANES = {
         "sqrt((cosh(u) - cos(v))/(cosh(u) + cos(v)))",
     ),
     "elliptic": ("[u, v]", "(cosh(u)^2 - cos(v)^2)*(u'^2 + v'^2)", "1/(cosh(u) - cos(v))"),
+    "by any power": (RADIAL, "a^2*r^(2*a - 2)*r'^2 + r^(2*a)*phi'^2", "1/r^a"),
 }
 
 
@@ -115,6 +116,7 @@ SPHERE = {
     "m*(x'^2 + y'^2)/(2*cosh(y)^2)": "[x, y]",
     "m*(r'^2/(1 - r^2/R^2) + r^2*phi'^2)/2": RADIAL,
     "m*R^2*(sin(a*s)^2*phi'^2 + a^2*s'^2)/2": "[s, phi]",
+    "m*(a^2*r^(2*a - 2)*r'^2 + r^(2*a)*phi'^2)/(1 + r^(2*a))^2": RADIAL,
     "m*(x'^2 + y'^2)/(2*(1 + x^2 + y^2)^2)": "[x, y]",
 }
 
@@ -140,6 +142,21 @@ def test_spaces_of_constant_curvature_have_six(L, name):
     coordinates = [q for q in "theta phi psi r x y z".split() if f"{q}'" in L]
     found = summary(derive(problem(L, f"[{', '.join(coordinates)}]", "m A")).discovery)
     assert (found.dimension, found.name, found.independent) == (7, name, 5)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("sin", ["sin", "sinh"])
+def test_a_monopole_in_a_curved_space_keeps_the_runge_lenz_vector(sin):
+    """Where c = g^2/2, as in flat space (McIntosh, Cisneros, J. Math. Phys. 11 (1970) 896)."""
+    cos = sin.replace("sin", "cos")
+    derivation = derive(problem(
+        f"(x'^2 + {sin}(x)^2*(theta'^2 + sin(theta)^2*phi'^2))/2 + g*cos(theta)*phi' "
+        f"+ k*{cos}(x)/{sin}(x) - g^2/(2*{sin}(x)^2)", "[x, theta, phi]", "|k g"
+    ))  # fmt: skip
+    found = summary(derivation.discovery)
+    assert (found.dimension, found.independent, found.integrable) == (4, 5, True)
+    assert len(derivation.discovery.hidden_charges) == 3
+    assert min(digits_of(derivation).values()) > 20
 
 
 @pytest.mark.long

@@ -195,7 +195,8 @@ def _profile(x: Symbol, metric: Metric) -> Iterator[Expr]:
     A = own[metric.q.index(x)]
     for B in (part for part in own if x in part.free_symbols and part != A):
         f = _root(B)
-        yield from (f, simplify(f.diff(x) / _root(A)))
+        for function in (f, simplify(f.diff(x) / _root(A))):
+            yield function.as_independent(x, as_Add=False)[1]
 
 
 def _degree(entries: Sequence[Expr], x: Symbol) -> int:

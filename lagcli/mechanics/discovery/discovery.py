@@ -255,13 +255,10 @@ class Discovery(Setting):
             return
         if self.system.t not in self.equations_symbols and not self._by_killing_vectors():
             self.degree = 2
-            self.words.append(
-                f"{_SECOND} without explicit time, coefficients up to second degree in the "
-                "coordinates"
-            )
             integrals = QuadraticIntegrals(
-                self.noether, self.equations, self.centred_kinds, self.allowed
+                self.noether, self.equations, self.centred_kinds, self.allowed, self.isometries
             )
+            self.words.append(f"{_SECOND} without explicit time, {integrals.words}")
             if not integrals.functions:
                 self.stopped.append("there are too many coordinates for the second degree")
                 return

@@ -58,7 +58,8 @@ Vector = tuple[Expr, ...]
 class QuadraticIntegrals:
     """The integrals of second degree of equations M(q) q'' = forcing without time in them.
 
-    K^ab and f^a are components along grad X_a of a T that is `flat`, else along the coordinates.
+    K^ab and f^a are components along the `isometries` of a T of constant curvature, which are
+    grad X_a where it is flat, else along the coordinates.
     """
 
     def __init__(
@@ -67,17 +68,21 @@ class QuadraticIntegrals:
         equations: SlotEquations,
         kinds: Kinds,
         allowed: Allowance,
-        flat: Isometries | None = None,
+        isometries: Isometries | None = None,
     ) -> None:
         self.noether = noether
         self.equations = equations
         self.allowed = allowed
         self.constants = frozenset(noether.system.parameters)
         n = len(equations.q)
-        self.flat = flat
-        self.X = equations.q if flat is None else flat.functions
-        self.pairs = quadratic_slots(equations, flat.translations if flat else ())
-        self.shifts = linear_slots(flat.translations) if flat else point_slots(equations)[1:]
+        units: Sequence[Vector] = ()
+        if isometries is not None:
+            units = isometries.translations or isometries.rotations
+        self.curved = isometries is not None and not isometries.flat
+        self.own = None if isometries is None else isometries.functions
+        self.X = self.own or equations.q
+        self.pairs = quadratic_slots(equations, units)
+        self.shifts = linear_slots(units) if units else point_slots(equations)[1:]
         self.linear = self.shifts if is_gyroscopic(equations) else []
         slots = len(self.pairs) + len(self.linear)
         self.times: tuple[Expr, ...] = (sympy.S.One,)
@@ -85,12 +90,20 @@ class QuadraticIntegrals:
         self.functions = self.spaces(kinds, MOST_UNKNOWNS // slots)
         if not self.functions and n * (n + 1) // 2 <= MOST_UNKNOWNS:
             self.functions = [sympy.S.One]
-        units = flat.translations if flat else ()
-        self.of_field = _of_field(equations, self.X, units) if self.linear else []
+        self.of_field = self._of_field(units) if self.linear else []
 
     def spaces(self, kinds: Kinds, most: int) -> list[Expr]:
         """A bounded number of functions of the coordinates."""
-        return quadratic(kinds, most) if self.flat is None else up_to_second_degree(self.X, most)
+        if self.curved:
+            return [sympy.S.One]  # all Killing tensors are made of the isometries
+        return quadratic(kinds, most) if self.own is None else up_to_second_degree(self.X, most)
+
+    @property
+    def words(self) -> str:
+        """The functions f."""
+        if self.curved:
+            return "from Killing vectors of T, with the terms of the field in their linear part"
+        return "coefficients up to second degree in the coordinates"
 
     def found(self, known: Sequence[NoetherCharge]) -> list[tuple[Slots, NoetherCharge]]:
         """The integrals that are no combinations of products of the known ones."""
@@ -137,6 +150,23 @@ class QuadraticIntegrals:
         parts = search.combination(solution)
         values = scaled([f for _, f in parts], self.constants)
         return [(slot, value) for (slot, _), value in zip(parts, values, strict=True)]
+
+    def _of_field(self, units: Sequence[Vector]) -> list[Expr]:
+        """Terms of what multiplies the velocities in the forces, along the units, times monomials.
+
+        That of a monopole is x_k/r^3, and the linear part of its integrals x_k/r = x_k r^2/r^3.
+        Along the rotations of a curved space it is x_k/r, as it stands in the linear part.
+        """
+        v = self.equations.v
+        field = [[f.diff(x).xreplace(self._still) for x in v] for f in self.equations.forcing]
+        if units:
+            field = [[dot(E, [dot(row, F) for row in field]) for F in units] for E in units]
+        terms = dict.fromkeys(
+            t for row in field for s in row for t in bare_terms(simplify(s), self.equations.q)
+        )
+        monomials = [] if self.curved else [*self.X, *products_of_two(self.X)]
+        made = dict.fromkeys(t * m for t in terms for m in (sympy.S.One, *monomials))
+        return list(made) if len(made) <= _MOST_OF_FIELD else []
 
     # -- the charge -------------------------------------------------------------------------
 
@@ -234,24 +264,6 @@ def _roots(expression: Expr, q: Sequence[Symbol]) -> set[Expr]:
 def _length(expression: Expr) -> tuple[int, str]:
     """Shorter ones first: they are the ones that are used where several would do."""
     return sympy.count_ops(expression), str(expression)
-
-
-def _of_field(equations: SlotEquations, X: Sequence[Expr], units: Sequence[Vector]) -> list[Expr]:
-    """Terms of what multiplies the velocities in the forces, along the units, times monomials.
-
-    That of a monopole is x_k/r^3, and the linear part of its integrals x_k/r = x_k r^2/r^3.
-    """
-    v = equations.v
-    still = dict.fromkeys(v, sympy.S.Zero)
-    field = [[f.diff(x).xreplace(still) for x in v] for f in equations.forcing]
-    if units:
-        field = [[dot(E, [dot(row, F) for row in field]) for F in units] for E in units]
-    terms = dict.fromkeys(
-        t for row in field for s in row for t in bare_terms(simplify(s), equations.q)
-    )
-    monomials = [sympy.S.One, *X, *products_of_two(X)]
-    made = dict.fromkeys(t * m for t in terms for m in monomials)
-    return list(made) if len(made) <= _MOST_OF_FIELD else []
 
 
 def is_gyroscopic(equations: SlotEquations) -> bool:

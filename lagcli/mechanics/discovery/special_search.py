@@ -310,7 +310,7 @@ def _searches(discovery: Discovery, allowed: Allowance) -> Iterator[Search | Non
     if len(equations.q) < 2 or not discovery.quadratic_mass or not discovery.canonical:
         return
     integrals = QuadraticIntegrals(
-        discovery.noether, equations, discovery.centred_kinds, allowed, discovery.flat
+        discovery.noether, equations, discovery.centred_kinds, allowed, discovery.isometries
     )
     size = len(integrals.functions) * (len(integrals.pairs) + len(integrals.linear))
     if size and t not in discovery.equations_symbols:
