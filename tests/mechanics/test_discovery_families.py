@@ -19,6 +19,7 @@ from tests.oracle.constancy import digits_of
 from tests.solved import solve
 
 from .derived import derive
+from .test_discovery_literature import problem
 
 POS = "{assume: positive}"
 
@@ -332,6 +333,25 @@ def test_a_field_that_falls_as_the_time_leaves_eight(B, V):
                         f'L: "m*(x\'^2 + y\'^2)/2 + {B}*(x*y\' - y*x\')/2 - {V}"}}')  # fmt: skip
     found = summary(derivation.discovery)
     assert (found.dimension, found.independent, found.integrable) == (8, 4, True)
+    assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("B", "V"),
+    [
+        ("b/t^2", "0"), ("b/(c + t)^2", "0"),
+        ("b/(1 + t^2)", "0"), ("b/(1 + t^2)", "k*(x^2 + y^2)/(2*(1 + t^2)^2)"),
+        ("b/(1 + t)", "k*(x^2 + y^2)/(2*(1 + t)^4) - b^2*(x^2 + y^2)/(8*m*(1 + t)^2)"),
+    ],
+)  # fmt: skip
+def test_axes_that_turn_with_half_of_a_changing_field_leave_eight(B, V):
+    """Larmor's theorem; Lewis and Riesenfeld, J. Math. Phys. 10 (1969) 1458."""
+    L = f"m*(x'^2 + y'^2)/2 + {B}*(x*y' - y*x')/2 - ({V})"
+    derivation = derive(problem(L, parameters="m b k c"))
+    found = summary(derivation.discovery)
+    assert (found.dimension, found.independent, found.integrable) == (8, 4, True)
+    assert derivation.discovery.stopped == []
     assert min(digits_of(derivation).values()) > 20
 
 

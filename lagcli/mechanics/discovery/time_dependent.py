@@ -3,6 +3,9 @@
 Equations x'' = K x/tau^2 + C x'/tau, tau = a t + b, have constant coefficients in log(tau) (Euler),
 where the stretching of time is tau times a function with a difference of two exponents.
 
+Two equations of a charge in a field B(t) and a central force are one in axes that turn with -B/2
+(Larmor).
+
 Of one other equation, with mu = exp of the integral of p, x = y/sqrt(mu) and y'' + I y = 0,
 I = q - p'/2 - p^2/4.  Where I is constant, or K/Q^2 with Q of second degree in t, the solutions Y
 are elementary; one is where I = -(r' + r^2) with a polynomial r.  A translation then is Y/sqrt(mu),
@@ -18,10 +21,11 @@ Kovacic, J. Symb. Comp. 2 (1986) 3 (exp of an integral).
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import combinations_with_replacement
+from itertools import combinations, combinations_with_replacement
 
 import sympy
 from sympy import Expr, Symbol
+from sympy.simplify.fu import TR8
 
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.antiderivative import antiderivative
@@ -50,18 +54,24 @@ def of_changing_coefficients(
     translations += [f for each in found for f in each.functions(s)] + ([s] if rows else [])
     between = [f for each in differences(found) for f in each.functions(s)]
     others += [g for f in [*between, *([s, s**2] if rows else [])] for g in (tau * f, f)]
+    turning = _turning_pairs(given, q, v, t)
     for k, (acceleration, x, rate) in enumerate(zip(given, q, v, strict=True)):
-        if k in rows:
+        if k in rows or any(k == later for _, later, _ in turning):
             continue
-        solved = solved and not _changes_by(acceleration, moving - {x, rate}, moving, t)
-        solution = _of_equation(acceleration, x, rate, moving, t)
+        pair = next((each for each in turning if each[0] == k), None)
+        if pair is None:
+            solved = solved and not _changes_by(acceleration, moving - {x, rate}, moving, t)
+        field = pair[2] if pair else sympy.S.Zero
+        angle = antiderivative(field / 2, t) if pair else sympy.S.Zero
+        solution = _of_equation(acceleration, x, rate, field, moving, t)
         if solution is None:
             continue
         root, Y, p = solution
-        solved = solved and len(Y) > 1
-        translations += [simplify(y / root) for y in Y]
+        solved = solved and len(Y) > 1 and angle is not None
+        turns = [sympy.cos(angle), sympy.sin(angle)] if angle else [sympy.S.One]
+        translations += [_of_one_wave(simplify(y / root) * turn) for y in Y for turn in turns]
         for stretch in _products(Y):
-            others += [stretch, simplify(stretch.diff(t)), simplify(p * stretch)]
+            others += [stretch, *map(simplify, (stretch.diff(t), p * stretch, field * stretch))]
     return _distinct(translations, t, time), _distinct(others, t, time), solved
 
 
@@ -91,6 +101,35 @@ def of_euler(
     return tau, exponents(*chosen, t), rows
 
 
+def _turning_pairs(
+    accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
+) -> list[tuple[int, int, Expr]]:
+    """x'' = a x + b y + c x' + d y', y'' = a y - b x + c y' - d x' with 2 b = d' - c d, and d.
+
+    In axes that turn with -d/2 both are w'' = c w' + (a - d^2/4) w, as in a field B(t) = d.
+    """
+    found: list[tuple[int, int, Expr]] = []
+    terms, moving = [_terms(each) for each in accelerations], {*q, *v}
+    for k, m in combinations(range(len(q)), 2):
+        a, b, c, d = (
+            [simplify(sympy.Add(*_factors(terms[i], y[j], moving))) for i, j in ((k, at), (m, to))]
+            for y in (q, v) for at, to in ((k, m), (m, k))
+        )  # fmt: skip
+        if free_of(sympy.Tuple(a[0], c[0], d[0]), [t]) or d[0] == 0:
+            continue
+        gaps = (a[0] - a[1], b[0] + b[1], c[0] - c[1], d[0] + d[1])
+        if not any(map(simplify, (*gaps, 2 * b[0] - d[0].diff(t) + c[0] * d[0]))):
+            found.append((k, m, d[0]))
+    return found
+
+
+def _of_one_wave(function: Expr) -> Expr:
+    """A product of sines and cosines as a sum, where their arguments have a ratio in numbers."""
+    inside = [wave.args[0] for wave in function.atoms(sympy.sin, sympy.cos)]
+    alike = all(simplify(u / inside[0]).is_number for u in inside)
+    return TR8(function) if alike else function
+
+
 def _terms(acceleration: Expr) -> Sequence[Expr]:
     """Of a sum, none where it is too long to be looked through."""
     short = sympy.count_ops(acceleration) <= _MOST_OPERATIONS
@@ -107,12 +146,16 @@ def _products(Y: Sequence[Expr]) -> list[Expr]:
 
 
 def _of_equation(
-    acceleration: Expr, x: Symbol, rate: Symbol, moving: set[Symbol], t: Symbol
+    acceleration: Expr, x: Symbol, rate: Symbol, field: Expr, moving: set[Symbol], t: Symbol
 ) -> tuple[Expr, list[Expr], Expr] | None:
-    """sqrt(mu), the two Y, if known, and p, by the terms of x'' that are linear in x and x'."""
+    """sqrt(mu), the two Y, if known, and p, by the terms of x'' that are linear in x and x'.
+
+    With a field in axes that turn with half of it.
+    """
     terms = _terms(acceleration)
     p, own = (-simplify(sympy.Add(*_factors(terms, y, moving))) for y in (rate, x))
-    if free_of(p, [t]) and free_of(own, [t]):
+    own = simplify(own + field**2 / 4)
+    if free_of(sympy.Tuple(p, own, field), [t]):
         return None
     integral = antiderivative(p, t)
     Y = _elementary(simplify(own - p.diff(t) / 2 - p**2 / 4), t, p)
