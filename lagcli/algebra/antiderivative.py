@@ -40,7 +40,10 @@ def antiderivative(expression: Expr, variable: Symbol, *, rules: bool = True) ->
     for term in Add.make_args(rest):
         part = _term(term, variable)
         if part is None:
-            whole = _by_rules(expression if by_parts == 0 else rest, variable) if rules else None
+            left = expression if by_parts == 0 else rest
+            whole = _by_rules(left, variable) if rules else None
+            if whole is None and rules:
+                whole = _by_partial_fractions(left, variable)
             if whole is None:
                 return None
             terms = [by_parts, whole]
@@ -169,7 +172,7 @@ def _of_elementary(factor: Expr, x: Symbol) -> Expr | None:
     if function == 1:
         return factor * x
     base, exponent = function.as_base_exp()
-    if exponent.is_Rational and not exponent.is_Integer:
+    if exponent.is_Rational and exponent != -1:
         argument, integral = base, base ** (exponent + 1) / (exponent + 1)
     elif (rule := _INTEGRALS.get(function.func)) is not None:
         argument = function.args[0]
@@ -199,6 +202,18 @@ def _by_rules(expression: Expr, x: Symbol) -> Expr | None:
         return None
     known = all(type(f) in ELEMENTARY for f in result.atoms(sympy.Function))
     return result if known and not result.has(sympy.Integral) else None
+
+
+def _by_partial_fractions(expression: Expr, x: Symbol) -> Expr | None:
+    """Of a rational function that is too long for the rules, without logarithms."""
+    if expression.atoms(AppliedUndef) or not expression.is_rational_function(x):
+        return None
+    try:
+        whole = limited(lambda: sympy.apart(sympy.together(expression), x), _UNITS, _SECONDS)
+    except (NotImplementedError, sympy.PolynomialError, OutOfWork):
+        return None
+    parts = [_term(term, x) for term in Add.make_args(whole)]
+    return None if any(part is None for part in parts) else Add(*parts)
 
 
 @contextmanager

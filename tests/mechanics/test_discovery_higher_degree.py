@@ -2,7 +2,8 @@
 
 Hietarinta, Phys. Rep. 147 (1987) 87, section 3 (Holt; Fokas and Lagerstrom); Henon, Phys. Rev. B
 9 (1974) 1921 (Toda); Bogoyavlensky, Commun. Math. Phys. 51 (1976) 201 (open chains);
-Ramani, Dorizzi, Grammaticos, Phys. Rev. Lett. 49 (1982) 1539 (fourth degree).
+Ramani, Dorizzi, Grammaticos, Phys. Rev. Lett. 49 (1982) 1539 (fourth degree); Inozemtsev,
+Meshcheryakov, Lett. Math. Phys. 9 (1985) 13 (root systems BC).
 """
 
 import pytest
@@ -93,6 +94,13 @@ FOURTH = {
     "1:6:8": quartic("x", "y"),
     "1:6:8, turned": quartic(*TURNED),
     "Holt, fourth degree": f"{T2} - k*(9*x^2/2 + y^2 + d)/x^(2/3)",
+    **{
+        f"BC2, {f}": f"{T2} - k*({f}(x - y)^-2 + {f}(x + y)^-2) - b*({f}(x)^-2 + {f}(y)^-2)"
+        for f in ("sin", "sinh")
+    },
+    "Inozemtsev, hyperbolic": f"{T2} - k*(sinh(x - y)^-2 + sinh(x + y)^-2)"
+    " - b*(cosh(4*x) + cosh(4*y)) - d*(cosh(2*x) + cosh(2*y))",
+    "Inozemtsev, rational": f"{T2} - k*((x - y)^-2 + (x + y)^-2) - b*(x^6 + y^6) - d*(x^4 + y^4)",
 }
 
 

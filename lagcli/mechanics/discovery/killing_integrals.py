@@ -39,7 +39,7 @@ from lagcli.mechanics.discovery.isometries import Vector
 from lagcli.mechanics.discovery.killing import KillingFrame
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.discovery.products import integral_of
-from lagcli.mechanics.discovery.relation import Relation
+from lagcli.mechanics.discovery.relation import Relation, with_gradient
 from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.noether import Noether, NoetherCharge
@@ -220,10 +220,17 @@ class KillingIntegrals:
         if self.degree == 3:
             return sympy.S.Zero
         system = self.noether.system
+        force = [-x for x in self._slopes_of(rate)]
         if self.degree == 4:
-            return boundary_term(simplify(-rate), system)
-        force = [expanded(-x) for x in self._slopes_of(rate)]
-        return potential(force, self._shapes(f), system, self.allowed)
+            found = with_gradient(force, self._products_of_terms, system.q, self.allowed)
+            return boundary_term(simplify(-rate), system) if found is None else found
+        return potential([*map(expanded, force)], self._shapes(f), system, self.allowed)
+
+    @property
+    def _products_of_terms(self) -> list[Expr]:
+        """Of two terms of V."""
+        terms = [term for term in bare_terms(self._rest, self.equations.q) if term != 1]
+        return [a * b for a, b in combinations_with_replacement(terms, 2)]
 
     def _shapes(self, f: Expr) -> list[Expr]:
         """Terms of f times monomials in X."""
