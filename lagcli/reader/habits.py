@@ -70,6 +70,18 @@ def habits() -> dict[str, Any]:
 
 
 @cache
+def spellings(table: str, part: str = "") -> dict[str, str]:
+    """What each word of a table means here, by its letters.
+
+    With `part`, of the tables in it whose names have that word.
+    """
+    found = habits()[table]
+    tables = [each for names, each in found.items() if part in names.split()] or [found]
+    pairs = (pair for each in tables for pair in each.items())
+    return {letters(word): meant for meant, words in pairs for word in words}
+
+
+@cache
 def meanings(table: str) -> dict[str, str]:
     """What each word of a table means here."""
     return {word: meant for meant, words in habits()[table].items() for word in words}
@@ -103,15 +115,16 @@ def key_meant(word: str, known: tuple[str, ...]) -> str | None:
         for key in known:
             if written in keys.get(key, ()):
                 return key
-    plain = _letters(spelled)
-    alike = (key for key in known if plain in map(_letters, keys.get(key, ())))
+    plain = letters(spelled)
+    alike = (key for key in known if plain in map(letters, keys.get(key, ())))
     return next(alike, None) if len(plain) > 3 else None
 
 
-def _letters(word: str) -> str:
-    """`parametros` for parámetros, `stoptime` for stop_time."""
-    plain = unicodedata.normalize("NFD", word.replace("_", ""))
-    return "".join(each for each in plain if not unicodedata.combining(each))
+def letters(word: str) -> str:
+    """`parametros` for parámetros, `stoptime` for stop_time and StopTime; one letter as it is."""
+    plain = unicodedata.normalize("NFD", re.sub("[_ -]", "", word))
+    plain = "".join(each for each in plain if not unicodedata.combining(each))
+    return plain.casefold() if len(plain) > 1 else plain
 
 
 def key_of_stem(word: str, known: tuple[str, ...]) -> str | None:
@@ -140,6 +153,9 @@ def colon_advice(line: str) -> str:
             return f"write parameters: {{{found[1]}: {{value: {number}, unit: {unit}}}}}"
         value = re.sub(r"^\{([^:{}]*)\}$", r"[\1]", found[2].strip())
         value = re.sub(r"^T\s*[-−]\s*V\s*=\s*", "", value)
+        named = re.match(r"([^\W\d]+)\s*[:=]?\s*(.+)", value)  # kinetic energy m*x'^2/2
+        if named and (key := key_meant(f"{found[1]} {named[1]}", KEYS)):
+            return f"write {key}: {named[2]}"
         return f"write {found[1]}: {value}"
     if re.search(r"[\w)][*/^+-]", line):
         return f"write L: {line.strip()}"

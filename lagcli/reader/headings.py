@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection
 
 from lagcli.notation.greek import BY_NAME as GREEK
-from lagcli.reader.habits import unit_behind
+from lagcli.reader.habits import spellings, unit_behind
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
@@ -102,6 +102,7 @@ def _mean(labels: set[str], inner: list[DocumentNode]) -> bool:
     """Whether keys may be attributes in other words, not names: units, min, default."""
     words = [each for each in labels if len(each) > 2 and each.isalpha() and each.islower()]
     words = [each for each in words if each not in GREEK]
+    words += [each for each in labels if labels <= spellings("bounds").keys()]
     return bool(words) and not any(isinstance(each, Mapping) or _are_names(each) for each in inner)
 
 

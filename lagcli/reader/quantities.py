@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, TypedDict, cast, get_args
+from typing import TYPE_CHECKING, TypedDict, cast
 
 from lagcli.expression import FUNCTIONS
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
 from lagcli.reader.constants import value_cycle
-from lagcli.reader.habits import SIGNS, habits, is_constant, name_meant, spoken_unit, unit_behind
+from lagcli.reader.habits import is_constant, name_meant, spoken_unit, unit_behind
 from lagcli.reader.headings import without_headings
 from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, named_formulas, source_of, swept
@@ -18,11 +18,12 @@ from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, s
 from lagcli.reader.number_units import in_digits, in_unit
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import VALUES, Kind, name_mistake
+from lagcli.reader.sign_meant import ASSUMPTIONS, NEUTRAL, sign_meant
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.record import replace
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Container, Iterator
+    from collections.abc import Collection, Iterator
 
     from lagcli.diagnostics import Span
     from lagcli.reader.file_reader import FileReader
@@ -52,7 +53,6 @@ _CALLED = regex(r"(\w+)\(\s*([^\W\d][\w, ]*?)\s*\)")
 _FORMULA = "a formula, without arguments, stands under definitions"
 _OF_TIME = regex(r"(\w+)\(t\)")
 _ONE_NAME = regex(r"write (\w+)(?:, without .*)?")
-_ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 _ASSUMED = ("assume", "value")
 
 
@@ -112,7 +112,9 @@ def read_parameters(
         else:
             attributes = _attributes(file, node, key, "parameter", _PARAMETER_ATTRIBUTES)
         value, before = None, len(file.diagnostics)
-        if sign := _sign(attributes.get("value"), file.scope.kinds):
+        bare = getattr(attributes.get("value"), "value", "(")
+        is_free = bare not in file.scope.kinds and bare[:1] not in {"(", "["}
+        if is_free and (sign := sign_meant(bare)):
             rest = (f", {k}: {source_of(v)}" for k, v in attributes.items() if k not in _ASSUMED)
             hint = f"write {key.label}: {{assume: {sign}{''.join(rest)}}}"
             file.error(f"an assumption stands under 'assume' of '{key.label}'", key.span, hint)
@@ -198,7 +200,7 @@ def is_described(text: str, known: Collection[str]) -> bool:
     longest = max(words, key=len)
     if len(words) > 1:
         return len(longest) > 3 and longest not in FUNCTIONS
-    is_name = longest in GREEK or longest in NO_VALUE or closest(longest, [*_ASSUMPTIONS, *known])
+    is_name = longest in GREEK or longest in NO_VALUE or closest(longest, [*ASSUMPTIONS, *known])
     return len(longest) > 3 and longest.islower() and longest not in FUNCTIONS and not is_name
 
 
@@ -436,31 +438,22 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
         if text is not None:
             said["description"] = text.value
     if "assume" in attributes:
-        text = file.scalar(attributes["assume"], "'assume'")
-        if text is not None and text.value in _ASSUMPTIONS:
+        given = attributes["assume"]
+        sign = sign_meant(getattr(given, "value", source_of(given)))
+        if not isinstance(given, Scalar) and sign:
+            file.error(f"'assume' must be a text, not {kind(given)}", given.span, f"write {sign}")
+            return said
+        text = file.scalar(given, "'assume'")
+        if text is not None and text.value in ASSUMPTIONS:
             said["assume"] = cast("Assumption", text.value)
         elif text is not None:
-            meant = [a for a in _ASSUMPTIONS if text.value and a.startswith(text.value)][:1]
-            sign = _sign(text, ())
-            hint = f"write {sign}" if sign else did_you_mean(text.value, _ASSUMPTIONS)
-            hint = hint or f"write {''.join(meant) or 'one of ' + ', '.join(_ASSUMPTIONS)}"
+            meant = [a for a in ASSUMPTIONS if a.startswith(text.value)][:1]
+            hint = f"write {sign}" if sign else did_you_mean(text.value, ASSUMPTIONS)
+            if not sign and {*text.value.casefold().split()} <= NEUTRAL:
+                hint = "leave it out"
+            hint = hint or f"write {''.join(meant) or 'one of ' + ', '.join(ASSUMPTIONS)}"
             file.error(f"unknown assumption '{text.value}'", text.span, hint)
     return said
-
-
-def _sign(node: DocumentNode | None, known: Container[str]) -> str:
-    """`positive` for `positive`, `> 0` and `x > 0`; nothing for other texts and known names."""
-    if not isinstance(node, Scalar) or node.value in known:
-        return ""
-    if (word := node.value.strip().casefold()) in _ASSUMPTIONS:
-        return word
-    if assumed := re.search(r"\(.*\b(positive|negative|nonnegative|real)\s*=\s*True", node.value):
-        return assumed[1]
-    text = node.value
-    for form, sign in habits()["signs"] if re.search(r"\b(?:than|least|not|zero)\b", text) else ():
-        text = re.sub(form, f" {sign} ", text)
-    found = re.fullmatch(r"\s*\w*\s*(\W+?)\s*0?\s*", text)
-    return SIGNS.get(found[1], "") if found else ""
 
 
 def _check_unit(file: FileReader, text: Scalar) -> None:

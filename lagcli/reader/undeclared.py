@@ -72,6 +72,7 @@ def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
         wrong = _KEY.fullmatch(each.message)
         place = wrong["place"] if wrong else _ORDER.sub(r"\1 \3", each.message)
         same = wrong is None or place != "the problem" or each.hint.startswith("it is one sum")
+        same &= place != each.message
         key = (place, each.hint) if each.hint and same else (str(each.span), each.message)
         key = (place, "") if _SHAPE.search(each.message) else key
         first = kept.setdefault(key, each)
@@ -168,8 +169,9 @@ def _joined(group: list[Diagnostic]) -> Diagnostic:
         also = tuple((each.span, "this one too") for each in group[1:])
         return replace(group[0], hint=f"{parts[0][0]}{', '.join(entries)}}}", related=also)
     hints = {group[0].hint: group[0].hint}
-    lines: list[str] = []
+    lines: dict[str, list[str]] = {}
     names: list[str] = []
+    first = _KEY.match(group[0].message)
     for before, each in pairwise(group):
         line = f"in line {each.span.line} " if each.span.line != before.span.line else ""
         named = [*{*_QUOTED.findall(each.message)} - {*_QUOTED.findall(before.message)}]
@@ -178,12 +180,15 @@ def _joined(group: list[Diagnostic]) -> Diagnostic:
             is_told = len(named) != 1 or named[0][1:-1] in advice or "the unit '" in each.message
             hints[each.hint] = (line if line or is_told else f"for {named[0]} ") + advice
         elif line:
-            lines.append(str(each.span.line))
+            key = _KEY.match(each.message)
+            other = f" ({key['keys']})" if key and first and key["keys"] != first["keys"] else ""
+            lines.setdefault(each.hint, []).append(f"{each.span.line}{other}")
         else:
             names += named if len(named) == 1 else []
     more = ["and so on"] if len(hints) > _SHOWN else []
     more += [f"for {', '.join(names)} the same"] if names else []
-    more += [f"in line{'s' * bool(lines[1:])} {', '.join(lines)} the same"] if lines else []
+    for hint, same in lines.items():
+        hints[hint] += f"; in line{'s' * bool(same[1:])} {', '.join(same)} the same"
     return replace(group[0], hint="; ".join([*list(hints.values())[:_SHOWN], *more]))
 
 
@@ -194,7 +199,8 @@ def _with_value(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
         meant = re.search(r"the key is (\w+)$", last.hint) if last is not None else None
         begins = rf"'?{meant[1]}'? (?:must be|is one)\b" if meant else ""
         within = last is not None and each.span.line == last.span.line
-        shape = re.match(begins, each.message) or (within and each.hint.startswith("write "))
+        of_value = within and each.hint.startswith("write ") and not _KEY.match(each.message)
+        shape = re.match(begins, each.message) or of_value
         if last is not None and meant and each.span == last.span:
             last = each  # which says what to do with it
             continue

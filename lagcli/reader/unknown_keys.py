@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import re
-from functools import cache
-from typing import TYPE_CHECKING, NamedTuple, get_args
+from typing import TYPE_CHECKING, NamedTuple
 
-from lagcli.problem_data import Assumption
 from lagcli.reader.by_coordinate import coordinate_meant, state_meant
 from lagcli.reader.foreign.words import momentum_meant
 from lagcli.reader.friction_meant import friction_meant
@@ -15,13 +13,14 @@ from lagcli.reader.habits import (
     KEYS,
     MAPS,
     advised,
-    habits,
     is_constant,
     key_meant,
     key_of_stem,
+    letters,
     meanings,
     name_meant,
     number_and_unit,
+    spellings,
 )
 from lagcli.reader.headings import SECTIONS
 from lagcli.reader.misplaced import names_in
@@ -38,9 +37,12 @@ from lagcli.reader.misshapen import (
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.potential_meant import GRAVITY, potential_meant
 from lagcli.reader.regex import regex
+from lagcli.reader.sign_meant import ASSUMPTIONS, sign_meant
 from lagcli.reader.suggest import closest, did_you_mean
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from lagcli.reader.scope import Scope
 
 #: The likeness of a key and its misspelling: another word of as many letters is less like it.
@@ -49,9 +51,13 @@ _NEAR = 0.7
 _SLIP = 0.8
 _PROBLEM = "the problem"
 _WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
+_NOT = frozenset({"no", "false", "off", "0"})
 #: The number of a state.
 _STATE = regex(r"(?:[-+*/\d.() ]|pi|e(?=[-+\d]))+")
-_RANGES = frozenset({"range", "domain", "bounds", "interval", "limits"})
+_OF_PARAMETER = (
+    "leave it out: a sign is written assume: positive; "
+    "several values are run by lagcli sweep FILE --vary"
+)
 _DEFINED = "a formula with a name stands under definitions"
 _MANUAL = "leave it out, or see lagcli help problem-format"
 
@@ -62,13 +68,6 @@ class UnknownKey(NamedTuple):
     message: str
     hint: str
     meant: str | None = None
-
-
-@cache
-def advice_in(section: str) -> dict[str, str]:
-    """What to write instead of each word that a section does not have."""
-    tables = (table for names, table in habits()["advice"].items() if section in names.split())
-    return {word: advice for table in tables for advice, words in table.items() for word in words}
 
 
 def unknown_key(
@@ -111,11 +110,13 @@ def unknown_key(
     elif not hint or hint.startswith("did you mean"):
         answer = _answer_meant(word, written, scope) if what == "expect" else ""
         hint = answer or _outer(key, value, names) or hint
-    if "assume" in names and "integer" not in names and word in _RANGES:
-        meant, hint = None, _of_range(source_of(value))
     given = {each.label for each, _ in around.entries}
+    bound = spellings("bounds").get(letters(word))
+    if "assume" in names and bound is not None:
+        meant, hint = None, _of_range(bound, value, what, given)
     if meant in given and hint == f"the key is {meant}":
         hint = f"the key is {meant}, which is given already: its entries stand there"
+        hint = f"leave it out: {meant} is given already" if written else hint
     if "at" in names and word in scope.of_kind("coordinate"):
         hint = f"write at: {{{word}: {written}}}"
     if not hint and isinstance(value, Mapping) and value.entries:
@@ -207,7 +208,7 @@ def _meant_of_problem(
         return None, f"it goes on with '{above[0]}': put the whole text in quotes"
     parts = {k.label: v.value.strip() for k, v in around.entries if isinstance(v, Scalar)}
     energy = meant if meant in {"T", "V"} and written else None
-    if energy is None and not advice_in("problem").get(word):
+    if energy is None and letters(word) not in spellings("advice", "problem"):
         numbered = re.match(r"[TV](?=\d|_)", word)  # V2, V_spring
         energy = numbered[0] if numbered else None
     if energy in parts:
@@ -366,18 +367,32 @@ def _quadratic_form(word: str, value: DocumentNode, coordinates: list[str]) -> s
     return f"write {key}: ({' + '.join(terms).replace('+ -', '- ')})/2" if terms else ""
 
 
-def _of_range(written: str) -> str:
-    """`write assume: positive` for `r > 0` and `[0, inf]`; a coordinate has no other range."""
-    written = written.strip("'\"")
-    if written in get_args(Assumption):
-        return f"write assume: {written}"
-    sign = re.fullmatch(
-        r"\s*\w*\s*(>=?|≥)\s*0\s*|[\[(\]]\s*0\s*,\s*\+?(?:\.?inf\w*|oo|∞)\s*[\])\[]", written
-    )
+def _of_range(relation: str, value: DocumentNode, what: str, given: Collection[str]) -> str:
+    """`write assume: positive` for `r > 0`, `(0, inf]`, `[1, 3]` and the bound `gt: 0`.
+
+    Parameters
+    ----------
+    relation
+        Of the quantity to the value; nothing where the value has it.
+    value
+        A number, a range, a relation or an assumption.
+    what
+        As in "the parameter 'm'".
+    given
+        The keys of the entry.
+    """
+    written, is_parameter = source_of(value).strip("'\" "), what.startswith("the parameter")
+    bounds = [each for each in given if letters(each) in spellings("bounds")]
+    is_range = bounds[1:] or re.match(r"[\[(\]](?!.*(?:inf|oo|∞))", written)
+    is_open = is_parameter or not is_range
+    sign = sign_meant(written, relation) if is_open and "assume" not in given else ""
+    hint = f"write assume: {sign}" if sign else "leave it out"
+    if is_parameter and (values := values_in(written.strip("[]()"))):
+        varied = f"{what.split(chr(39))[1]}={values}"
+        return f"{hint}; several are run by lagcli sweep FILE --vary {varied}"
     if sign:
-        strict = sign[1] == ">" or (not sign[1] and written[0] != "[")
-        return f"write assume: {'positive' if strict else 'nonnegative'}"
-    return "leave it out: a coordinate has no range"
+        return hint
+    return _OF_PARAMETER if is_parameter else f"{hint}: a coordinate has no range"
 
 
 def _letter_used(word: str, around: Mapping) -> str:
@@ -423,9 +438,9 @@ def _is_used(key: Scalar, value: DocumentNode, around: Mapping) -> bool:
 def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
     """What to write instead of a key with its value; nothing where that is unclear."""
     section = what.removeprefix("the ").partition(" ")[0]
-    if word in get_args(Assumption) and word != "real" and "assume" in known:
-        return f"write assume: {word}"
-    if advice := advice_in(section).get(word) or advice_in(section).get(word.replace(" ", "_")):
+    if word in ASSUMPTIONS and word != "real" and "assume" in known:
+        return "leave it out" if value.casefold() in _NOT else f"write assume: {word}"
+    if advice := spellings("advice", section).get(letters(word)):
         return advice.replace("{word}", word)
     return _advice_in_problem(word, value.strip()) if section == "problem" else ""
 
@@ -442,7 +457,7 @@ def _advice_in_problem(word: str, value: str) -> str:
         return ALREADY_FOUND
     if key == "until":
         value = range_end(value) or value
-    if len(word) > 1 and (advice := advice_in("simulation").get(word)):
+    if len(word) > 1 and (advice := spellings("advice", "simulation").get(letters(word))):
         return advice
     if part == "expect" and value in _WISHES:
         return f"an option, not a key: lagcli solve FILE --show {key}"

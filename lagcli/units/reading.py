@@ -106,6 +106,7 @@ class _Reader:
     def misplaced(self, token: _Token) -> UnitMistake:
         power = re.match(r"-\d+", self.text[token.start :])
         hint = f"a power is written with '^': ^{power[0]}" if power else ""
+        hint = "write 1" if not re.search(r"\w|[%°]", self.text) else hint
         if token.text == ".":  # N.m-1
             hint = f"write {re.sub(r'(?<=[A-Za-z])(?=-?[0-9])', '^', self.text).replace('.', ' ')}"
         return self.mistake(f"'{token.text}' has no place in a unit", token, hint)

@@ -8,9 +8,11 @@ from lagcli.units.table import known_names, meaning
 
 #: Units by the names that people use and the table does not have.
 _ELSEWHERE = {
-    "none": "1",
-    "dimensionless": "1",
-    "number": "1",
+    **dict.fromkeys(
+        "none null nil no number dimensionless unitless nondimensional adimensional "
+        "einheitenlos dimensionslos ratio pure scalar one".split(),
+        "1",
+    ),
     "radians": "rad",
     **dict.fromkeys(("degrees", "°", "º"), "deg"),
     "rev": "turn",

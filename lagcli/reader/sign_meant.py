@@ -1,0 +1,65 @@
+"""The assumption that a text, a bound or a range says in other words: positive for `> 0`."""
+
+from __future__ import annotations
+
+import re
+from fractions import Fraction
+from typing import get_args
+
+from lagcli.problem_data import Assumption
+from lagcli.reader.habits import SIGNS, habits
+from lagcli.reader.regex import regex
+
+ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
+#: The strongest first.
+_ORDER = ("positive", "negative", "nonnegative", "nonzero", "real")
+#: Words that every quantity of a file deserves.
+NEUTRAL = frozenset("a and always const constant finite fixed is known number real scalar strictly "
+                    "variable".split())  # fmt: skip
+_RELATION = regex(r"(?:[^\W\d]\w*\s*)?([<>]=?|[≥≤≠]|!=)\s*(-?\d*\.?\d*)")
+#: A range in brackets: `[0, 3]`, `]0, inf[`.
+_ENDS = regex(r"([\[(\]])\s*([^,;]*?)\s*[,;]\s*([^,;]*?)\s*([\])\[])")
+
+
+def sign_meant(text: str, relation: str = "") -> str:
+    """`positive` for `real, positive`, `> 0`, `m > 1` and `[1, 3]`; nothing for other texts.
+
+    Parameters
+    ----------
+    text
+        An assumption, a relation or a range.
+    relation
+        That of the quantity to the number in the text, where it is a bound.
+    """
+    words = {*re.findall(r"\w+", text.casefold())}
+    if words <= {*ASSUMPTIONS, *NEUTRAL, "true"}:
+        if {"positive", "negative"} <= words:
+            return ""
+        if {"nonnegative", "nonzero"} <= words:
+            return "positive"
+        return next((each for each in _ORDER if each in words), "")
+    if assumed := re.search(r"\(.*\b(positive|negative|nonnegative|real)\s*=\s*True", text):
+        return assumed[1]
+    for form, sign in habits()["signs"] if re.search(r"\b(?:than|least|not|zero)\b", text) else ():
+        text = re.sub(form, f" {sign} ", text)
+    if ends := _ENDS.fullmatch(text):
+        lower = sign_meant(f">{'=' * (ends[1] == '[')}{ends[2]}")
+        return lower or sign_meant(f"<{'=' * (ends[4] == ']')}{ends[3]}")
+    found = _RELATION.fullmatch(" ".join(f"{relation} {_turned(text)}".split()))
+    if found is None or found[2] in {"-", "."}:
+        return ""
+    number = Fraction(found[2] or 0)
+    if number and found[1][0] in "<≤":
+        return "negative" if number < 0 else ""
+    if number:
+        return "positive" if number > 0 and found[1][0] in ">≥" else ""
+    return SIGNS.get(found[1], "")
+
+
+def _turned(text: str) -> str:
+    """`> 0` for `0 < m`; other texts as they are."""
+    found = re.fullmatch(r"\s*(-?[\d.]+)\s*([<>≤≥]=?)\s*[^\W\d]\w*\s*", text)
+    return f"{found[2].translate(_MIRROR)}{found[1]}" if found else text
+
+
+_MIRROR = str.maketrans("<>≤≥", "><≥≤")
