@@ -15,6 +15,7 @@ from typing import NamedTuple
 from lagcli.diagnostics import Diagnostic, Source, Span
 from lagcli.reader.habits import KEYS, SIGNS, colon_advice, habits
 from lagcli.reader.regex import regex
+from lagcli.reader.yaml_errors import CONTINUES, TEXTS, continued
 from lagcli.record import replace
 
 #: Longer files are not tried, nor more lines of a file.
@@ -33,8 +34,6 @@ _SIGNED = regex(
 )
 #: The formula in a hint.
 _PROPOSED = regex(r"(?:write|did you mean) (.*?)\??")
-#: Keys with a text that is no formula.
-_TEXTS = frozenset({"title", "source", "description"})
 _ASSIGNED = regex(r"[^\W\d][\w()=' ]*?\s*:?=\s*[^=]")
 #: What is said of a line that is none of the file.
 _NO_LINE = regex(
@@ -114,7 +113,7 @@ def _grouped(line: str) -> str:
     """`V: (m/2)*x` for `V: {m/2}*x`, `[m/2]*x` and `"m/2"*x`."""
     found = _ENTRY.fullmatch(line)
     group = None if found is None else _GROUP.fullmatch(found["value"])
-    if found is None or group is None or found["key"].strip(" :") in _TEXTS:
+    if found is None or group is None or found["key"].strip(" :") in TEXTS:
         return line
     inner = next(each for each in group.groups()[:-1] if each is not None)
     return f"{found['key']}({inner}){group['rest']}"
@@ -122,7 +121,7 @@ def _grouped(line: str) -> str:
 
 def _quoted(line: str) -> str:
     found = _ENTRY.fullmatch(line)
-    if found is None or found["key"].strip(" :") not in _TEXTS:
+    if found is None or found["key"].strip(" :") not in TEXTS:
         return line
     value = found["value"].replace("\\", "\\\\").replace('"', '\\"')
     return f'{found["key"]}"{value}"'
@@ -243,7 +242,7 @@ def all_mistakes(
     is_read = False
     while not is_read and len(found) < _MOST:
         repair = _repaired(text, mistakes[0], read) or _left_out(text, mistakes[0])
-        repair = repair or _without_tabs(text, mistakes[0], read)
+        repair = repair or _continued(text, mistakes[0]) or _without_tabs(text, mistakes[0], read)
         if repair is None:
             break
         repair = _everywhere(text, repair, read)
@@ -269,6 +268,26 @@ def _left_out(text: str, mistake: Diagnostic) -> _Repair | None:
     return _Repair(mistake, "\n".join(lines), str)
 
 
+def _continued(text: str, mistake: Diagnostic) -> _Repair | None:
+    """The file with blanks before the lines that go on with a value; None for other mistakes."""
+    if not mistake.hint.startswith(CONTINUES):
+        return None
+    lines, last = text.split("\n"), mistake.span.line
+    while last < len(lines) and continued(lines, last) is not None:
+        last += 1
+    more = range(mistake.span.line, last)
+    for k in (mistake.span.line - 1, *more):
+        lines[k] = f"  {lines[k]}"
+    return _Repair(replace(mistake, hint=mistake.hint + _also(more)), "\n".join(lines), str)
+
+
+def _also(places: Iterable[int]) -> str:
+    """`, also in lines 5 and 6` for the lines at 4 and 5, counted from 0."""
+    lines = [f"{k + 1}" for k in places]
+    listed = " and ".join(filter(None, [", ".join(lines[:-1]), *lines[-1:]]))
+    return f", also in line{'s' * bool(lines[1:])} {listed}" if lines else ""
+
+
 def _without_tabs(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
     """The file with a blank for each tab, where one indents: all columns are the same.
 
@@ -280,12 +299,8 @@ def _without_tabs(text: str, mistake: Diagnostic, read: Reading) -> _Repair | No
     is_mixed = re.search(r"^ +\S", text, re.MULTILINE)
     if is_mixed and not read(Source("", whole))[0]:
         return None
-    lines = [
-        f"{k}" for k, line in enumerate(text.split("\n"), start=1) if re.match(r" *\t\s*\S", line)
-    ]
-    also = " and ".join(filter(None, [", ".join(lines[1:-1]), *lines[1:][-1:]]))
-    hint = f"{mistake.hint}, also in line{'s' * bool(lines[2:])} {also}" if also else mistake.hint
-    return _Repair(replace(mistake, hint=hint), whole, str)
+    lines = [k for k, line in enumerate(text.split("\n")) if re.match(r" *\t\s*\S", line)]
+    return _Repair(replace(mistake, hint=mistake.hint + _also(lines[1:])), whole, str)
 
 
 def _at(mistake: Diagnostic, moved: int) -> Diagnostic:
@@ -369,7 +384,7 @@ def _everywhere(text: str, repair: _Repair, read: Reading) -> _Repair:
     lines = [*before]
     for number, line in enumerate(before):
         entry = _ENTRY.fullmatch(line)
-        is_text = entry is not None and entry["key"].strip(" :") in _TEXTS
+        is_text = entry is not None and entry["key"].strip(" :") in TEXTS
         lines[number] = line if is_text and number != first else repair.change(line)
     others = [k for k, line in enumerate(before) if lines[k] != line and k != first]
     if not others or len(others) > _MOST or any("\n" in line for line in lines):
@@ -380,8 +395,9 @@ def _everywhere(text: str, repair: _Repair, read: Reading) -> _Repair:
     if not is_read or any(each.span.line in places for each in _beside_keys(found)):
         return repair
     parts = [f"in line {number + 1} write {lines[number].strip()}" for number in others]
-    hint = "; ".join([f"write {lines[first].strip()}", *parts[: _SHOWN - 1]])
-    hint += "; and so on" * (len(parts) >= _SHOWN)
+    parts[_SHOWN - 1 :] = ["and so on"] * (len(parts) >= _SHOWN)
+    between = ", " if ";" in before[first] else "; "  # the ';' of a line is left out
+    hint = between.join([f"write {lines[first].strip()}", *parts])
     return repair._replace(mistake=replace(repair.mistake, hint=hint), text=whole)
 
 

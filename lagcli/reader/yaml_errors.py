@@ -120,22 +120,51 @@ def explain(error: Exception, text: SourceText) -> Diagnostic:
         return Diagnostic(f"this line begins further left than '{key}'", span, "begin them alike")
     for piece, sentence, hint in habits()["yaml"]:
         if piece in said:
-            if not hint and _MIDDLE.match(line) and "=" not in line.lstrip(" =") and line != first:
-                return Diagnostic(sentence, span, _CONTINUED)
+            if not hint and (begin_line := continued(lines, number)) is not None:
+                return Diagnostic(sentence, span, f"{CONTINUES}{begin_line + 1}")
             return Diagnostic(sentence, span, hint or colon_advice(line))
     return Diagnostic(f"this is not YAML: {problem}", span)
 
 
 #: A line that begins in the middle of a formula.
 _MIDDLE = regex(r"\s*([-+*^=]|/(?![/*])|\w+[-+*/^(])")
-_CONTINUED = "a line that continues the one above it begins with blanks, further right"
+CONTINUES = "begin the line further right: it goes on with line "
+#: Keys with a text that is no formula.
+TEXTS = frozenset({"title", "source", "description"})
 #: A text in quotes with one of them inside.
 _QUOTED = regex(r"\s*([\w ]+):\s*(['\"])([^#]*\2[^#]*)\2\s*(?:#.*)?")
 #: A comment of another language, the head of a section, a program: // a, ; a, % a; [a]; import a.
 _FOREIGN = regex(
     r"\s*((//|/\*|;|%(?!YAML)|<!--|--\s|'''|\"\"\").*|\[\w+\]\s*$|(?:from\s+[\w.]+\s+)?import\s.*)"
 )
+#: A line with a key or a left side of its own.
+_OWN = regex(r"\s*[^-+*/^=\s][^-+*/^=]*(:(\s|$)|=)")
+_ENTRY = regex(r"( *)([^\W\d][\w']*):(?:\s|$)")
 _BEFORE = regex(r"(?P<indent>\s*)(?P<key>[^\W\d][\w ]*)(?P<colon>:\s+\S)?")
+
+
+def continued(lines: list[str], here: int) -> int | None:
+    """The place of the entry that a line goes on with which begins where the entry does.
+
+    Words go on with a text, and what begins with a sign, as `+ m*g*x` does, with a formula.
+    """
+    line = lines[here]
+    entry = here - 1
+    while entry > 0 and not (begun := _ENTRY.match(lines[entry])):
+        entry -= 1
+    begun = _ENTRY.match(lines[entry]) if entry >= 0 else None
+    indent = len(line) - len(line.lstrip())
+    if begun is None or len(begun[1]) != indent or _OWN.match(line):
+        return None
+    is_apart = not all(map(str.strip, lines[entry:here]))
+    if begun[2] not in TEXTS:
+        return entry if _MIDDLE.match(line) and not is_apart else None
+    words = re.findall(r"\w+", line)
+    short = re.search(r"[*/^{\[\d]|\w'(?!s)", line) or all(len(word) < 3 for word in words[1:])
+    is_key = short and any(key_meant(" ".join(words[:k]), KEYS) for k in (1, 2))
+    is_program = any(re.match(form, line) for form, _ in habits()["begins"])
+    is_other = begun[2] != "description" and (is_apart or is_program or not words[1:])
+    return entry if words and line[indent] not in "#-" and not is_key and not is_other else None
 
 
 def _sections_meant(lines: list[str]) -> str:

@@ -404,7 +404,7 @@ HABITS = [
     (text(points="{bob: {position: r = x i + 2 j, mass: m}}", T=None), "write [x, 2]"),
     (text(coordinates="[х]", V=None), "Cyrillic small letter ha"),
     (text(V="!x"), "leave it out"),
-    (text() + "+ 3\nL: x\n", "begins with blanks"),
+    (text() + "+ 3\nL: x\n", "begin the line further right: it goes on with line 4"),
     (text() + "// spring\nL: x\n", "a comment begins with '#'"),
     (text(V="x /* spring */"), "a comment begins with '#'"),
     (" coordinates: [x]\nT: x'^2\n", "begin them alike"),
