@@ -355,6 +355,20 @@ def test_axes_that_turn_with_half_of_a_changing_field_leave_eight(B, V):
     assert min(digits_of(derivation).values()) > 20
 
 
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "V", ["k*x*y", "k*(y^2 - x^2)/2", "(c*y^2 - k*x^2)/2", "k*(x^2 - y^2 + 2*x*y)"]
+)
+def test_a_saddle_in_a_field_has_an_exponent_and_a_frequency_of_nested_roots(V):
+    """lambda^4 + b lambda^2 - c^2 = 0 (Thomson and Tait, *Natural Philosophy*, section 345)."""
+    L = f"(x'^2 + y'^2)/2 + B*(x*y' - y*x')/2 - ({V})"
+    derivation = derive(problem(L, parameters="k c|B"))
+    found = summary(derivation.discovery)
+    assert (found.dimension, found.independent, found.integrable) == (5, 4, True)
+    assert derivation.discovery.stopped == []
+    assert min(digits_of(derivation).values()) > 20
+
+
 @pytest.mark.parametrize("L", ["x'^2 - t*x^2", "x'^2 - cosh(t)*x^2", "t*x'^2 - (t - 1/t)*x^2"])
 def test_symmetries_that_no_formula_is_known_for_are_said_not_to_have_been_sought(L):
     """Airy's, Mathieu's and Bessel's equations have five as any linear equation."""

@@ -243,8 +243,14 @@ def _quadratic(b: Expr, c: Expr) -> list[Exponent]:
 
 def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
     """lambda^4 + b lambda^2 + c = 0: i (sqrt(b + 2s) +- sqrt(b - 2s))/2 where c = s^2."""
+    if c.is_nonpositive:  # one square of each sign
+        s, inside = frequency_of(-c), frequency_of(simplify(b**2 / 4 - c))
+        frequency = sympy.sqrt(simplify(inside + b / 2))
+        growth = sympy.sqrt(simplify(inside - b / 2)) if _has_roots(s) else s / frequency
+        real = [Exponent(sign * growth, sympy.S.Zero) for sign in (1, -1)]
+        return [*real, Exponent(sympy.S.Zero, frequency)]
     s = frequency_of(c)
-    if s.has(sympy.Pow) and any(p.exp.is_Rational and p.exp.q > 1 for p in s.atoms(sympy.Pow)):
+    if _has_roots(s):
         inside = frequency_of(simplify(b**2 / 4 - c))
         squares = [simplify(b / 2 + inside), simplify(b / 2 - inside)]
         return [exponent for x in squares for exponent in _quadratic(sympy.S.Zero, x)]
@@ -257,6 +263,10 @@ def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
         Exponent(sympy.S.Zero, simplify((one + other) / 2)),
         Exponent(sympy.S.Zero, simplify((one - other) / 2)),
     ]
+
+
+def _has_roots(formula: Expr) -> bool:
+    return any(p.exp.is_Rational and p.exp.q > 1 for p in formula.atoms(sympy.Pow))
 
 
 def frequency_of(square: Expr) -> Expr:
