@@ -23,6 +23,7 @@ from lagcli.platform.limited import limited
 _MOST_PARTS = 60
 _LONGEST = 1000  # operations while integrating by parts
 _MOST_RULES = 60  # integrands; what succeeded in the library took 23
+_MOST_TERMS = 3  # of a sum that has no antiderivative as a whole
 # One rule may take minutes: 85 s on a sum with sqrt(1 + x^2 + y^2), which then had none.
 _UNITS, _SECONDS = 2e6, 8.0
 
@@ -41,9 +42,7 @@ def antiderivative(expression: Expr, variable: Symbol, *, rules: bool = True) ->
         part = _term(term, variable)
         if part is None:
             left = expression if by_parts == 0 else rest
-            whole = _by_rules(left, variable) if rules else None
-            if whole is None and rules:
-                whole = _by_partial_fractions(left, variable)
+            whole = _of_whole(left, variable) if rules else None
             if whole is None:
                 return None
             terms = [by_parts, whole]
@@ -183,6 +182,19 @@ def _of_elementary(factor: Expr, x: Symbol) -> Expr | None:
     if slope == 0 or not free_of(slope, [x]):
         return None
     return constant * integral / slope
+
+
+def _of_whole(expression: Expr, x: Symbol) -> Expr | None:
+    """By rules, by partial fractions, or by rules for each term."""
+    found = _by_rules(expression, x)
+    if found is not None:
+        return found
+    found = _by_partial_fractions(expression, x)
+    terms = Add.make_args(sympy.expand(expression))
+    if found is not None or len(terms) == 1 or len(terms) > _MOST_TERMS:
+        return found
+    parts = [_by_rules(term, x) for term in terms]
+    return None if any(part is None for part in parts) else Add(*parts)
 
 
 def _by_rules(expression: Expr, x: Symbol) -> Expr | None:

@@ -68,7 +68,8 @@ def time_functions(
     translations = [*powers, t**3, *_functions(own, t), *_functions(between, t)]
     forced = forced_motion(accelerations, equations.q, equations.v, t)
     linear = accelerations, equations.q, equations.v, t
-    changing, stretched, solved = of_changing_coefficients(*linear)
+    changing, stretched, moved_along, solved = of_changing_coefficients(*linear)
+    forced += [f for f in moved_along if f not in forced]
     if changing or forced:  # sin(2 t) is 2 sin(t) cos(t) for a force at resonance
         others = _independent([*others, *stretched], t)
         moved = [f * T for f in forced for T in (others if f != t else others[3:])]

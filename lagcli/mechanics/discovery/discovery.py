@@ -230,13 +230,22 @@ class Discovery(Setting):
             if not self.dynamics.without_reactions:
                 transformations = tangent(transformations, self.dynamics, allowed)
         lengths = self.isometries.translated if self.isometries else ()
+        unproved = []
         for transformation in transformations:
             allowed.check()
             charge = point.charge_of(self.noether, transformation, allowed, lengths)
-            if charge is None or is_zero(charge.charge) is True:
+            if charge is None:
+                unproved.append(transformation)
+            elif is_zero(charge.charge) is True:
                 self.unproved = _UNPROVED
-                continue
-            self.listing.add([charge])
+            else:
+                self.listing.add([charge])
+        for transformation in unproved:
+            charge = Products(self.noether, self.point_charges, allowed).charge_of(transformation)
+            if charge is None:
+                self.unproved = _UNPROVED
+            else:
+                self.listing.add([charge])
         self.stopped += [self.unproved] if self.unproved else []
         if not constraints:
             self.listing.rebase(lambda charges: without_time(charges, self.system, allowed))

@@ -14,6 +14,8 @@ from sympy import Expr
 
 from lagcli.algebra import dot, is_zero, simplify
 from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.modular import NoPoint
+from lagcli.mechanics.discovery.point import with_gauge
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
@@ -51,6 +53,23 @@ class Products:
     def includes(self, charge: NoetherCharge) -> bool:
         """Whether it is a combination of them and of products of two of them."""
         return not self._beyond(self._known, charge)
+
+    def charge_of(self, transformation: Transformation) -> NoetherCharge | None:
+        """That of a point symmetry whose charge is a sum of products of two known ones."""
+        noether, system = self.noether, self.noether.system
+        pairs = list(combinations_with_replacement(self._linear, 2))
+        vectors = products_of((), self._linear, self._eta)
+        moved = [-x for x in noether.characteristic(transformation)]
+        variables = (system.t, *system.q, *system.qdot)
+        try:
+            factors = Relation([*vectors, moved], variables, self.allowed).of_last()
+        except (NoPoint, ZeroDivisionError):
+            return None
+        if factors is None:
+            return None
+        whole = dot(factors, [a.charge * b.charge for a, b in pairs])
+        zero = noether.charge("", "discovered", transformation, sympy.S.Zero)
+        return with_gauge(noether, transformation, simplify(zero.charge - whole))
 
     def modes(self, known: Sequence[NoetherCharge]) -> list[NoetherCharge]:
         """The energies of single modes that are no combinations of the known charges."""

@@ -38,13 +38,14 @@ _LARGEST_ORDER = 3
 
 def of_changing_coefficients(
     accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
-) -> tuple[list[Expr], list[Expr], bool]:
-    """Functions for translations and for the other generators, and whether all equations have them.
+) -> tuple[list[Expr], list[Expr], list[Expr], bool]:
+    """Functions for translations, for the other generators, of a forced motion; whether all are.
 
     There are none where p and q are constant.
     """
     translations: list[Expr] = []
     others: list[Expr] = []
+    forced: list[Expr] = []
     solved = True
     time, t = t, sympy.Dummy("t", positive=True)  # for t < 0 the functions differ by a sign
     moving = {*q, *v}
@@ -70,9 +71,13 @@ def of_changing_coefficients(
         solved = solved and len(Y) > 1 and angle is not None
         turns = [sympy.cos(angle), sympy.sin(angle)] if angle else [sympy.S.One]
         translations += [_of_one_wave(simplify(y / root) * turn) for y in Y for turn in turns]
+        forced += _forced(acceleration, root, Y, moving, t)
         for stretch in _products(Y):
             others += [stretch, *map(simplify, (stretch.diff(t), p * stretch, field * stretch))]
-    return _distinct(translations, t, time), _distinct(others, t, time), solved
+    translations, others, forced = (
+        _distinct(each, t, time) for each in (translations, others, forced)
+    )
+    return translations, others, forced, solved
 
 
 def of_euler(
@@ -134,6 +139,20 @@ def _terms(acceleration: Expr) -> Sequence[Expr]:
     """Of a sum, none where it is too long to be looked through."""
     short = sympy.count_ops(acceleration) <= _MOST_OPERATIONS
     return sympy.Add.make_args(sympy.expand(acceleration)) if short else ()
+
+
+def _forced(
+    acceleration: Expr, root: Expr, Y: Sequence[Expr], moving: set[Symbol], t: Symbol
+) -> list[Expr]:
+    """A motion under the terms of x'' with the time alone, by variation of constants."""
+    force = sympy.Add(*(f for f in _terms(acceleration) if f.free_symbols.isdisjoint(moving)))
+    if force == 0 or len(Y) < 2:
+        return []
+    parts = [antiderivative(simplify(y * root * force), t) for y in Y]
+    if any(part is None for part in parts):
+        return []
+    [one, other], [first, second] = Y, parts
+    return [simplify((other * first - one * second) / root)]
 
 
 def _products(Y: Sequence[Expr]) -> list[Expr]:
@@ -241,7 +260,8 @@ def _of_bessel(k: Expr, L: Expr, t: Symbol, p: Expr) -> list[Expr]:
 def _of_square(K: Expr, Q: Expr, t: Symbol) -> list[Expr]:
     """sqrt(Q) sin, cos of s theta, theta' = 1/Q, s^2 = K + D/4, for I = K/Q^2, D = 4 a c - b^2.
 
-    For D = 0, Q = a (t - t0)^2, theta is -2/Q', and sqrt(Q) a multiple of Q'.
+    For s = 0 they are sqrt(Q) and sqrt(Q) theta.  For D = 0, Q = a (t - t0)^2, theta is -2/Q', and
+    sqrt(Q) a multiple of Q'.
     """
     a, b, c = sympy.Poly(Q, t).all_coeffs()
     D = simplify(4 * a * c - b**2)
@@ -253,10 +273,13 @@ def _of_square(K: Expr, Q: Expr, t: Symbol) -> list[Expr]:
             return [linear * sympy.exp(inside), linear * sympy.exp(-inside)]
         inside = 2 * frequency_of(square) / linear
         return [linear * sympy.sin(inside), linear * sympy.cos(inside)]
-    if not (D.is_positive and square.is_positive):
+    if not (D.is_positive and square.is_nonnegative):
         return []
     root = sympy.sqrt(D)
-    angle = simplify(2 * frequency_of(square) / root) * sympy.atan(simplify(Q.diff(t) / root))
+    theta = sympy.atan(simplify(Q.diff(t) / root))
+    if square == 0:
+        return [sympy.sqrt(Q), sympy.sqrt(Q) * theta]
+    angle = simplify(2 * frequency_of(square) / root) * theta
     return [sympy.sqrt(Q) * sympy.sin(angle), sympy.sqrt(Q) * sympy.cos(angle)]
 
 
