@@ -16,6 +16,7 @@ _UNITS = {
     "kg*m^2": "I J",
     "N": "F",
     "m^3/(kg*s^2)": "G",
+    "rad": "theta Theta θ phi φ ϕ varphi psi ψ alpha α beta β th ph",
     "1/s": "omega ω Omega Ω",
 }
 _LETTERS = {letter: unit for unit, letters in _UNITS.items() for letter in letters.split()}

@@ -62,7 +62,17 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
 
     def factor(mistake: Diagnostic, places: list[_Place], remaining: list[str]) -> _Place | None:
         term = text.source.text[slice(*text.offsets(mistake.span))]
-        return only(_squares(places, term, problem), remaining) or only(places, remaining)
+        groups = [_squares(places, term, problem), places]
+        if _is_energy(mistake):
+            moving = {each.name for each in problem.coordinates} | {*problem.definitions}
+            is_constant = not _words(term) & moving
+            groups = _with_coordinate(problem, text, mistake) if is_constant else groups
+            if "'" in term:  # m*phi'^2/2 of m*l^2*phi'^2/2
+                begin = text.offsets(mistake.span)[0]
+                quantities = (*problem.coordinates, *problem.parameters)
+                others = (each.name for each in quantities if each.name not in _words(term))
+                groups.append([(begin, begin, f"{other}^2*") for other in others])
+        return next((found for each in groups if (found := only(each, remaining))), None)
 
     primes = _other_primes(problem, text, found)
     begin, stop = text.offsets(found[0].span)
@@ -179,10 +189,39 @@ def _other_factors(problem: Problem, text: SourceText, mistake: Diagnostic) -> l
     places = [(start, start, f"{other}*") for other in others]
     for each in factor.finditer(text.source.text, start, end):
         power, base = int(each["power"] or 1), each["base"]
-        for other in (power + 1, power - 1):
-            better = f"{base}{f'^{other}' if other > 1 else ''}" if other else "1"
-            places.append((each.start(), each.end("rest"), better))
+        begin, stop = each.start(), each.end("rest")
+        before, rest = text.source.text[start:begin], text.source.text[stop:end]
+        is_plain = _is_energy(mistake) and not re.search(r"[^\w\s*]|(?<!\w)\d", before + rest)
+        if power == 1 and is_plain and _words(base) & {x.name for x in problem.coordinates}:
+            places.append((begin, end, f"{base}^2{rest}/2"))  # k*x of k*x^2/2
+        else:
+            places.append((begin, stop, f"{base}^{power + 1}"))
+        if power > 1:
+            places.append((begin, stop, f"{base}^{power - 1}" if power > 2 else base))
+        elif times := re.search(r"\s*(?<!\*)\*\s*$", before):
+            places.append((begin - len(times[0]), stop, ""))
+        else:
+            times = re.match(r"\s*\*\s*", rest)
+            places.append((begin, stop + len(times[0]), "") if times else (begin, stop, "1"))
     return places
+
+
+def _with_coordinate(problem: Problem, text: SourceText, mistake: Diagnostic) -> list[list[_Place]]:
+    """The places of a coordinate more behind constants, as in m*g*y, and of its square: k*x^2/2."""
+    start, end = text.offsets(mistake.span)
+    half = re.search(r"\s*/\s*2\s*$|$", text.source.text[start:end])
+    at = start + half.start() if half else end
+    powers = ("", "^2") if at < end else ("",)
+    return [[(at, at, f"*{x.name}{power}") for x in problem.coordinates] for power in powers]
+
+
+def _is_energy(mistake: Diagnostic) -> bool:
+    """Whether the term is to be an energy."""
+    return re.search(r"(?:an energy|energies) \(J\)$", mistake.message) is not None
+
+
+def _words(term: str) -> set[str]:
+    return {*re.findall(r"[^\W\d]\w*", term)}
 
 
 def _squares(places: list[_Place], term: str, problem: Problem) -> list[_Place]:
@@ -190,4 +229,4 @@ def _squares(places: list[_Place], term: str, problem: Problem) -> list[_Place]:
     names = {each.name for each in problem.coordinates}
     if not re.search(r"/\s*2(?![\w.^])|(?<![\w.])0?\.5(?!\d)", term):
         return []
-    return [x for x in places if x[2].endswith("^2") and names & {*re.findall(r"\w+", x[2])}]
+    return [x for x in places if x[2].endswith("^2") and names & _words(x[2])]

@@ -135,3 +135,48 @@ def test_each_of_several_wrong_units_is_named(kinetic, potential, units):
     wrong = {name: USUAL[name] for name, unit in units.items() if USUAL[name] != unit}
     named = {each.message.split("'")[1]: each.hint.removeprefix("write ") for each in found}
     assert named == wrong
+
+
+@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize(
+    ("wrong", "right"),
+    [("{m}*g", "{m}*g*{x}"), ("2*{m}*g", "2*{m}*g*{x}"), ("{k}*{x}", "{k}*{x}^2/2"),
+     ("{x}*{k}", "{x}^2*{k}/2"), ("{k}/2", "{k}*{x}^2/2"), ("-{m}*g", "{m}*g*{x}"),
+     ("{m}*g*{x}^2", "{m}*g*{x}")],
+)  # fmt: skip
+def test_a_force_in_place_of_an_energy_is_told_its_potential(seed, wrong, right):
+    draw = random.Random(seed)
+    m, k, x = (draw.choice(names) for names in (["m", "M"], ["k", "k_1", "c"], "xyzs"))
+    file = (
+        f"coordinates: {{{x}: {{unit: m}}}}\nparameters: {{{m}: {{unit: kg}}, g: {{unit: m/s^2}}, "
+        f"{k}: {{unit: N/m}}}}\nT: {m}*{x}'^2/2\nV: {k}*{x}^2/2 + "
+    )
+    [only] = errors(f"{file}{wrong.format(m=m, k=k, x=x)}\n".replace("+ -", "- "))
+    assert only.hint.startswith(f"write {right.format(m=m, k=k, x=x)}: ")
+
+
+def test_a_coordinate_is_added_to_constants_only_where_no_other_fits():
+    file = (
+        "coordinates: {x: {unit: m}, y: {unit: m}}\nparameters: {m: {unit: kg}, g: {unit: m/s^2}, "
+        "l: {unit: m}}\nT: m*(x'^2 + y'^2)/2\nV: m*g*x - m*g\n"
+    )
+    [only] = errors(file)
+    assert only.hint.startswith("a length (m) is missing")
+    turning = (
+        "coordinates: {phi: {unit: rad}}\nparameters: {m: {unit: kg}, g: {unit: m/s^2}, l: {unit: m}"
+        "}\nT: m*phi'^2/2\nV: -m*g*l*cos(phi)\n"
+    )
+    [only] = errors(turning)
+    assert only.hint.startswith("write l^2*m*phi'^2/2: ")
+    [only] = errors(turning.replace("l: {unit: m}", "l: {unit: m}, R: {unit: m}"))
+    assert only.hint.startswith("an area (m^2) is missing")
+
+
+def test_a_factor_too_many_is_left_out_with_its_sign():
+    file = (
+        "coordinates: {x: {unit: m}}\nparameters: {m: {unit: kg}, F: {unit: N}}\n"
+        "T: m*x'^2/2\nforces: {x: %s}\n"
+    )
+    for term in ("F*x", "x*F"):
+        [only] = errors(file % term)
+        assert only.hint.startswith("write F: ")
