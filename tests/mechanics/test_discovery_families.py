@@ -230,6 +230,32 @@ def test_special_values_are_those_of_the_family(parameters, coordinates, L, valu
     assert {(p, sympy.simplify(sympy.sympify(v, locals_))) for p, v in named} <= found
 
 
+@pytest.mark.long
+@pytest.mark.parametrize("force", ["", "forces: {y: -2}"])
+def test_growths_are_commensurate_as_frequencies_are(force):
+    """x = exp(-a t) and y = exp(-b t), where one is the other, its inverse or its square."""
+    D = "(a*x'^2 + b*y'^2)/2"
+    text = f"{{coordinates: [x, y], parameters: [a, b], T: (x'^2 + y'^2)/2, dissipation: {D}"
+    found = derive(f"{text}, {force}}}")
+    cases = {str(c.value): c for c in found.special_cases if not c.given}
+    assert {value: c.number for value, c in cases.items()} == {"-a": 6, "a/2": 6, "a": 8, "2*a": 6}
+    t, *moving = found.system.t, *found.system.q, *found.system.qdot
+    for case in cases.values():
+        [a] = case.value.free_symbols
+        x, y = 2 + 3 * sympy.exp(-a * t), 5 - 7 * sympy.exp(-case.value * t)
+        y -= 2 * t / case.value if force else 0
+        motion = dict(zip(moving, (x, y, x.diff(t), y.diff(t)), strict=True))
+        for charge in case.charges:
+            assert sympy.simplify(charge.charge.subs(motion).diff(t)) == 0
+
+
+@pytest.mark.long
+def test_frequencies_are_compared_under_one_damping():
+    text = "{coordinates: [x, y], parameters: [a, b, c], T: (x'^2 + y'^2)/2, "
+    found = derive(f"{text}V: (a*x^2 + b*y^2)/2, dissipation: c*(x'^2 + y'^2)/2}}")
+    assert {str(c.value): c.number for c in found.special_cases}["a"] == 8
+
+
 @pytest.mark.parametrize(
     ("term", "free"),
     [

@@ -80,11 +80,15 @@ def candidates(
 
 def _is_reflected(system: System, parameter: Symbol) -> bool:
     """Whether -p for p is the same system with some axes, or the time, turned round."""
-    L, turned = system.L, system.L.xreplace({parameter: -parameter})
+    formulas = [system.L, *system.applied_forces]
     for time, *axes in product((1, -1), repeat=1 + len(system.q)):
         moving = zip(axes, system.q, system.qdot, strict=True)
         images = {x: y for s, q, v in moving for x, y in ((q, s * q), (v, s * time * v))}
-        if is_zero(turned.xreplace({**images, system.t: time * system.t}) - L) is True:
+        images |= {system.t: time * system.t, parameter: -parameter}
+        if all(
+            is_zero(s * f.xreplace(images) - f) is True
+            for s, f in zip((1, *axes), formulas, strict=True)
+        ):
             return True
     return False
 
@@ -369,33 +373,40 @@ def _wave_numbers(formulas: Sequence[Expr], q: Sequence[Symbol]) -> list[tuple[S
 def _commensurate(
     parameters: Sequence[Symbol], exponents: Sequence[Exponent], ratios: Sequence[int]
 ) -> Iterator[Value]:
-    """f = r g or g = r f for two frequencies: r^2 (f^2 + g^2)^2 = (1 + r^2)^2 f^2 g^2.
+    """f = R g or g = R f for growths with ratios R, squares of frequencies with R = r^2.
 
-    Of two roots of one polynomial the sum and the product have no roots in them.
+    R (f + g)^2 = (1 + R)^2 f g: of two roots of one polynomial the sum and the product have no
+    roots in them.
     """
     squares = list(dict.fromkeys(_squares(exponents)))
+    alike = [(f, g) for (p, f), (q, g) in combinations(squares, 2) if is_zero(p - q)]
+    growths = (e.growth for e in exponents if e.frequency == 0 and not _opposite(e, exponents))
+    real = list(combinations(growths, 2))
     for ratio in ratios:
-        for one, other in combinations(squares, 2):
-            total, product = simplify(one + other), simplify(one * other)
-            relation = ratio**2 * total**2 - (1 + ratio**2) ** 2 * product
-            condition = sympy.expand(sympy.numer(sympy.together(relation)))
-            if condition.is_number:  # the ratio of the frequencies has no parameter in it
-                continue
-            for factor, _ in sympy.factor_list(condition)[1]:
-                if sign(factor) not in (1, -1):
-                    yield from _solved(factor, parameters)
+        for R, pairs in ((ratio**2, alike), (ratio, real)):
+            for one, other in pairs:
+                total, product = simplify(one + other), simplify(one * other)
+                relation = R * total**2 - (1 + R) ** 2 * product
+                condition = sympy.expand(sympy.numer(sympy.together(relation)))
+                if condition.is_number:  # the ratio has no parameter in it
+                    continue
+                for factor, _ in sympy.factor_list(condition)[1]:
+                    if sign(factor) not in (1, -1):
+                        yield from _solved(factor, parameters)
 
 
-def _squares(exponents: Sequence[Exponent]) -> Iterator[Expr]:
-    """Of frequencies; where exp(a t) and exp(-a t) stand for sine and cosine, -a^2."""
+def _squares(exponents: Sequence[Exponent]) -> Iterator[tuple[Expr, Expr]]:
+    """Growths and squared frequencies; where exp(a t) and exp(-a t) stand for waves, -a^2."""
     for one in exponents:
-        if one.growth == 0:
-            yield sympy.expand(one.frequency**2)
-        elif one.frequency == 0 and any(
-            other.frequency == 0 and sympy.expand(one.growth + other.growth) == 0
-            for other in exponents
-        ):
-            yield sympy.expand(-(one.growth**2))
+        if one.frequency != 0:
+            yield one.growth, sympy.expand(one.frequency**2)
+        elif _opposite(one, exponents):
+            yield sympy.S.Zero, sympy.expand(-(one.growth**2))
+
+
+def _opposite(one: Exponent, exponents: Sequence[Exponent]) -> bool:
+    """Whether the other sign is there too."""
+    return any(e.frequency == 0 and sympy.expand(one.growth + e.growth) == 0 for e in exponents)
 
 
 def _solved(relation: Expr, parameters: Sequence[Symbol]) -> Iterator[Value]:
