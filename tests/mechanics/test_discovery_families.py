@@ -382,6 +382,19 @@ def test_axes_that_turn_with_half_of_a_changing_field_leave_eight(B, V):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("L", [
+    "(1 + t^2)*(x'^2/2 - m*x)", "(1 + t^2)*x'^2/2 - m*x", "(k + c*t^2)*x'^2/2", "t^2*x'^2/2 - m*x"
+])  # fmt: skip
+def test_an_inverse_tangent_solves_a_mass_that_grows_as_the_square_of_time(L):
+    """Five as of any linear equation; the forced motion by variation of constants."""
+    derivation = derive(one_coordinate(L))
+    found = summary(derivation.discovery)
+    assert (found.dimension, found.independent) == (5, 2)
+    assert derivation.discovery.stopped == []
+    assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.long
 @pytest.mark.parametrize(
     "V", ["k*x*y", "k*(y^2 - x^2)/2", "(c*y^2 - k*x^2)/2", "k*(x^2 - y^2 + 2*x*y)"]
 )

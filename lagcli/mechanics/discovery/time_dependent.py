@@ -55,6 +55,8 @@ def of_changing_coefficients(
     translations += [f for each in found for f in each.functions(s)] + ([s] if rows else [])
     between = [f for each in differences(found) for f in each.functions(s)]
     others += [g for f in [*between, *([s, s**2] if rows else [])] for g in (tau * f, f)]
+    driven = [f for k in rows for f in _terms(given[k]) if f.free_symbols.isdisjoint(moving)]
+    forced += [g for f in driven for g in (tau**2 * f, tau**2 * f * s)]
     turning = _turning_pairs(given, q, v, t)
     for k, (acceleration, x, rate) in enumerate(zip(given, q, v, strict=True)):
         if k in rows or any(k == later for _, later, _ in turning):
