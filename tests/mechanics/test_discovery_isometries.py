@@ -160,6 +160,21 @@ def test_a_monopole_in_a_curved_space_keeps_the_runge_lenz_vector(sin):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("u", [
+    "cos(theta)", "sin(theta)*cos(phi)", "sin(theta)*sin(phi)",
+    "(4*cos(theta) + 3*sin(theta)*cos(phi))/5",
+])  # fmt: skip
+def test_kepler_on_a_sphere_has_two_integrals_about_any_axis(u):
+    """Killing, J. Reine Angew. Math. 98 (1885) 1; Higgs, J. Phys. A 12 (1979) 309."""
+    L = f"(theta'^2 + sin(theta)^2*phi'^2)/2 + k*{u}/sqrt(1 - ({u})^2)"
+    derivation = derive(problem(L, "[theta, phi]", "k"))
+    found = summary(derivation.discovery)
+    assert (len(derivation.discovery.charges), found.independent, found.integrable) == (4, 3, True)
+    assert derivation.discovery.stopped == []
+    assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("L", [
     "m*((R + a*cos(theta))^2*phi'^2 + a^2*theta'^2)/2", "m*cosh(theta)^2*(theta'^2 + phi'^2)/2",
     "m*((1 + theta^2)*phi'^2 + theta'^2)/2", "m*(exp(theta^2)*phi'^2 + theta'^2)/2",

@@ -272,6 +272,7 @@ class Discovery(Setting):
                 self.stopped.append("there are too many coordinates for the second degree")
                 return
             self._keep(integrals.found(self.charges))
+            self._say_unproved(integrals.unproved)
         in_lengths = not (self.isometries or self.coordinate_kinds.angles)
         if (self.flat or in_lengths) and TimedIntegrals.apply(self.equations, self.point_charges):
             timed = TimedIntegrals(
@@ -288,6 +289,7 @@ class Discovery(Setting):
                 still = self.system.t not in self.equations_symbols
                 self.words.append(f"also {functions}" if still else f"{_SECOND} {functions}")
                 self._keep(timed.found(self.charges))
+                self._say_unproved(timed.unproved)
 
     def _of_higher_degree(self) -> None:
         """Those of third degree beyond the known, and of fourth while fewer than n are known.
@@ -342,8 +344,15 @@ class Discovery(Setting):
         return True
 
     def _of_frame(self, frame: KillingFrame, degree: int) -> list[NoetherCharge]:
-        given = (self.noether, self.equations, frame, degree, self.allowed)
-        return KillingIntegrals(*given).found(self.charges)
+        integrals = KillingIntegrals(self.noether, self.equations, frame, degree, self.allowed)
+        found = integrals.found(self.charges)
+        self._say_unproved(integrals.unproved)
+        return found
+
+    def _say_unproved(self, number: int) -> None:
+        if number:
+            there = more(number, "first integral")
+            self.stopped.append(f"{there} there, of whose part at rest no formula was found")
 
     def _symmetries(self) -> list[tuple[Expr, ...]]:
         """Killing vectors that V admits: their products, which are nothing new, stand alone."""

@@ -73,6 +73,7 @@ class QuadraticIntegrals:
         self.noether = noether
         self.equations = equations
         self.allowed = allowed
+        self.unproved = 0  # integrals that are there, without a formula for S
         self.constants = frozenset(noether.system.parameters)
         n = len(equations.q)
         units: Sequence[Vector] = ()
@@ -121,7 +122,9 @@ class QuadraticIntegrals:
         for solution in search.solutions(new):
             functions = self._scaled(search, solution)
             charge = self._charge(functions)
-            if charge is not None:
+            if charge is None:
+                self.unproved += 1
+            else:
                 charges.append((functions, charge))
         return charges
 
@@ -227,7 +230,7 @@ class QuadraticIntegrals:
         monomials = [sympy.S.One, *self.X, *products_of_two(self.X)]
         inside = {t for _, f in functions for t in bare_terms(f, q)}
         roots = sorted(
-            _roots(sympy.Tuple(*terms), q), key=sympy.default_sort_key
+            roots_in(sympy.Tuple(*terms), q), key=sympy.default_sort_key
         )  # such as r in b sqrt(r + x)/r
         made = [a * b for b in terms for a in (*monomials, *roots, *sorted(inside, key=str))]
         made += [m for m in monomials if m != 1] + [
@@ -252,7 +255,7 @@ def potential(
     return boundary_term(simplify(dot(force, system.qdot)), system) if found is None else found
 
 
-def _roots(expression: Expr, q: Sequence[Symbol]) -> set[Expr]:
+def roots_in(expression: Expr, q: Sequence[Symbol]) -> set[Expr]:
     """The roots of functions of the coordinates that occur in it, to the power of one."""
     return {
         power.base ** sympy.Rational(1, power.exp.q)

@@ -34,7 +34,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import derivative, dot, simplify
-from lagcli.mechanics.discovery.hidden import expanded, potential
+from lagcli.mechanics.discovery.hidden import expanded, potential, roots_in
 from lagcli.mechanics.discovery.isometries import Vector
 from lagcli.mechanics.discovery.killing import KillingFrame
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
@@ -75,6 +75,7 @@ class KillingIntegrals:
         self.frame = frame
         self.degree = degree
         self.allowed = allowed
+        self.unproved = 0  # integrals that are there, without a formula for S
         self._still = dict.fromkeys(equations.v, sympy.S.Zero)
         self._rest = noether.system.L.xreplace(self._still)
         w = frame.factor
@@ -99,7 +100,8 @@ class KillingIntegrals:
         variables = (self.equations.t, *self.equations.q, *self.equations.v)
         more = [e for rows in (values, products) for row in rows for e in row]
         relations = Relation(columns, variables, self.allowed, more).beyond(values, products)
-        found = (self._proved(list(c.values()), [parts[i] for i in c]) for c in relations)
+        found = [self._proved(list(c.values()), [parts[i] for i in c]) for c in relations]
+        self.unproved = found.count(None)
         return [charge for charge in found if charge is not None]
 
     def _leading(self) -> Iterator[_Part]:
@@ -233,10 +235,11 @@ class KillingIntegrals:
         return [a * b for a, b in combinations_with_replacement(terms, 2)]
 
     def _shapes(self, f: Expr) -> list[Expr]:
-        """Terms of f times monomials in X."""
+        """Terms of f times monomials in X, and these over roots in f: x/r of Kepler's problem."""
         q = self.equations.q
         made = [a * b for a in bare_terms(f, q) if a != 1 for b in (*self._monomials, *q)]
         made += [sympy.fraction(a)[0] for a in bare_terms(f, q)]  # Liouville's f(u) + g(v)
+        made += [m / root for root in roots_in(f, q) for m in self._monomials]
         terms = {term for each in (*made, *self._monomials) for term in bare_terms(each, q)}
         return sorted((m for m in terms if m != 1), key=sympy.default_sort_key)
 
