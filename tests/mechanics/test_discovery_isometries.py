@@ -159,6 +159,27 @@ def test_a_monopole_in_a_curved_space_keeps_the_runge_lenz_vector(sin):
     assert min(digits_of(derivation).values()) > 20
 
 
+DAMPED = {
+    "polar": ("exp(c*t)*(r'^2 + r^2*phi'^2 - k*r^2)/2", RADIAL, 8),
+    "parabolic": ("exp(c*t)*(u^2 + v^2)*(u'^2 + v'^2)/2", "[u, v]", 8),
+    "polar, a mass that grows": ("t^2*(r'^2 + r^2*phi'^2)/2", RADIAL, 8),
+    "Gompertz": ("exp(c*t)*(x'^2/x^2 - k*log(x)^2)/2", f"{{x: {POS}}}", 5),
+    "a square": ("exp(c*t)*(x^2*x'^2 - k*x^4)/2", f"{{x: {POS}}}", 5),
+    "a sphere": ("exp(c*t)*(theta'^2 + sin(theta)^2*phi'^2)/2", "[theta, phi]", 4),
+}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", DAMPED)
+def test_a_factor_of_time_leaves_the_isometries(name):
+    """Caldirola, Nuovo Cimento 18 (1941) 393 (damping as exp(c t)), in other coordinates."""
+    L, coordinates, dimension = DAMPED[name]
+    derivation = derive(problem(L, coordinates, "c k"))
+    assert summary(derivation.discovery).dimension == dimension
+    assert derivation.discovery.stopped == []
+    assert min(digits_of(derivation).values()) > 20
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("u", [
     "cos(theta)", "sin(theta)*cos(phi)", "sin(theta)*sin(phi)",

@@ -59,19 +59,24 @@ class Isometries:
 
     def __init__(self, equations: SlotEquations, rest: Expr, allowed: Allowance) -> None:
         self.equations = equations
-        self._rest = _by_parameters(rest, equations.q)
+        factor, mass = _time_apart(equations)
+        self._rest = _by_parameters(rest / factor, equations.q)
+        self._forcing = [f / factor for f in equations.forcing]
         self.allowed = allowed
-        self.metric = Metric(equations.q, equations.mass)
+        self.metric = Metric(equations.q, mass)
 
     @staticmethod
     def apply(equations: SlotEquations) -> bool:
-        """Whether coordinates are worth looking for: M depends on q, and on nothing that moves."""
-        entries = sympy.Tuple(*(m for row in equations.mass for m in row))
+        """Whether coordinates are worth looking for: M depends on q, and on nothing that moves.
+
+        But for a factor f(t), which leaves its isometries the same.
+        """
+        _, mass = _time_apart(equations)
+        entries = sympy.Tuple(*(m for row in mass for m in row))
         fixed = free_of(entries, [equations.t, *equations.v])
         if not fixed or free_of(entries, equations.q) or len(equations.q) > _MOST_COORDINATES:
             return False
-        factors = Metric(equations.q, equations.mass).factors
-        return all(factor.n <= _MOST_TOGETHER for factor in factors)
+        return all(factor.n <= _MOST_TOGETHER for factor in Metric(equations.q, mass).factors)
 
     @cached_property
     def functions(self) -> list[Expr]:
@@ -187,7 +192,7 @@ class Isometries:
 
     def _linear(self, gradient: Vector, symbols: Sequence[Expr]) -> Expr:
         """X'' = grad X . F, to first degree in q', by the terms that the X_b and X_b' make up."""
-        whole = [self._to_first(f) for f in self.equations.forcing]
+        whole = [self._to_first(f) for f in self._forcing]
         linear = self._part(dot(gradient, whole), symbols)
         if linear is not None:
             return linear
@@ -199,7 +204,7 @@ class Isometries:
         """-grad V by the terms of V, and what of the forces is left to first degree in q'."""
         q = self.equations.q
         pushes = [[term.diff(x) for x in q] for term in self._rest]
-        rows = zip(self.equations.forcing, *pushes, strict=True)
+        rows = zip(self._forcing, *pushes, strict=True)
         left = [simplify(self._to_first(f) - sympy.Add(*parts)) for f, *parts in rows]
         return [force for force in (left, *pushes) if any(force)]
 
@@ -230,6 +235,15 @@ class Isometries:
             for T in (times.translations if k in shifts else times.others)
         ]
         return Search(self.equations, slots, ordered(unknowns), allowed)
+
+
+def _time_apart(equations: SlotEquations) -> tuple[Expr, tuple[tuple[Expr, ...], ...]]:
+    """f(t) and the rest of M, where all components have the factor."""
+    entries = [m for row in equations.mass for m in row if m != 0]
+    if free_of(sympy.Tuple(*entries), [equations.t]):
+        return sympy.S.One, equations.mass
+    f = sympy.factor(entries[0]).as_independent(equations.t, as_Add=False)[1]
+    return f, tuple(tuple(simplify(m / f) for m in row) for row in equations.mass)
 
 
 def _by_parameters(rest: Expr, q: Sequence[Symbol]) -> list[Expr]:
