@@ -271,7 +271,9 @@ class FileReader:
     def scalar(self, node: DocumentNode, what: str) -> Scalar | None:
         """A text that is not empty."""
         if not isinstance(node, Scalar):
-            hint = as_text(node)
+            texts = [x.value for x in getattr(node, "items", ()) if isinstance(x, Scalar)]
+            is_prose = what in {"'title'", "'description'", "'source'"} and texts
+            hint = f"write {', '.join(texts)}" if is_prose else as_text(node)
             self.error(f"{what} must be a text, not {kind(node)}", node.span, hint)
             return None
         if node.broken:

@@ -215,7 +215,7 @@ def unit_behind(text: str) -> str:
     found = _WITH_UNIT.fullmatch(
         re.sub(r"\s*(?:\[([^][]*)\]|\(([^()]*)\))$", r" \1\2", text.strip())
     )
-    return found["unit"] if found and _is_unit(found["unit"]) else ""
+    return found["unit"] if found and is_unit(found["unit"]) else ""
 
 
 def _named_unit(text: str) -> tuple[str, str] | None:
@@ -226,7 +226,7 @@ def _named_unit(text: str) -> tuple[str, str] | None:
     if found is None:
         return None
     unit = spoken_unit(found[2])
-    is_spoken = unit != found[2] and _is_unit(unit)
+    is_spoken = unit != found[2] and is_unit(unit)
     return (found[1], unit) if is_spoken else None
 
 
@@ -237,6 +237,8 @@ def spoken_unit(text: str) -> str:
         r"[^\W\d_²³]+", lambda m: table.get(m[0].casefold(), m[0]), " ".join(text.split())
     )
     spoken = re.sub(r"\s*\b(?:per|pro|par|por|al|na)\b\s*", "/", words)
+    spoken = re.sub(r"\b(?:square|squared)\s+(\w+)", r"\1^2", spoken)
+    spoken = re.sub(r"\b(?:cubic|cubed)\s+(\w+)", r"\1^3", spoken)
     squared = re.sub(r"\s+(?:squared|quadrat|hoch 2|au carré|al cuadrado)\b", "^2", spoken)
     return re.sub(r"(?<=\w)\s+(?=\w)", "*", squared) if squared != text else text
 
@@ -254,7 +256,8 @@ def _with_powers(text: str) -> str:
     return re.sub(r"(?<=[A-Za-z])(?<!\d[eE])-?[1-9](?![\w.])", r"^\g<0>", text)
 
 
-def _is_unit(text: str) -> bool:
+def is_unit(text: str) -> bool:
+    """Whether a text is a unit as a file writes it."""
     from lagcli.units import UnitMistake, read_unit
 
     try:

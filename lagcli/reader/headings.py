@@ -11,6 +11,8 @@ from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
 
+#: A value of Python, `float = 1.0`, and a map without its braces.
+_NO_EQUATION = regex(r"(?:float|int|double|[Rr]eal|Integer|complex|[Nn]umber)\b|.*[:{]")
 #: Words for velocities and for places.
 RATE = regex(r"veloc|speed|rate|dot|geschw|vitesse|prędk|скорост|^v$", re.IGNORECASE)
 PLACE = regex(
@@ -44,7 +46,7 @@ def section_meant(
 ) -> str:
     """The section that an entry belongs to by its attributes, where these are not its own."""
     if isinstance(value, Scalar):
-        is_relation = re.search(r"[^<>]=", value.value) and not re.search(r"[:{]", value.value)
+        is_relation = re.search(r"[^<>]=", value.value) and not _NO_EQUATION.match(value.value)
         return "constraints" if is_relation else ""
     labels = [key.label for key, _ in value.entries] if isinstance(value, Mapping) else []
     if labels and {*labels} <= {*coordinates, "t", "gauge"}:

@@ -9,7 +9,7 @@ from lagcli.expression import FUNCTIONS
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
 from lagcli.reader.constants import value_cycle
-from lagcli.reader.habits import is_constant, name_meant, spoken_unit, unit_behind
+from lagcli.reader.habits import habits, is_constant, is_unit, name_meant, spoken_unit, unit_behind
 from lagcli.reader.headings import without_headings
 from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, named_formulas, source_of, swept
@@ -123,6 +123,8 @@ def read_parameters(
         ):
             hint = f"write {found[1]}; {swept(key.label, given)}"
             file.error(f"'{key.label}' has a range for its value", given.span, hint)
+        elif given is not None and (pair := _in_order(given)):
+            file.error(f"the value of '{key.label}' is a number alone", given.span, pair)
         elif isinstance(given, Scalar) and is_described(given.value, file.scope.kinds):
             described.append((key, given))
         elif isinstance(given, Scalar) and (both := _with_words(given.value, file.scope.kinds)):
@@ -159,10 +161,13 @@ def _in_map(hint: str) -> str:
 
 
 def _in_order(node: DocumentNode | None) -> str:
-    """`write {value: 1, unit: m}` for `{1, m}`; nothing for others."""
+    """`write {value: 1, unit: m}` for `{1, m}` and `[1, m]`; nothing for others."""
     entries = node.entries if isinstance(node, Mapping) else []
-    written = [key.label for key, value in entries if value.is_empty]
-    is_pair = len(written) == len(entries) == 2 and unit_behind(" ".join(written)) == written[1]
+    parts = node.items if isinstance(node, Sequence) else [k for k, v in entries if v.is_empty]
+    written = [each.value for each in parts if isinstance(each, Scalar)]
+    is_pair = (
+        len(written) == len(entries or parts) == 2 and unit_behind(" ".join(written)) == written[1]
+    )
     return f"write {{value: {written[0]}, unit: {written[1]}}}" if is_pair else ""
 
 
@@ -372,7 +377,7 @@ def _with_unit(key: Scalar, value: DocumentNode | None) -> str:
 def _pairs(node: DocumentNode, section: str) -> str:
     """`m: 1, k: 2` for `[m = 1, k = 2]`, `{m 1, k 2}` and a list of maps; else nothing."""
     given = []
-    if node.text.source.text[node.start] == "[" and (named := by_its_name(node)):
+    if node.text.source.text.startswith("[", node.start) and (named := by_its_name(node)):
         return named if "{" in named else ""
     if isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
         relation = r"(\w+)(?:\s*(?:[-=]>|:?=|[:：]|→)\s*|\s+)([\d.]\S*)"
@@ -388,7 +393,7 @@ def _pairs(node: DocumentNode, section: str) -> str:
         source = [_PRODUCT.sub(lambda m: re.sub("[ *]", "", m[0]), text) for text in source]
         source = [_with_sign(text) for text in source]  # r > 0
         is_map = section == "parameters" or any("{assume" in text for text in source)
-        given = [re.fullmatch(r"(\w+)\s*[=:]\s*(\S.*?)\s*", text) for text in source]
+        given = [re.fullmatch(r"(\w+)(?:\(t\))?\s*[=:]\s*(\S.*?)\s*", x) for x in source]
         given = [] if any(each and re.search(r"\(['\"]", each[2]) for each in given) else given
         if any(given) and not all(given) and is_map:  # [m, g = 9.81]
             parts = [
@@ -463,7 +468,8 @@ def _check_unit(file: FileReader, text: Scalar) -> None:
         read_unit(text.value)
     except UnitMistake as wrong:
         spoken = spoken_unit(text.value)
-        hint = f"write {spoken}" if unit_behind(f"1 {spoken}") == spoken else wrong.hint
+        hint = f"write {spoken}" if is_unit(spoken) else wrong.hint
+        hint = "write 1" if text.value.casefold() in habits()["nothing"] else hint
         file.error(wrong.message, text.excerpt().span(wrong.start, wrong.end), hint)
 
 

@@ -14,8 +14,10 @@ ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 #: The strongest first.
 _ORDER = ("positive", "negative", "nonnegative", "nonzero", "real")
 #: Words that every quantity of a file deserves.
-NEUTRAL = frozenset("a and always const constant finite fixed is known number real scalar strictly "
-                    "variable".split())  # fmt: skip
+NEUTRAL = frozenset("a always const constant finite fixed is known number numbers real reals "
+                    "scalar strictly variable".split())  # fmt: skip
+#: What tells that a text may be an assumption in words or in set theory.
+_SPOKEN = regex(r"\b(?:than|least|not|zero|in)\b|Reals|Positive|\bR_?\+|[∈ℝ]|[<≤].*[<≤]")
 _RELATION = regex(r"(?:[^\W\d]\w*\s*)?([<>]=?|[≥≤≠]|!=)\s*(-?\d*\.?\d*)")
 #: A range in brackets: `[0, 3]`, `]0, inf[`.
 _ENDS = regex(r"([\[(\]])\s*([^,;]*?)\s*[,;]\s*([^,;]*?)\s*([\])\[])")
@@ -31,6 +33,9 @@ def sign_meant(text: str, relation: str = "") -> str:
     relation
         That of the quantity to the number in the text, where it is a bound.
     """
+    parts = re.split(r"\s*(?:&&|∧|\band\b)\s*", text)
+    if parts[1:]:
+        return sign_meant(" ".join(map(sign_meant, parts)))
     words = {*re.findall(r"\w+", text.casefold())}
     if words <= {*ASSUMPTIONS, *NEUTRAL, "true"}:
         if {"positive", "negative"} <= words:
@@ -40,8 +45,10 @@ def sign_meant(text: str, relation: str = "") -> str:
         return next((each for each in _ORDER if each in words), "")
     if assumed := re.search(r"\(.*\b(positive|negative|nonnegative|real)\s*=\s*True", text):
         return assumed[1]
-    for form, sign in habits()["signs"] if re.search(r"\b(?:than|least|not|zero)\b", text) else ():
-        text = re.sub(form, f" {sign} ", text)
+    for form, sign in habits()["signs"] if _SPOKEN.search(text) else ():
+        text = re.sub(form, f" {sign} ", text).strip()
+    if text in ASSUMPTIONS:
+        return text
     if ends := _ENDS.fullmatch(text):
         lower = sign_meant(f">{'=' * (ends[1] == '[')}{ends[2]}")
         return lower or sign_meant(f"<{'=' * (ends[4] == ']')}{ends[3]}")

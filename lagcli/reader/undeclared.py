@@ -254,7 +254,7 @@ def _other_keys(group: list[tuple[Diagnostic, re.Match[str]]]) -> Diagnostic:
     if any(inner != pairs for inner in places.values()):
         listed = ", ".join(f"{', '.join(inner)} in {place}" for place, inner in places.items())
     lines = [each.span.line for each, _ in group]
-    hint = f"the keys are {', '.join(pairs.values())}"
+    hint = f"the keys are {', '.join(map('{0[1]} for {0[0]}'.format, pairs.items()))}"
     if len({*lines}) == len(lines):
         also = (f"; in line {line} it is {found['entry']}"
                 for line, (_, found) in zip(lines[1:], group[1:], strict=True))  # fmt: skip

@@ -124,7 +124,8 @@ def unknown_key(
         lines = ", ".join(f"{each}: {part}" for each, part in inner)
         hint = f"leave it out, and begin lines with {lines}" if all(k for k, _ in inner) else ""
     if "=" in word and not meant and "initial: {" not in hint:
-        hint = f"write {name_meant(word)}"
+        defined = re.fullmatch(r"([TVLH])\s*:?=\s*(.+)", word)
+        hint = f"write {': '.join(defined.groups()) if defined else name_meant(word)}"
     elif key.in_flow and value.is_empty:
         hint = "inside { } a comma ends the value: put a text with commas in quotes"
     if "parameters" in names and is_constant(word, written):
@@ -148,7 +149,8 @@ def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[
     alike = [name for name in names if name.casefold() == other]
     meant = alike[0] if len(alike) == 1 else key_meant(word, names)
     advice = _advice(word, written, what, names)
-    if meant and not (advice and written in _WISHES):
+    is_word = written in _WISHES or (meant == "value" and not re.search(r"\d", written))
+    if meant and not (advice and is_word):
         return meant, f"the key is {meant}"
     if advice:
         return None, advice
