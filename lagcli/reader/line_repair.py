@@ -38,6 +38,7 @@ _ASSIGNED = regex(r"[^\W\d][\w()=' ]*?\s*:?=\s*[^=]")
 #: What is said of a line that is none of the file.
 _NO_LINE = regex(
     r"this line is none of the file; (?!.*(?:write |```)).*"
+    r"|'-' is no value; .*"
     r"|(?:a ':' is missing behind|a key without) .*; leave it out: a problem has keys with .*"
 )
 _PAIRS = {"[": "]", "{": "}", '"': '"', "'": "'"}
@@ -154,6 +155,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"\s+//\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
     lambda line: re.sub(r"(?<=:)\s+\?\s*(?=[,}]|$)", "", line),
+    lambda line: re.sub(r"(?<=unit: )\s*-+(?=\s*(?:#|$))", "1", line),
     _assumed,
     lambda line: re.sub(r"\\\[([A-Z])([a-z]+)\]", lambda m: m[1].lower() + m[2], line),
     lambda line: re.sub(r"^([TVLH]:)\s+[a-z][a-z ]*:(?=\s)", r"\1", line),

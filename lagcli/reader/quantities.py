@@ -453,7 +453,9 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
             said["assume"] = cast("Assumption", text.value)
         elif text is not None:
             meant = [a for a in ASSUMPTIONS if a.startswith(text.value)][:1]
-            hint = f"write {sign}" if sign else did_you_mean(text.value, ASSUMPTIONS)
+            is_below = re.search(r"\bnot?\b|nonpos|non[- _]pos|\bor\b", text.value)
+            hint = "" if is_below else did_you_mean(text.value, ASSUMPTIONS)
+            hint = f"write {sign}" if sign else hint
             if not sign and {*text.value.casefold().split()} <= NEUTRAL:
                 hint = "leave it out"
             hint = hint or f"write {''.join(meant) or 'one of ' + ', '.join(ASSUMPTIONS)}"

@@ -17,8 +17,8 @@ _ORDER = ("positive", "negative", "nonnegative", "nonzero", "real")
 NEUTRAL = frozenset("a always const constant finite fixed is known number numbers real reals "
                     "scalar strictly variable".split())  # fmt: skip
 #: What tells that a text may be an assumption in words or in set theory.
-_SPOKEN = regex(r"\b(?:than|least|not|zero|in)\b|Reals|Positive|\bR_?\+|[∈ℝ]|[<≤].*[<≤]")
-_RELATION = regex(r"(?:[^\W\d]\w*\s*)?([<>]=?|[≥≤≠]|!=)\s*(-?\d*\.?\d*)")
+_SPOKEN = regex(r"\b(?:than|least|not|zero|in|non|or)\b|Reals|Positive|\bR_?\+|[∈ℝ]|[<≤].*[<≤]")
+_RELATION = regex(r"(?:[^\W\d]\w*\s*)?([<>]=?|[≥≤≠]|!=)\s*(-?\d*\.?\d*(?:[eE]-?\d+)?)")
 #: A range in brackets: `[0, 3]`, `]0, inf[`.
 _ENDS = regex(r"([\[(\]])\s*([^,;]*?)\s*[,;]\s*([^,;]*?)\s*([\])\[])")
 
@@ -33,7 +33,7 @@ def sign_meant(text: str, relation: str = "") -> str:
     relation
         That of the quantity to the number in the text, where it is a bound.
     """
-    parts = re.split(r"\s*(?:&&|∧|\band\b)\s*", text)
+    parts = re.split(r"\s*(?:&&|∧|\band\b|,(?!.*[\])}]))\s*", text)
     if parts[1:]:
         return sign_meant(" ".join(map(sign_meant, parts)))
     words = {*re.findall(r"\w+", text.casefold())}

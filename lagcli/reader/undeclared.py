@@ -146,7 +146,9 @@ def one_for_habit(
 
 
 def _has_same_cause(one: Diagnostic, other: Diagnostic) -> bool:
-    if not other.hint or other.hint.startswith("did you mean '") or UNDECLARED in other.hint:
+    if not one.hint or not other.hint:
+        return False
+    if other.hint.startswith("did you mean '") or UNDECLARED in other.hint:
         return False
     unquoted, others = (_QUOTED.sub("''", each.message) for each in (one, other))
     if one.related or other.related or unquoted != others:

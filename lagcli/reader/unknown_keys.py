@@ -27,6 +27,7 @@ from lagcli.reader.misplaced import names_in
 from lagcli.reader.misshapen import (
     ALREADY_FOUND,
     FOUND,
+    RANGE,
     entries_of,
     key_by_shape,
     range_end,
@@ -384,6 +385,9 @@ def _of_range(relation: str, value: DocumentNode, what: str, given: Collection[s
         The keys of the entry.
     """
     written, is_parameter = source_of(value).strip("'\" "), what.startswith("the parameter")
+    written = number_and_unit(written)[0]
+    if among := RANGE.fullmatch(written):  # 0..5
+        written = f"[{among[1]}, {among[3]}]"
     bounds = [each for each in given if letters(each) in spellings("bounds")]
     is_range = bounds[1:] or re.match(r"[\[(\]](?!.*(?:inf|oo|∞))", written)
     is_open = is_parameter or not is_range

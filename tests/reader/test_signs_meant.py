@@ -56,6 +56,11 @@ WORDS = [
     ("[positive, negative]", ""),
     ("not positive", ""),
     ("{positive: false}", ""),
+    ("positive or zero", "nonnegative"),
+    ("positive or negative", "nonzero"),
+    ("negative or zero", ""),
+    ("nonpositive", ""),
+    ("> 0, real", "positive"),
     ("Element[g, Reals] && g > 0", "positive"),
     ("g ∈ Reals", "real"),
     ("R+", "positive"),
@@ -76,6 +81,9 @@ HINTS = [
     (text(parameters="{m: {value: 1, gt: 0}, k: 1}"), "write assume: positive"),
     (text(parameters="{m: {value: 1, exclusiveMinimum: 0}, k: 1}"), "write assume: positive"),
     (text(parameters="{m: {value: 1, min: 0}, k: 1}"), "write assume: nonnegative"),
+    (text(parameters="{m: {value: 1, min: 1e-3}, k: 1}"), "write assume: positive"),
+    (text(parameters="{m: {value: 1, min: 0.1 kg}, k: 1}"), "write assume: positive"),
+    (text(parameters="{m: {value: 1, range: 0..5}, k: 1}"), "write assume: nonnegative; several"),
     (text(parameters="{m: {assume: positive, min: 0}, k: 1}"), "leave it out"),
     (text(parameters="{m: {value: 1, positive: false}, k: 1}"), "leave it out"),
     (
@@ -100,6 +108,8 @@ HINTS = [
     (text(title="[Wheel, rolling]"), "write Wheel, rolling"),
     (text(T=None, V=None) + "L := m*x'^2/2:", "write L: m*x'^2/2"),
     (text(parameters="\n  m:\n    unit: -\n  k: 1"), "write unit: 1"),
+    (text(parameters="\n  m:\n    unit: -  # none\n  k: 1"), "write unit: 1"),
+    (text(parameters="\n  m:\n    value: -\n  k: 1"), "leave out the key"),
     (text(parameters="{m: {unit: unitless}, k: 1}"), "did you mean '1'?"),
 ]
 
@@ -108,6 +118,12 @@ HINTS = [
 def test_what_other_programs_say_of_a_quantity_gets_the_hint_that_helps(written, hint):
     [only] = messages(written)
     assert hint in only.partition("; ")[2]
+
+
+@pytest.mark.parametrize("written", ["nonpositive", "not positive", "negative or zero", "no sign"])
+def test_no_stronger_assumption_is_proposed_than_what_is_said(written):
+    [only] = messages(text(parameters=f"{{m: {{assume: {written}}}, k: 1}}"))
+    assert only.endswith("; write one of real, positive, nonnegative, nonzero, negative")
 
 
 def test_equal_hints_name_the_keys_of_their_lines():
