@@ -118,7 +118,7 @@ class Derivation:
         """Symmetries and first integrals that nobody listed."""
         from lagcli.mechanics.discovery.discovery import Discovery
 
-        return Discovery(self.noether, self._unconstrained_discovery)
+        return Discovery(self.noether, self._unconstrained_discovery, _discovery_of)
 
     def _unconstrained_discovery(self) -> Discovery | None:
         """The same in coordinates that no constraint binds, where they are known."""
@@ -132,4 +132,8 @@ class Derivation:
         """Values of parameters at which there are more charges, with these."""
         from lagcli.mechanics.discovery.special_search import special_cases
 
-        return special_cases(self.discovery, lambda problem: Derivation(problem).discovery)
+        return special_cases(self.discovery, _discovery_of)
+
+
+def _discovery_of(problem: Problem) -> Discovery:
+    return Derivation(problem).discovery

@@ -80,3 +80,23 @@ def test_the_sign_of_the_energy_names_no_algebra_where_V_does_not_vanish_far_awa
     text = problem(f"m*{SQUARES}/2 + k/sqrt(x^2 + y^2) {constant}", parameters="m k")
     found = summary(derive(text).discovery)
     assert (found.dimension, found.name, found.independent) == (2, "R^2", 3)
+
+
+MONOPOLES = {
+    "spherical": (f"{{r: {POS}, theta: {{}}, phi: {{}}}}", "r'^2 + r^2*theta'^2 + r^2*sin(theta)^2*phi'^2",
+                  "cos(theta)*phi'", "r"),
+    "cylindrical": (f"{{s: {POS}, phi: {{}}, z: {{}}}}", "s'^2 + s^2*phi'^2 + z'^2",
+                    "z/sqrt(s^2 + z^2)*phi'", "sqrt(s^2 + z^2)"),
+}  # fmt: skip
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", MONOPOLES)
+def test_two_monopoles_keep_the_runge_lenz_vector(name):
+    """Gibbons, Manton, Nucl. Phys. B 274 (1986) 183."""
+    coordinates, rates, field, r = MONOPOLES[name]
+    L = f"(1 + b/{r})*({rates})/2 + g*b*{field} - g^2*b/(2*{r})"
+    derivation = derive(problem(L, coordinates, "b|g"))
+    found = summary(derivation.discovery)
+    assert (len(derivation.discovery.charges), found.independent, found.integrable) == (7, 5, True)
+    assert min(digits_of(derivation).values()) > 20

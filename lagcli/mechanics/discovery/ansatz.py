@@ -100,7 +100,8 @@ def affine(found: Kinds) -> list[Expr]:
     """Functions of the coordinates for point transformations, the simplest first."""
     one = sympy.S.One
     x = [y - found.centre.get(y, 0) for y in found.lengths]
-    lengths = [one, *x, *(1 / r for r in found.radii), *found.exponentials]
+    turned = [y / r for r in found.radii for y in x if y != r]  # r to z, in cylindrical coordinates
+    lengths = [one, *x, *(1 / r for r in found.radii), *turned, *found.exponentials]
     if found.powers:
         lengths += [x[0] ** k for k in (-2, -1, 2, 3)]
     elif found.curved and len(x) <= _MOST_CURVED:

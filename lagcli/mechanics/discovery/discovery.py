@@ -9,6 +9,7 @@ Ibragimov, *Elementary Lie Group Analysis and Ordinary Differential Equations*, 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import combinations_with_replacement
 
 import sympy
 from sympy import Expr
@@ -24,9 +25,10 @@ from lagcli.mechanics.discovery.ansatz import (
 from lagcli.mechanics.discovery.centralizer import centralized, with_one_stretching, without_time
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import rank_on_surface, tangent
+from lagcli.mechanics.discovery.fixed_energy import at_fixed_energy, in_the_first_time
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, is_gyroscopic
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
-from lagcli.mechanics.discovery.killing import KillingFrame
+from lagcli.mechanics.discovery.killing import KillingFrame, common_factors
 from lagcli.mechanics.discovery.killing_integrals import KillingIntegrals
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.lifted import lifted, of_velocity_constraints
@@ -39,8 +41,10 @@ from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.setting import Setting
 from lagcli.mechanics.discovery.slots import point_slots
+from lagcli.mechanics.discovery.special import new_charges
 from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.statements.wording import PRESCRIBED
 
@@ -70,9 +74,15 @@ class Discovery(Setting):
         The search that was made in coordinates that no constraint binds; None where there was none.
     """
 
-    def __init__(self, noether: Noether, unconstrained: Callable[[], Discovery | None]) -> None:
+    def __init__(
+        self,
+        noether: Noether,
+        unconstrained: Callable[[], Discovery | None],
+        search: Callable[[Problem], Discovery],
+    ) -> None:
         super().__init__(noether)
         self._unconstrained = unconstrained
+        self._search_of = search
         self.momentum_equations: tuple[NoetherCharge, ...] = ()
         self.unsearched = bool(self.unusable)
         self.unconstrained: Discovery | None = None
@@ -273,6 +283,8 @@ class Discovery(Setting):
                 return
             self._keep(integrals.found(self.charges))
             self._say_unproved(integrals.unproved)
+            if self.isometries is None and is_gyroscopic(self.equations):
+                self._of_fixed_energy()
         in_lengths = not (self.isometries or self.coordinate_kinds.angles)
         if (self.flat or in_lengths) and TimedIntegrals.apply(self.equations, self.point_charges):
             timed = TimedIntegrals(
@@ -353,6 +365,21 @@ class Discovery(Setting):
         if number:
             there = more(number, "first integral")
             self.stopped.append(f"{there} there, of whose part at rest no formula was found")
+
+    def _of_fixed_energy(self) -> None:
+        """Those of T = w(q) T0 in a magnetic field."""
+        for w in common_factors(self.equations):
+            problem = at_fixed_energy(self.system, w)
+            there = None if problem is None else self._search_of(problem)
+            fixed = [c for c in there.fixed_charges if c in there.hidden_charges] if there else ()
+            found = list(in_the_first_time(self.noether, w, fixed))
+            if found:
+                self.words.append("also at a fixed energy, T without a common factor")
+                known = [c.charge for c in self.fixed_charges]
+                products = [a * b for a, b in combinations_with_replacement(known, 2)]
+                new = new_charges([*known, *products], found, self.dynamics, self.allowed)
+                self.listing.add_hidden(("", charge) for charge in new)
+                return
 
     def _symmetries(self) -> list[tuple[Expr, ...]]:
         """Killing vectors that V admits: their products, which are nothing new, stand alone."""

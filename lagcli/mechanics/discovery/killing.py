@@ -93,7 +93,7 @@ class KillingFrame:
     @classmethod
     def without_factor(cls, equations: SlotEquations, allowed: Allowance) -> Iterator[KillingFrame]:
         """For T = w T0 with T0 of constant curvature, or a sum of squares of own coordinates."""
-        for w in _common_factors(equations):
+        for w in common_factors(equations):
             rows = (tuple(simplify(m / w) for m in row) for row in equations.mass)
             given = replace(equations, mass=tuple(rows))
             curved = Isometries(given, sympy.S.Zero, allowed) if Isometries.apply(given) else None
@@ -140,7 +140,7 @@ def _rotations(equations: SlotEquations) -> list[Vector]:
     return found
 
 
-def _common_factors(equations: SlotEquations) -> list[Expr]:
+def common_factors(equations: SlotEquations) -> list[Expr]:
     """w: M_kk, the factors with coordinates that all M_ik have in common, and sums among them."""
     if len(equations.q) not in _COORDINATES:
         return []
