@@ -557,7 +557,7 @@ def test_a_list_of_special_values_is_not_called_whole_without_those_of_quartic_i
         f"coordinates: [x, y]\nparameters: {{a: {POS}, b: {POS}, c: {{}}}}\nL: {L}\n"
     )
     assert "16" not in {str(value) for c in derivation.special_cases for _, value in c.given}
-    assert "not all special values of the parameters were sought" in derivation.discovery.ansatz
+    assert "not all special values of the parameters were tried" in derivation.discovery.ansatz
 
 
 BOTH_0 = {  # terms of which one is as bad as both: Kepler's problem, the free particle, a sphere

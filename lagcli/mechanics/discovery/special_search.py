@@ -53,8 +53,7 @@ _MOST_VALUES = 16  # measured: at most 5
 _MOST_PAIRS = 5
 _RATIOS = (1, 2, 3)
 _MOST_OPERATIONS = 20  # measured: at most 2
-_NOT_TRIED = "not all special values of the parameters were tried"
-_NOT_ALL = "not all special values of the parameters were sought"
+_NOT_ALL = "not all special values of the parameters were tried"
 
 
 def special_cases(
@@ -76,12 +75,12 @@ def special_cases(
         values, pairs = _to_try(searched, discovery, allowed)
         for choice in _choices(values, pairs, found, discovery.words, missing(system.parameters)):
             if any(sympy.count_ops(value) > _MOST_OPERATIONS for _, value in choice):
-                discovery.words.append(_NOT_TRIED)
+                discovery.words.append(_NOT_ALL)
                 continue
             there = _at(discovery, choice, search)
             allowed.check()
             if there is not None and {*there.stopped} - {*discovery.stopped}:
-                discovery.words.append(_NOT_TRIED)
+                discovery.words.append(_NOT_ALL)
                 continue  # their number would be too small
             less = [discovery, *(each for case, each in searches if _holds(case, choice))]
             if there is None or not all(_has_more(there, each) for each in less):
@@ -100,7 +99,7 @@ def special_cases(
                 found.append(SpecialCase(*choice[0], number, charges, there.degree, given))
                 searches.append((found[-1], there))
     except TooMuchWork:
-        discovery.words.append(_NOT_TRIED)
+        discovery.words.append(_NOT_ALL)
     if found and searched.degree > 2:  # the values come from the searches up to second degree
         discovery.words.append(_NOT_ALL)
     return tuple(found)
@@ -156,7 +155,7 @@ def _choices(
     pairs.sort(key=lambda pair: any(_holds(case, pair) for case in found))
     yield from pairs[:_MOST_PAIRS]
     if len(values) > _MOST_VALUES or len(pairs) > _MOST_PAIRS:
-        words.append(_NOT_TRIED)
+        words.append(_NOT_ALL)
 
 
 def _holds(case: SpecialCase, choice: Sequence[Value]) -> bool:
