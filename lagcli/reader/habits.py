@@ -151,7 +151,7 @@ def colon_advice(line: str) -> str:
         number, unit = number_and_unit(found[2])
         if unit and found[1] not in habits()["keys"]:
             return f"write parameters: {{{found[1]}: {{value: {number}, unit: {unit}}}}}"
-        value = re.sub(r"^\{([^:{}]*)\}$", r"[\1]", found[2].strip())
+        value = re.sub(r"^\{([^:{}]*)\}$", r"[\1]", found[2].strip(" ;"))
         value = re.sub(r"^T\s*[-−]\s*V\s*=\s*", "", value)
         named = re.match(r"([^\W\d]+)\s*[:=]?\s*(.+)", value)  # kinetic energy m*x'^2/2
         if named and (key := key_meant(f"{found[1]} {named[1]}", KEYS)):

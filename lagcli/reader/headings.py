@@ -94,7 +94,8 @@ def _is_heading(node: DocumentNode, attributes: tuple[str, ...]) -> bool:
         labels = {key.label.casefold() for key, _ in node.entries}
         inner = [value for _, value in node.entries]
         are_names = bool(labels) and all(map(str.isidentifier, labels))
-        of_others = labels & {*attributes, *SECTIONS}
+        foreign = {"type", "kind", "axis", *(each for each in spellings("bounds") if each[2:])}
+        of_others = labels & {*attributes, *SECTIONS, *foreign}
         return are_names and not of_others and not _mean(labels, inner)
     names = [each.value for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
     return _are_names(node) and not all(unit_behind(f"1 {name}") for name in names)

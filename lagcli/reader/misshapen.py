@@ -157,6 +157,8 @@ def one_sum(node: DocumentNode, what: str) -> str:
     if isinstance(node, Mapping):
         pairs = [(value, key) for key, value in node.entries]
         terms = [k if isinstance(v, Scalar) and v.is_empty else v for v, k in pairs]
+    if "value" in inner and {*inner} <= {"value", "unit", "description"}:
+        return f"write {source_of(terms[inner.index('value')])}"
     written = [term.value.strip() for term in terms if isinstance(term, Scalar)]
     if what.startswith("the initial") and len(written) == 2:
         name, with_unit = what.split("'")[1], unit_mistake(" ".join(written))
@@ -271,9 +273,12 @@ def _as_attributes(node: DocumentNode, written: str, names: tuple[str, ...]) -> 
     if "value" not in names:
         return "a coordinate has no range: leave it out"
     units = [each for each in listed if unit_behind(f"1 {each}")]
-    if len(units) == 1 and len(listed) == 2:
-        [number] = [each for each in listed if each not in units]
-        return f"write {{value: {number}, unit: {units[0]}}}"
+    numbers = [each for each in listed if is_constant("x", each)]
+    words = [each for each in listed if each not in {*units, *numbers}]
+    if len(units) == 1 and (len(listed) == 2 or (len(words) == len(numbers) == 1)):
+        number = (numbers or words)[0]
+        said = f", description: {words[-1]}" if listed[2:] else ""
+        return f"write {{value: {number}, unit: {units[0]}{said}}}"
     return f"one value each, with a name of its own; {swept('name', node)}"
 
 

@@ -106,6 +106,12 @@ HINTS = [
     (text(parameters="\n  m: float = 1.0\n  k: float = 2"), "write 1.0; in line 4 write 2"),
     (text(coordinates="[x(t) = 0.1]"), "write [x], and below it initial: {x: 0.1}"),
     (text(title="[Wheel, rolling]"), "write Wheel, rolling"),
+    (
+        text(parameters="\n  m: 1\n  k: [4, N/m, spring]"),
+        "{value: 4, unit: N/m, description: spring}",
+    ),
+    (text(forces="{x: {value: -k*x, unit: N}}"), "write -k*x"),
+    (text(coordinates="{x: {type: revolute}}"), "leave it out"),
     (text(T=None, V=None) + "L := m*x'^2/2:", "write L: m*x'^2/2"),
     (text(parameters="\n  m:\n    unit: -\n  k: 1"), "write unit: 1"),
     (text(parameters="\n  m:\n    unit: -  # none\n  k: 1"), "write unit: 1"),
