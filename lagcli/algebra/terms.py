@@ -113,7 +113,13 @@ def terms(
         one = Fraction(1)
         result = writer.product(one, [(result, one), (shaper.shape(growth), one)])
     if given is None:
-        return result
+        moving = sympy.Add(expression, *(-part for part in at_rest))
+        if not at_rest or moving == 0 or _roots(at_rest) <= _roots([moving]):
+            return result
+        # with the roots of what is at rest a sum of sines before velocities may not cancel
+        parts = (terms(each, order, leading) for each in (moving, sympy.Add(*at_rest)))
+        apart = writer.sum(parts)
+        return apart if operation_count(apart) < operation_count(result) else result
     most = _PROJECTIONS * length(result) if _has_projections(given) else length(result)
     return given if length(given) <= most else result
 
@@ -156,6 +162,12 @@ def _at_rest(expression: Expr, leading: Collection[str]) -> Sequence[Expr]:
     if any(p.xreplace(moving) != 0 for p in parts if p.free_symbols & moving.keys()):
         return ()
     return static
+
+
+def _roots(parts: Iterable[Expr]) -> set[Expr]:
+    """The radicands of sums in them."""
+    powers = {p for part in parts for p in part.atoms(sympy.Pow) if p.base.is_Add}
+    return {p.base for p in powers if p.exp.is_Rational and not p.exp.is_Integer}
 
 
 def _given(parts: Iterable[Expr], writer: Writer) -> Expression:
