@@ -171,7 +171,7 @@ def _of_elementary(factor: Expr, x: Symbol) -> Expr | None:
     if function == 1:
         return factor * x
     base, exponent = function.as_base_exp()
-    if exponent.is_Rational and exponent != -1:
+    if exponent.is_Rational and exponent not in (-1, 1):
         argument, integral = base, base ** (exponent + 1) / (exponent + 1)
     elif (rule := _INTEGRALS.get(function.func)) is not None:
         argument = function.args[0]

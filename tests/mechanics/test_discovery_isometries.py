@@ -165,6 +165,8 @@ DAMPED = {
     "polar, a mass that grows": ("t^2*(r'^2 + r^2*phi'^2)/2", RADIAL, 8),
     "Gompertz": ("exp(c*t)*(x'^2/x^2 - k*log(x)^2)/2", f"{{x: {POS}}}", 5),
     "a square": ("exp(c*t)*(x^2*x'^2 - k*x^4)/2", f"{{x: {POS}}}", 5),
+    "a hyperbolic sine": ("exp(c*t)*(cosh(x)^2*x'^2 - k*sinh(x)^2)/2", "[x]", 5),
+    "an inverse tangent": ("exp(c*t)*(x'^2/(1 + x^2)^2 - k*atan(x)^2)/2", "[x]", 5),
     "a sphere": ("exp(c*t)*(theta'^2 + sin(theta)^2*phi'^2)/2", "[theta, phi]", 4),
 }
 
@@ -178,6 +180,16 @@ def test_a_factor_of_time_leaves_the_isometries(name):
     assert summary(derivation.discovery).dimension == dimension
     assert derivation.discovery.stopped == []
     assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("slope", "X"), [("cosh(x)", "sinh(x)"), ("exp(x)", "exp(x)"), ("1", "x")])
+def test_a_power_of_the_arc_length_has_its_special_exponents(slope, X):
+    """None, a constant force, the oscillator's, and n = -2 (Landau, Lifshitz, section 23, problem)."""
+    L = f"({slope})^2*x'^2/2 - k*({X})^n"
+    cases = derive(problem(L, f"{{x: {POS}}}", "k|n")).special_cases
+    values = {int(c.value) for c in cases if c.parameter.name == "n"}
+    assert values == {-2, 0, 1, 2}
 
 
 @pytest.mark.long

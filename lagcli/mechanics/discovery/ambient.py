@@ -39,6 +39,7 @@ from lagcli.mechanics.discovery.spectrum import roots_of
 
 _MOST = 320  # measured: at most 100
 _HIGHEST = 5  # power of a coordinate
+_SHORT = 8  # operations of an integrand that SymPy's rules are tried on
 _HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 _PARTNERS = {
     sympy.sin: sympy.cos, sympy.cos: sympy.sin, sympy.sinh: sympy.cosh, sympy.cosh: sympy.sinh
@@ -78,7 +79,7 @@ def _arc_length(g: Expr, x: Symbol) -> Expr | None:
     base, power = function.as_base_exp()
     if abs(power) == sympy.S.Half and base.is_polynomial(x) and sympy.degree(base, x) == 2:
         return _of_quadratic(base, x, inverse=power < 0)
-    return antiderivative(function, x, rules=False)
+    return antiderivative(function, x, rules=function.count_ops() <= _SHORT)
 
 
 def _root(g: Expr) -> Expr:

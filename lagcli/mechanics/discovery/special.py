@@ -360,6 +360,13 @@ def resonant_waves(functions: Sequence[Expr], rest: Expr, q: Sequence[Symbol]) -
             yield from (sympy.numer(sympy.together(k**2 * c**2 - d**2)) for k in (1, 2))
 
 
+def quadratic_powers(functions: Sequence[Expr], rest: Expr) -> Iterator[Expr]:
+    """What vanishes where a power of X, in whatever coordinates, is X^2."""
+    for base, exponent in sorted((p.as_base_exp() for p in rest.atoms(sympy.Pow)), key=str):
+        if exponent.free_symbols and any(simplify(base / X).is_number for X in functions):
+            yield exponent - 2
+
+
 def _wave_numbers(formulas: Sequence[Expr], q: Sequence[Symbol]) -> list[tuple[Symbol, Expr]]:
     """The c of sin(c x + ...) and cos(c x + ...), by x."""
     arguments = {f.args[0] for each in formulas for f in each.atoms(sympy.sin, sympy.cos)}

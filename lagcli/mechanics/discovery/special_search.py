@@ -34,6 +34,7 @@ from lagcli.mechanics.discovery.special import (
     missing,
     new_charges,
     problem_at,
+    quadratic_powers,
     rates_of_driving,
     resonant_waves,
     special_curvature,
@@ -125,6 +126,7 @@ def _to_try(
     factors += steady_in_another_time(equations, at_rest)
     if searched.isometries is not None:
         factors += resonant_waves(searched.isometries.functions, at_rest, system.q)
+        factors += quadratic_powers(searched.isometries.functions, at_rest)
     exponents = searched.time_functions.exponents
     if len(system.q) == 1 or exponents or _NOT_ALL in searched.words:
         factors += system.parameters  # a term less: linear, with functions of time
