@@ -183,13 +183,25 @@ def test_a_factor_of_time_leaves_the_isometries(name):
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(("slope", "X"), [("cosh(x)", "sinh(x)"), ("exp(x)", "exp(x)"), ("1", "x")])
+@pytest.mark.parametrize(
+    ("slope", "X"), [("cosh(x)", "sinh(x)"), ("exp(x)", "exp(x)"), ("1", "x"), ("1/x^2", "1/x")]
+)
 def test_a_power_of_the_arc_length_has_its_special_exponents(slope, X):
     """None, a constant force, the oscillator's, and n = -2 (Landau, Lifshitz, section 23, problem)."""
     L = f"({slope})^2*x'^2/2 - k*({X})^n"
     cases = derive(problem(L, f"{{x: {POS}}}", "k|n")).special_cases
     values = {int(c.value) for c in cases if c.parameter.name == "n"}
     assert values == {-2, 0, 1, 2}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    "L", ["(1 + a*x)^2*x'^2 - k*(x + b*x^2/2)^2", "(1 + a*x)*x'^2 - k*(1 + b*x)^3"]
+)
+def test_where_the_force_is_linear_in_the_arc_length_there_are_five(L):
+    cases = derive(problem(L, "[x]", "|k a b")).special_cases
+    numbers = {(c.parameter.name, str(c.value)): c.number for c in cases}
+    assert numbers["b", "a"] == 5
 
 
 @pytest.mark.long

@@ -360,11 +360,24 @@ def resonant_waves(functions: Sequence[Expr], rest: Expr, q: Sequence[Symbol]) -
             yield from (sympy.numer(sympy.together(k**2 * c**2 - d**2)) for k in (1, 2))
 
 
-def quadratic_powers(functions: Sequence[Expr], rest: Expr) -> Iterator[Expr]:
-    """What vanishes where a power of X, in whatever coordinates, is X^2."""
+def powers_of_length(X: Expr, rest: Expr, x: Symbol) -> Iterator[Expr]:
+    """What vanishes where a power of the arc length X has the exponent 0, 1, 2 or -2."""
     for base, exponent in sorted((p.as_base_exp() for p in rest.atoms(sympy.Pow)), key=str):
-        if exponent.free_symbols and any(simplify(base / X).is_number for X in functions):
-            yield exponent - 2
+        degree = simplify(base.diff(x) * X / (base * X.diff(x)))
+        if exponent.free_symbols and degree.is_number and degree != 0:
+            yield from (degree * exponent - n for n in (0, 1, 2, -2))
+
+
+def linear_force(X: Expr, rest: Expr, x: Symbol) -> list[Expr]:
+    """What vanishes where dV/dX is of first degree in the arc length X."""
+    third = rest
+    for _ in range(3):
+        third = sympy.together(third.diff(x) / X.diff(x))
+    above = sympy.numer(third)
+    if not above.is_polynomial(x):
+        return []
+    common = sympy.gcd_list(sympy.Poly(above, x).coeffs())
+    return [factor for factor, _ in sympy.factor_list(common)[1]] if common.free_symbols else []
 
 
 def _wave_numbers(formulas: Sequence[Expr], q: Sequence[Symbol]) -> list[tuple[Symbol, Expr]]:

@@ -31,10 +31,11 @@ from lagcli.mechanics.discovery.special import (
     candidates,
     damped_powers,
     exchanged,
+    linear_force,
     missing,
     new_charges,
+    powers_of_length,
     problem_at,
-    quadratic_powers,
     rates_of_driving,
     resonant_waves,
     special_curvature,
@@ -126,7 +127,9 @@ def _to_try(
     factors += steady_in_another_time(equations, at_rest)
     if searched.isometries is not None:
         factors += resonant_waves(searched.isometries.functions, at_rest, system.q)
-        factors += quadratic_powers(searched.isometries.functions, at_rest)
+        if len(system.q) == 1 and searched.canonical:
+            along = searched.isometries.functions[0], at_rest, system.q[0]
+            factors += [*powers_of_length(*along), *linear_force(*along)]
     exponents = searched.time_functions.exponents
     if len(system.q) == 1 or exponents or _NOT_ALL in searched.words:
         factors += system.parameters  # a term less: linear, with functions of time
