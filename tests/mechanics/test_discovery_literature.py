@@ -182,3 +182,23 @@ def test_three_frequencies_are_special_where_one_is_the_sum_or_the_difference_of
     derivation = derive(problem(f"m*(x'^2 + y'^2 + z'^2)/2 - {V}", "[x, y, z]", "m a b c"))
     cases = {str(c.value): len(c.charges) for c in derivation.special_cases}
     assert cases["(sqrt(a) - sqrt(b))**2"] == cases["(sqrt(a) + sqrt(b))**2"] == 1
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("q", "V", "many"),
+    [
+        ("x y z u", "R^3", 4),
+        ("s x y z u", "R^2", 5),
+        ("x y z u", "exp(-R)/R", 4),
+        ("x y z u", "R^2 + u", 3),  # so(3) and the energy: not enough
+        ("s x y z u", "R^2 + x^4", 4),  # so(4) and the energy
+    ],
+)
+def test_a_central_force_in_any_dimension_is_integrable(q, V, many):
+    """k - r/2 = 2 n - 2 - (n - 2): Nekhoroshev, Trans. Moscow Math. Soc. 26 (1972) 180."""
+    squares = " + ".join(f"{x}^2" for x in q.split())
+    kinetic = " + ".join(f"{x}'^2" for x in q.split())
+    L = f"m*({kinetic})/2 - k*({V.replace('R', f'({squares})')})"
+    found = summary(derive(problem(L, f"[{', '.join(q.split())}]", "m k")).discovery)
+    assert (found.in_involution, found.integrable) == (many, many == len(q.split()) or None)

@@ -13,6 +13,8 @@ References
 Goldstein, Poole, Safko, *Classical Mechanics*, 3rd ed., section 9.5.
 Dirac, *Lectures on Quantum Mechanics* (1964), lecture 2.
 Arnold, *Mathematical Methods of Classical Mechanics*, 2nd ed., section 49 (Liouville).
+Nekhoroshev, Trans. Moscow Math. Soc. 26 (1972) 180 (k - r/2 = n).
+Mishchenko, Fomenko, Funct. Anal. Appl. 12 (1978) 113 (the same for a Lie algebra of integrals).
 """
 
 from __future__ import annotations
@@ -20,24 +22,26 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, combinations
 
 import mpmath
 from mpmath import mpf
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import derivative
 from lagcli.algebra.numeric import DIGITS, Evaluator, with_assumed_sign
-from lagcli.algebra.row_rank import nullspace, rank
+from lagcli.algebra.row_rank import nullspace, rank, rows_of
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.dynamics import Dynamics
 
 _SMALL = mpf(10) ** -20  # measured: zeros are below 5e-37, others above 8e-3
 _CHECKS = 2
+_STEP = mpf(10) ** -16  # the central difference has errors of its square
 _TRIES = 60  # measured: at most 6
 _PATIENCE = 6  # states that fail before other parameters are tried
 
 Vector = list[mpf]
+State = dict[Symbol, mpf]
 
 
 class NoState(Exception):
@@ -46,11 +50,14 @@ class NoState(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """At one state: values of the charges, gradients by q and p, brackets."""
+    """At one state: values of the charges, gradients by q and p, by q and q', brackets."""
 
+    state: State
     values: Vector
     by_q: list[Vector]
     by_p: list[Vector]
+    slopes: list[Vector]
+    surface: list[Vector]  # slopes of what the constraints keep at 0
 
     def bracket(self, a: int, b: int) -> mpf:
         """{Q_a, Q_b}."""
@@ -65,7 +72,8 @@ class Sample:
             return [*rows, *([mpmath.fdot(c, part) for part in parts] for c in combinations)]
 
         values = [mpmath.fdot(c, [self.values[a] for a in chosen]) for c in combinations]
-        return Sample([*self.values, *values], gradients(self.by_q), gradients(self.by_p))
+        by_q, by_p, slopes = map(gradients, (self.by_q, self.by_p, self.slopes))
+        return Sample(self.state, [*self.values, *values], by_q, by_p, slopes, self.surface)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +104,7 @@ class ChargeBrackets:
         self._evaluate = Evaluator(expressions)
         self._samples: list[Sample] = []
         self._source = self._states(0)
+        self._joined: list[tuple[Sequence[int], list[Vector]]] = []
 
     @property
     def has_parameters(self) -> bool:
@@ -126,38 +135,41 @@ class ChargeBrackets:
                 if not self.dynamics.states.placed(state):
                     bad += 1
                     continue
-                try:
-                    values = self._evaluate(state)
-                    if not all(isinstance(x, mpf) and mpmath.isfinite(x) for x in values):
-                        bad += 1
-                        if bad % _PATIENCE == 0:
-                            self._samples.clear()
-                        continue
-                    sample = self._sample(values)
-                except (ArithmeticError, ValueError):
+                sample = self._sample(state)
+                if sample is None:
                     bad += 1
+                    if bad % _PATIENCE == 0:
+                        self._samples.clear()
                     continue
             yield sample
 
-    def _sample(self, values: list[mpf]) -> Sample:
+    def _sample(self, state: State) -> Sample | None:
+        """None where there are no real values."""
+        try:
+            values = self._evaluate(state)
+            real = all(isinstance(x, mpf) and mpmath.isfinite(x) for x in values)
+            return self._with_brackets(state, values) if real else None
+        except (ArithmeticError, ValueError):
+            return None
+
+    def _with_brackets(self, state: State, values: Vector) -> Sample:
         n, count = len(self.dynamics.system.q), len(self.charges)
         start = count + 2 * n * count
-        mass = mpmath.matrix(n, n)
-        cross = mpmath.matrix(n, n)  # dp_k/dq_i
-        for i in range(n):
-            for j in range(n):
-                mass[i, j] = values[start + i * n + j]
-                cross[i, j] = values[start + n * n + i * n + j]
+        mass = mpmath.matrix(rows_of(values[start : start + n * n], n))
+        cross = mpmath.matrix(rows_of(values[start + n * n :], n))  # dp_k/dq_i
         inverse = mass**-1
-        by_q, by_p = [], []
-        for a in range(count):
-            at = count + 2 * n * a
-            q = mpmath.matrix(values[at : at + n])
-            p = inverse * mpmath.matrix(values[at + n : at + 2 * n])
-            by_p.append(list(p))
-            by_q.append(list(q - cross.T * p))
-        sample = Sample(values[:count], by_q, by_p)
-        return _on_surface(sample, self._constraints) if self._constraints else sample
+        slopes = [list(row) for row in rows_of(values[count:start], 2 * n)]
+        by_p = [list(inverse * mpmath.matrix(row[n:])) for row in slopes]
+        by_q = [
+            list(mpmath.matrix(row[:n]) - cross.T * mpmath.matrix(p))
+            for row, p in zip(slopes, by_p, strict=True)
+        ]
+        sample = Sample(state, values[:count], by_q, by_p, slopes, [])
+        if self._constraints:
+            sample = _on_surface(sample, self._constraints)
+        for chosen, combined in self._joined:
+            sample = sample.joined(chosen, combined)
+        return sample
 
     def samples(self, count: int) -> list[Sample]:
         """That many states.
@@ -206,6 +218,46 @@ class ChargeBrackets:
         grow([], list(chosen))
         return best
 
+    def functions_in_involution(self, chosen: Sequence[int]) -> int | None:
+        """The largest number of independent functions of the chosen that all commute.
+
+        It is k - r/2 for k independent ones with brackets of rank r at a general state, where the
+        brackets are functions of them: they do not change where the chosen stay the same.  None
+        where they do.
+        """
+        numbers = [0] if not chosen else []
+        with mpmath.workdps(DIGITS):
+            for sample in self.samples(_CHECKS) if chosen else ():
+                if not self._closed(sample, chosen):
+                    return None
+                brackets = [[sample.bracket(a, b) for b in chosen] for a in chosen]
+                some = any(abs(x) > _SMALL for row in brackets for x in row)
+                numbers.append(self.independent(chosen) - (rank(brackets) // 2 if some else 0))
+        return min(numbers)
+
+    def _closed(self, sample: Sample, chosen: Sequence[int]) -> bool:
+        """Whether the brackets stay the same one step along a surface of constant charges."""
+        self.allowed.check()
+        system = self.dynamics.system
+        ways = nullspace([*(sample.slopes[a] for a in chosen), *sample.surface])
+        if not ways:
+            return True
+        way = [mpmath.fsum(x / (1 + k) for k, x in enumerate(c)) for c in zip(*ways, strict=True)]
+        moving = list(zip((*system.q, *system.qdot), way, strict=True))
+        one, other = (
+            self._sample({**sample.state, **{x: sample.state[x] + h * w for x, w in moving}})
+            for h in (_STEP, -_STEP)
+        )
+        return (
+            one is not None
+            and other is not None
+            and all(
+                abs(one.bracket(a, b) - other.bracket(a, b))
+                < 2 * _STEP * _SMALL * (1 + abs(sample.bracket(a, b)))
+                for a, b in combinations(chosen, 2)
+            )
+        )
+
     def still(self, chosen: Sequence[int], other: int) -> list[int]:
         """The numbers of new charges: combinations of the chosen that commute with another.
 
@@ -214,6 +266,7 @@ class ChargeBrackets:
         with mpmath.workdps(DIGITS):
             samples = self.samples(len(self.charges) + _CHECKS)
             found = nullspace([[s.bracket(a, other) for a in chosen] for s in samples])
+            self._joined.append((chosen, found))
             self._samples = [s.joined(chosen, found) for s in samples]
             count = len(samples[0].values)
             return list(range(count, count + len(found)))
@@ -290,7 +343,8 @@ def _on_surface(sample: Sample, count: int) -> Sample:
         along = inverse * mpmath.matrix([sample.bracket(b, f) for b in surface])
         by_q.append(_less(sample.by_q, f, along, surface))
         by_p.append(_less(sample.by_p, f, along, surface))
-    return Sample(sample.values[:first], by_q, by_p)
+    slopes = sample.slopes
+    return Sample(sample.state, sample.values[:first], by_q, by_p, slopes[:first], slopes[first:])
 
 
 def _less(rows: list[Vector], f: int, along: mpmath.matrix, surface: range) -> Vector:

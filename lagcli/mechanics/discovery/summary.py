@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
-from itertools import combinations
 
-import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero
@@ -19,10 +17,8 @@ from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.states import Contradiction
 from lagcli.statements.answers import AlgebraSection
 
-_SMALL = 1e-12  # measured: what is not 0 is above 2e-1
 #: Choices of the parameters at which an algebra must have the same name.
 _PARAMETERS = 12
-_MOST_FOR_SQUARES = 9  # two bodies in space: P, L and L_rel
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +98,7 @@ def _free(discovery: Discovery) -> Summary:
     if not count:
         number = None if discovery.unsearched else 0
         return Summary(0, None, number, number, None)
-    more = [*_squares(discovery), *_of_the_file(discovery)]
+    more = _of_the_file(discovery)
     brackets = ChargeBrackets([*charges, *more], discovery.dynamics, Allowance())
     everything = list(range(count))
     if not discovery.canonical:
@@ -134,13 +130,14 @@ def _free(discovery: Discovery) -> Summary:
     if autonomous and energy is not None and timed:
         fixed += brackets.still(timed, energy)
     fixed.sort(key=lambda k: (k != energy, k < count))
-    involution = brackets.in_involution(fixed)
     freedom = discovery.dynamics.degrees_of_freedom
-    if involution < freedom:  # a sum of integrals may commute with another, as each does not
-        given = tuple(fixed)
+    involution = brackets.functions_in_involution(fixed)
+    if involution is None:  # there are more integrals, which are not in the list
+        linear = brackets.functions_in_involution([k for k in fixed if k < points or k == energy])
+        given = tuple(fixed)  # a sum of integrals may commute with another, as each does not
         for k in range(points, count):
             fixed += brackets.still(given, k) if k in given else []
-        involution = brackets.in_involution(fixed)
+        involution = max(brackets.in_involution(fixed), linear or 0)
     return Summary(
         dimension,
         name,
@@ -195,41 +192,6 @@ def _name(
             if other is None or name_of(other) != name:
                 return None
     return name
-
-
-def _squares(discovery: Discovery) -> list[Expr]:
-    """L^2, or p_x^2 + p_y^2, of charges of first degree that turn into each other.
-
-    For involution: two bodies in space have L_rel^2, two charges in a magnetic field the
-    square of their whole momentum, which commutes with L, as its components do not.
-    """
-    linear = [c.charge for c in discovery.point_charges if c.transformation.time == 0
-              and discovery.system.t not in c.charge.free_symbols]  # fmt: skip
-    if len(linear) < 3 or len(linear) > _MOST_FOR_SQUARES:
-        return []
-    brackets = ChargeBrackets(linear, discovery.dynamics, Allowance())
-    found = []
-    for triple in combinations(range(len(linear)), 3):
-        structure = brackets.structure(triple)
-        if structure is None:
-            continue
-        if name_of(structure) == "so(3)":
-            found.append(sympy.Add(*(linear[k] ** 2 for k in triple)))
-        else:
-            found += [
-                linear[triple[a]] ** 2 + linear[triple[b]] ** 2 for a, b in _turned(structure)
-            ]
-    return found
-
-
-def _turned(structure: Structure) -> Iterator[tuple[int, int]]:
-    """Pairs a, b of three with {c, a} = s b and {c, b} = -s a, so that c keeps a^2 + b^2."""
-    C, K = structure.constants, structure.central
-    for c, a, b in ((0, 1, 2), (1, 0, 2), (2, 0, 1)):
-        s = C[c][a][b]
-        turning = [C[c][a][a], C[c][a][c], K[c][a], C[c][b][b], C[c][b][c], K[c][b], C[c][b][a] + s]
-        if s and not any(abs(x) > _SMALL for x in turning):
-            yield a, b
 
 
 def _of_the_file(discovery: Discovery) -> list[Expr]:
