@@ -163,6 +163,16 @@ def in_unit(text: str, unit: str) -> tuple[str, str] | None:
     return message, f"write {float(Fraction(number)) * factor / other:.10g}"
 
 
+def in_radians(number: str, unit: str) -> str:
+    """What to write for a parameter in degrees or gon; nothing for other units."""
+    found = re.fullmatch(r"(deg|gon)(/.*|)", unit)
+    if found is None:
+        return ""
+    named, half = ("degrees", 180) if found[1] == "deg" else ("gon", 200)
+    value = f", value: {number}*pi/{half}" if number else ""
+    return f"{half} {named} are pi: write unit: rad{found[2]}{value}"
+
+
 def run_mistake(text: str, option: str) -> tuple[str, str] | None:
     """What is wrong with `3 T`, an end of a run, or with `8 digits`, an accuracy."""
     from lagcli.units.table import meaning

@@ -15,7 +15,7 @@ from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, named_formulas, source_of, swept
 from lagcli.reader.names import NO_VALUE
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
-from lagcli.reader.number_units import in_digits, in_unit
+from lagcli.reader.number_units import in_digits, in_radians, in_unit
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.sign_meant import ASSUMPTIONS, NEUTRAL, sign_meant
@@ -434,7 +434,7 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
     said: _Said = {}
     if "unit" in attributes and (text := file.scalar(attributes["unit"], "'unit'")):
         said["unit"], said["unit_span"] = text.value, text.span
-        _check_unit(file, text)
+        _check_unit(file, text, attributes.get("value"))
     if "symbol" in attributes and (text := file.scalar(attributes["symbol"], "'symbol'")):
         said["symbol"] = text.value
         _check_symbol(file, text)
@@ -463,7 +463,7 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
     return said
 
 
-def _check_unit(file: FileReader, text: Scalar) -> None:
+def _check_unit(file: FileReader, text: Scalar, value: DocumentNode | None) -> None:
     from lagcli.units import UnitMistake, read_unit
 
     try:
@@ -472,6 +472,9 @@ def _check_unit(file: FileReader, text: Scalar) -> None:
         spoken = spoken_unit(text.value)
         hint = f"write {spoken}" if is_unit(spoken) else wrong.hint
         hint = "write 1" if text.value.casefold() in habits()["nothing"] else hint
+        number = value.value if isinstance(value, Scalar) else ""
+        if value is None or is_constant("x", number):
+            hint = in_radians(number, spoken) or hint
         file.error(wrong.message, text.excerpt().span(wrong.start, wrong.end), hint)
 
 

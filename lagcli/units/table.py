@@ -29,7 +29,7 @@ class Meaning(NamedTuple):
 def meaning(name: str) -> Meaning | None:
     """The meaning of a unit's name or symbol, with a prefix or without; None: there is none."""
     units, prefixes = _table()
-    if name == "kilos":  # kg, no kilosecond
+    if name in _WORDS:
         return None
     for shown in (name, name[:-1] if len(name) > _SHORTEST_PLURAL and name[-1] == "s" else ""):
         if shown in units:
@@ -47,6 +47,8 @@ def known_names() -> list[str]:
 
 #: `feet` is not `fees`: shorter names have no plural with s.
 _SHORTEST_PLURAL = 4
+#: kg, no kiloseconds; the degree of German, no gigaradian; its minute, no megainch.
+_WORDS = frozenset("kilos Grad Gradian Gradians Min".split())
 _NEVER_PREFIXED = frozenset("min h d kg % °".split())
 
 _Units = dict[str, tuple[float, list[str]]]
