@@ -198,7 +198,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
         line,
     ),
     lambda line: line.replace(";", ",") if re.search(r"[\[{].*;", line) else line,
-    lambda line: re.sub(r"\s+(?:%|--|;)\s*(?=\S)", "  # ", line, count=1),
+    lambda line: re.sub(r"(?<=[^\s:,])\s+(?:%|--|;)\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^([^{]*?)\s*[;,]\s+(?=[^\W\d]\w*:\s)", r"\1\n", line, count=1),
     lambda line: re.sub(r"(?<=[:,\[] )[%@`&!*](?=\w)", "", line),
     _listed,

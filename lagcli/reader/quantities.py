@@ -9,7 +9,15 @@ from lagcli.expression import FUNCTIONS
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
 from lagcli.reader.constants import value_cycle
-from lagcli.reader.habits import habits, is_constant, is_unit, name_meant, spoken_unit, unit_behind
+from lagcli.reader.habits import (
+    advised,
+    habits,
+    is_constant,
+    is_unit,
+    name_meant,
+    spoken_unit,
+    unit_behind,
+)
 from lagcli.reader.headings import without_headings
 from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, named_formulas, source_of, swept
@@ -201,6 +209,8 @@ def is_described(text: str, known: Collection[str]) -> bool:
     """Whether a value is words, such as `mass of the bob`, and no name of the file is in it."""
     words = re.split(r"[ ,.-]+", text.strip())
     if any(word in known or not word.isalpha() for word in words) or in_digits(text) != text:
+        return False
+    if advised("constants", text):
         return False
     longest = max(words, key=len)
     if len(words) > 1:

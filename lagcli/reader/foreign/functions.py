@@ -10,7 +10,10 @@ from lagcli.reader.foreign.sums import Part, Sums, raised
 from lagcli.reader.foreign.tokens import SIGNS, Token
 from lagcli.reader.foreign.words import UnclearText, function_named
 from lagcli.reader.habits import POWERS, RATES, SQUARES, written_out
-from lagcli.reader.regex import outside
+from lagcli.reader.regex import outside, regex
+
+
+_NUMBER = regex(r"\d+\.?\d*|\.\d+")
 
 
 class Functions(Sums):
@@ -51,6 +54,10 @@ class Functions(Sums):
         if function == "atan" and len(arguments) == 2:
             function = "atan2"
             arguments = arguments[::-1] if is_square else arguments  # ArcTan[x, y]
+        if function == "sign" and len(arguments) == 2:  # |a| sign(b) of Fortran
+            size = arguments[0] if _NUMBER.fullmatch(arguments[0]) else f"abs({arguments[0]})"
+            factor = "" if size in {"1", "1.0"} else f"{size}*"
+            return Part(f"{factor}sign({arguments[1]})", 1 if factor else 3, is_call=not factor)
         return Part(f"{function}({', '.join(arguments)})", 3, is_call=True)
 
     def without_brackets(self, function: str) -> Part:

@@ -13,7 +13,7 @@ from lagcli.reader.foreign.indexed_sums import written_out
 from lagcli.reader.foreign.lengths import component, with_components, with_products
 from lagcli.reader.foreign.vector_products import vector_product, with_single_components
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant, parts_of
-from lagcli.reader.habits import REMARK, foreign_function, unit_behind
+from lagcli.reader.habits import REMARK, advised, foreign_function, unit_behind
 from lagcli.reader.regex import regex
 
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻½⅓⅔¼¾⅛"
@@ -64,6 +64,8 @@ _RELATIONS = (
     (re.compile(r"\s+(?:is\s+)?(?:less|smaller)\s+than\s+"), "<"),
     (re.compile(r"\s+(?:is\s+equal\s+to|is|equals?)\s+(?=[-\w(])"), "="),
 )
+#: A word that may be a number of other programs: M_PI_2, %pi, math.e.
+_CONSTANT = regex(r"(?<![\w.\\])(?:%|\w+\.|std::numbers::)?[^\W\d]\w*(?![\w.'(])")
 #: What other programs do with a formula: `.simplify()`, `// FullSimplify`.
 _DONE_WITH = regex(
     r"\.(?:simplify|trigsimp|expand|factor|evalf|doit|n)\(\w*\)|\s*//\s*(?:Full)?[A-Z]\w+\s*$"
@@ -88,6 +90,9 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
     text = _DONE_WITH.sub("", text)
     text = re.sub(r"\b([pP]i|PI)\(\s*\)", "pi", text)
+    text = _CONSTANT.sub(
+        lambda m: m[0] if m[0] in names.known else advised("constants", m[0]) or m[0], text
+    )
     text = re.sub(r"\bSubscript\[(\w+),\s*(\w+)\]", r"\1_\2", text)
     if "half" not in names.known:
         text = re.sub(r"\b(?:(?:one|a)[ -])?half\b(?:\s+of\b)?", "1/2", text)
