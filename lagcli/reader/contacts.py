@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, NamedTuple
 from lagcli.expression import ZERO, Equation
 from lagcli.problem_data import Contact
 from lagcli.reader.file_reader import Required
-from lagcli.reader.habits import key_meant, name_meant
+from lagcli.reader.habits import comparisons_in, key_meant, name_meant
 from lagcli.reader.misshapen import is_sentence, source_of, texts_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
+from lagcli.reader.regex import regex
 from lagcli.reader.scope import POSITION, VALUES, Kind, name_mistake
 
 if TYPE_CHECKING:
@@ -25,6 +26,8 @@ _COEFFICIENTS = {
     **dict.fromkeys(["elastic", "yes", "true"], 1),
     **dict.fromkeys(["inelastic", "plastic", "none", "no", "false", "sticks"], 0),
 }
+#: `y .ge. 0` and `y >= 0`.
+_INEQUALITY = regex(r"[<>≤≥]|\.(?i:[gl][et])\.")
 _HINT = "write floor: {gap: y >= 0, restitution: 0.8}"
 
 
@@ -146,7 +149,13 @@ def read_contacts(file: FileReader, given: list[Declared]) -> tuple[Contact, ...
 def _gap(file: FileReader, node: DocumentNode, what: str) -> Equation:
     """`y >= 0`, `y <= h`, or an expression that is not negative."""
     before = len(file.diagnostics)
-    if isinstance(node, Scalar) and {"<", ">", "≤", "≥"} & set(node.value):
+    parts = comparisons_in(node.value) if isinstance(node, Scalar) else []
+    if parts[1:] and all(map(_INEQUALITY.search, parts)):
+        name = what.split("'")[1]
+        each = ", ".join(f"{name}_{place}: {part}" for place, part in enumerate(parts, start=1))
+        file.error("two statements in one", node.span, f"each has its own name: {each}")
+        gap = Equation(ZERO, ZERO, span=node.span)
+    elif isinstance(node, Scalar) and _INEQUALITY.search(node.value):
         found = file.comparison(node, what, POSITION)
         left, right = (found.left, found.right) if found is not None else (ZERO, ZERO)
         if found is not None and found.comparison[0] == "<":

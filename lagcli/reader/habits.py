@@ -33,6 +33,10 @@ DERIVED = "the equations of motion are derived: give T and V, or L"
 #: An assumption by the relation to zero that it is.
 SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegative",
          "!=": "nonzero", "≠": "nonzero"}  # fmt: skip
+#: The relations of Fortran.
+RELATIONS = {rf"\.(?i:{word})\.": sign for word, sign in
+             (("ge", ">="), ("gt", ">"), ("le", "<="), ("lt", "<"), ("eq", "="))}  # fmt: skip
+_AND = regex(r"\s*(?:\.(?i:and)\.|&&|(?<=\s)(?i:and|und)(?=\s))\s*")
 COMMENT = "a comment begins with '#'"
 PROGRAM = "a problem has keys with their values, as in coordinates: [x], and no program"
 CASES = frozenset("if for when where else otherwise piecewise Piecewise".split())
@@ -284,6 +288,14 @@ def superscript(text: str) -> str:
 def fraction(character: str) -> str:
     """`1/2` for ½; nothing for other characters."""
     return _VULGAR.get(character, "")
+
+
+def comparisons_in(text: str) -> list[str]:
+    """`y >= 0` and `y <= 10` for `y .ge. 0 .and. y .le. 10`."""
+    for form, sign in RELATIONS.items():
+        text = re.sub(rf"\s*{form}\s*", f" {sign} ", text)
+    text = re.sub("=([<>])", r"\1=", text)
+    return [each.strip() for each in _AND.split(text)]
 
 
 def names_among(text: str) -> list[str]:

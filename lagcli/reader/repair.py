@@ -14,7 +14,7 @@ from lagcli.reader.expressions import read_equation, read_expression, sides_of
 from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, square_of_speed
-from lagcli.reader.habits import is_angle, name_meant
+from lagcli.reader.habits import comparisons_in, is_angle, name_meant
 from lagcli.reader.misshapen import FRICTION, as_equation, as_rayleigh, behind_words, is_sentence
 from lagcli.reader.momenta_meant import with_momenta, with_velocities
 from lagcli.reader.names import name_mistakes
@@ -115,8 +115,7 @@ def with_whole(
         return still
     if matrices := _of_matrices(node, what, scope):
         return [matrices]
-    if what == "'holds_while'" and found[0].message == "two statements in one":
-        parts = re.split(r"\s+and\s+", node.value)
+    if what == "'holds_while'" and (parts := comparisons_in(node.value))[1:]:
         forces = [
             each for each in parts if {*re.findall(r"\w+", each)} & {*scope.of_kind("multiplier")}
         ]

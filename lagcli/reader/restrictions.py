@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from lagcli.expression import ZERO, Name, name_nodes
 from lagcli.problem_data import Constraint, pushing_sign
 from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
+from lagcli.reader.habits import comparisons_in
 from lagcli.reader.misshapen import as_equation, is_sentence, pieces, source_of, texts_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Scalar
@@ -71,7 +72,7 @@ def _is_refused(file: FileReader, key: Scalar, value: DocumentNode) -> bool:
     """Whether an entry is no constraint but a contact, or several constraints: a mistake."""
     parts = {k.label: v for k, v in getattr(value, "entries", ())}
     node = parts.get("equation", value)
-    written = node.value.strip() if isinstance(node, Scalar) else ""
+    written = " and ".join(comparisons_in(node.value)) if isinstance(node, Scalar) else ""
     if re.search("[<>≤≥]", key.label):  # {x <= 1}
         written = key.label
     if _INEQUALITY.search(written) and not is_sentence(written, file.scope.kinds):
@@ -97,6 +98,9 @@ def _gaps(name: str, written: str) -> list[tuple[str, str]]:
     """The gap of one contact, or the two of `0 <= x <= l` and `abs(x) <= l`."""
     whole = re.sub(r"=*([<>])=*", r"\1=", written.replace("≤", "<").replace("≥", ">"))
     found = re.fullmatch(r"([^<>]+)<=([^<>]+)<=([^<>]+)", whole)
+    if " and " in whole:
+        parts = enumerate(whole.split(" and "), start=1)
+        return [(f"{name}_{k}", gap) for k, part in parts for _, gap in _gaps(name, part)]
     around = re.fullmatch(r"(?:\|([^<>|]+)\||abs\(([^<>]+)\))\s*<=([^<>]+)", whole)
     if around:
         end = around[3].strip()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from lagcli.reader.habits import COMMENT, instead, unit_behind
+from lagcli.reader.habits import COMMENT, RELATIONS, instead, unit_behind
 
 if TYPE_CHECKING:
     from lagcli.reader.automaton import Token
@@ -39,6 +39,8 @@ _MEANT = [
     (r"\.\.\.|…", "leave it out: a line that continues the one above begins with blanks"),
     (r"\.subs\b", "leave out what begins with '.subs': values stand under 'parameters'"),
     (r"\.(?:evalf|simplify|expand|n|doit|replace|rewrite)\b", "leave out what begins with '.'"),
+    (r"\.(?i:and|x?or|not|n?eqv|ne|true|false)\.", "write one comparison, as in x >= 0"),
+    *((form, f"a relation is written {sign}") for form, sign in RELATIONS.items()),
     (r"\.[^\W\d]", "a product of vectors is written by its components, as in x'^2 + y'^2"),
 ]
 

@@ -219,6 +219,8 @@ def _unexpected(
         if alone and str(previous).endswith("''"):
             return "an equation of motion is no formula", DERIVED
         hint = f"leave out '{previous} ='" if alone else "leave out '=' and what follows it"
+        if following is not None and str(following) in {">", "<"}:
+            hint = f"a relation is written {following}="
         return "'=' stands only in constraints and equations", hint
     several = token.type == "COMMA" and "EQUAL" in {each.type for each in before}
     if several and (named := re.fullmatch(r"([^,]*=[^,]*?)\s*,\s*(\w+)", written)):
@@ -232,7 +234,7 @@ def _unexpected(
         if inside is not None and not _called(before):
             return "a list is no value", "write one value, without parentheses"
         hint = "leave out ','"
-        if previous.type == "NUMBER" and following is not None:
+        if previous.type == "NUMBER" and following is not None and following.type == "NUMBER":
             hint = f"a decimal point is written '.': write {previous}.{following}"
             grouped = f", or {previous}{following} for thousands"
             hint += grouped if re.fullmatch(r"\d{3}", following) else ""

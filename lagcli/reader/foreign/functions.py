@@ -12,7 +12,6 @@ from lagcli.reader.foreign.words import UnclearText, function_named
 from lagcli.reader.habits import POWERS, RATES, SQUARES, written_out
 from lagcli.reader.regex import outside, regex
 
-
 _NUMBER = regex(r"\d+\.?\d*|\.\d+")
 
 

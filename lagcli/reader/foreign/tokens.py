@@ -13,7 +13,7 @@ from lagcli.reader.foreign.indexed_sums import written_out
 from lagcli.reader.foreign.lengths import component, with_components, with_products
 from lagcli.reader.foreign.vector_products import vector_product, with_single_components
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant, parts_of
-from lagcli.reader.habits import REMARK, advised, foreign_function, unit_behind
+from lagcli.reader.habits import RELATIONS, REMARK, advised, foreign_function, unit_behind
 from lagcli.reader.regex import regex
 
 RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻½⅓⅔¼¾⅛"
@@ -22,7 +22,7 @@ _TOKEN = regex(
     r"(?P<skip>(?:\s|\$|\\[,;:! ]"
     r"|\\(?:left|right|[bB]igg?[lr]?|q?quad|displaystyle|limits)(?![A-Za-z]))+)"
     r"|(?P<number>(?:\d{1,3}(?:\.\d{3})+,\d+|\d{1,3}(?:,\d{3})+\.\d+"
-    r"|\d{1,3}(?:[' _]\d{3})+(?![\w.])|\d+(?:\.\d+)?|\.\d+|\d+\.)"
+    r"|\d{1,3}(?:[' _]\d{3})+(?![\w.])|\d+(?:\.\d+|\.(?![\w.]))?|\.\d+)"
     r"(?:(?:[eEdD]|\*\^)[-+]?\d+)?(?:[fF](?!\w))?)"
     r"|(?P<macro>\\[A-Za-z]+)"
     rf"|(?P<name>(?:(?:np|numpy|math|Math|sp|sympy|cmath|std|jnp)(?:\.linalg)?(?:\.|::))?{_LETTER}"
@@ -63,6 +63,7 @@ _RELATIONS = (
     (re.compile(r"\s+(?:is\s+)?(?:greater|larger|bigger|more)\s+than\s+"), ">"),
     (re.compile(r"\s+(?:is\s+)?(?:less|smaller)\s+than\s+"), "<"),
     (re.compile(r"\s+(?:is\s+equal\s+to|is|equals?)\s+(?=[-\w(])"), "="),
+    *((re.compile(rf"\s*{form}\s*"), sign) for form, sign in RELATIONS.items()),
 )
 #: A word that may be a number of other programs: M_PI_2, %pi, math.e.
 _CONSTANT = regex(r"(?<![\w.\\])(?:%|\w+\.|std::numbers::)?[^\W\d]\w*(?![\w.'(])")
