@@ -152,7 +152,7 @@ def _assumed(line: str) -> str:
 
 #: In the order in which they are tried.
 _CHANGES: tuple[Callable[[str], str], ...] = (
-    lambda line: re.sub(r"\s+//\s*(?=\S)", "  # ", line, count=1),
+    lambda line: re.sub(r"\s+(?://|/\*|!\s)\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
     lambda line: re.sub(r"(?<=:)\s+\?\s*(?=[,}]|$)", "", line),
     lambda line: re.sub(r"(?<=unit: )\s*-+(?=\s*(?:#|$))", "1", line),

@@ -106,6 +106,22 @@ def read_problem(source_name: str, data: bytes) -> ProblemReading:
     source, diagnostics = decode(source_name, data)
     if diagnostics:
         return ProblemReading(source, None, tuple(diagnostics))
+    reading = _read_lines(source)
+    if reading.problem is not None:
+        return reading
+    from lagcli.reader.foreign_lines import without_foreign_lines
+
+    wrong, texts = without_foreign_lines(source.text)
+    if not wrong:
+        return reading
+    others = (_read_lines(replace(source, text=text)).diagnostics for text in texts)
+    errors = ([each for each in found if each.is_error] for found in others)
+    both = (*wrong, *min(errors, key=len))
+    return ProblemReading(source, None, tuple(sorted(both, key=lambda each: each.span)))
+
+
+def _read_lines(source: Source) -> ProblemReading:
+    """The problem and the diagnostics, also where a line is not YAML."""
     try:
         return _read_source(source)
     except Mistake as error:

@@ -14,7 +14,7 @@ from lagcli.reader.expressions import read_equation, read_expression, sides_of
 from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, square_of_speed
-from lagcli.reader.habits import comparisons_in, is_angle, name_meant
+from lagcli.reader.habits import COMMENT, comparisons_in, is_angle, name_meant
 from lagcli.reader.misshapen import FRICTION, as_equation, as_rayleigh, behind_words, is_sentence
 from lagcli.reader.momenta_meant import with_momenta, with_velocities
 from lagcli.reader.names import name_mistakes
@@ -46,6 +46,8 @@ _MULTIPLIER = regex(
     r"\s*[,;]?\s*\(?(?:with|where|and|mit|avec|con)\s+(?:the\s+)?(?:Lagrange\s+)?(?:multiplier\s+)?"
     r"(?:lambda|lam|λ)\w*\)?\s*$"
 )
+#: `! a comment` and `// a comment` behind a formula.
+_COMMENT = regex(r"(?<=[\w)'’])\s+(?:!|//|/\*)\s*[^\W\d].*$")
 DECLARE = "and declare {} under 'parameters'"
 #: A word for a constant.
 _CONSTANT = regex(
@@ -185,6 +187,7 @@ def with_whole(
         has_words = behind_words(node.value, scope.kinds) != node.value
         guess = found[0].hint.endswith("?") and not has_words
         hint = f"did you mean {whole}?" if guess else f"write {whole}"
+        hint = f"{COMMENT}: write {whole}" if _COMMENT.search(node.value) else hint
         spans = {each.message: each.span for each in reversed(found)}
         first = next((each for each in found if each.message not in undeclared), found[0])
         rest = [replace(each, span=spans.get(each.message, node.span)) for each in wrong]
@@ -413,6 +416,8 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
     if "u" not in scope.kinds and scope.energies.get("T") == value:
         value = re.sub(r"(?<![^\W_])u(?![\w(])", "v", value)  # of m*u^2/2
     value = re.sub(r"&\s*=|=\s*&", "=", re.sub(r"\\\\\s*$", "", value))  # of an alignment
+    value = _COMMENT.sub("", value)
+    value = value if re.search("[<>]", value) else re.sub(r"\s*&\s*", " ", value)  # of Fortran
     sides = re.split("==?", value)
     if equation and len(sides) == 3 and re.fullmatch(r"\s*\w+\([\w, ]*\)\s*", sides[0]):
         return ["=".join(sides[1:])]  # f(x, y) = … = 0

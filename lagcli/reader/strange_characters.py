@@ -49,7 +49,7 @@ def character_meant(rest: str, tokens: list[Token]) -> str:
     """What is done instead, where no formula is meant that could be written here."""
     before = tokens[-1].type if tokens else ""
     if before in END_VALUE:
-        if re.match(r"%\s*[A-Za-z]", rest):
+        if re.match(r"[%!]\s*[A-Za-z]", rest):
             return COMMENT
         unit = re.match(r"\[([^\[\]]+)\]\s*$", rest)
         if unit and unit_behind(f"1 {unit[1]}"):
