@@ -9,6 +9,7 @@ Ibragimov, *Elementary Lie Group Analysis and Ordinary Differential Equations*, 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from contextlib import suppress
 from itertools import combinations_with_replacement
 
 import sympy
@@ -22,6 +23,7 @@ from lagcli.mechanics.discovery.ansatz import (
     point_unknowns,
     quadratic_unknowns,
 )
+from lagcli.mechanics.discovery.brackets import ChargeBrackets, NoState
 from lagcli.mechanics.discovery.centralizer import centralized, with_one_stretching, without_time
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import rank_on_surface, tangent
@@ -304,7 +306,7 @@ class Discovery(Setting):
                 self._say_unproved(timed.unproved)
 
     def _of_higher_degree(self) -> None:
-        """Those of third degree beyond the known, and of fourth while fewer than n are known.
+        """Those of third degree beyond the known, and of fourth while fewer than n commute.
 
         At most 2 n - 1 without the time are independent.
         """
@@ -317,7 +319,7 @@ class Discovery(Setting):
         if frame is None and len(self.fixed_charges) < n:
             frame = KillingFrame.found(self.equations, self.coordinate_kinds, self.allowed)
         for degree in frame.degrees if frame else ():
-            if frame is None or (degree > 3 and len(self.fixed_charges) >= n):
+            if frame is None or (degree > 3 and self._in_involution() >= n):
                 return
             self.degree = degree
             made = " made of Killing vectors of T" if frame.accelerations else ""
@@ -334,6 +336,15 @@ class Discovery(Setting):
         """How many charges without the time are independent."""
         charges = [c.charge for c in (*self.fixed_charges, *more)]
         return rank_on_surface(self.dynamics, charges) or len(charges)
+
+    def _in_involution(self) -> int:
+        """How many functions of the charges without the time commute."""
+        charges = [c.charge for c in self.fixed_charges]
+        brackets = ChargeBrackets(charges, self.dynamics, self.allowed)
+        with suppress(NoState):
+            found = brackets.functions_in_involution(range(len(charges)))
+            return brackets.in_involution(range(len(charges))) if found is None else found
+        return 0
 
     def _by_killing_vectors(self) -> bool:
         """Those of T of constant curvature, which are all; else of T without a factor w(q)."""
