@@ -80,12 +80,22 @@ def without_wrong_texts(mistakes: list[Diagnostic]) -> list[Diagnostic]:
         for other in spans)]  # fmt: skip
 
 
-def _one_of(key: Scalar, first: DocumentNode, second: DocumentNode) -> str:
+def _one_of(first_key: Scalar, first: DocumentNode, key: Scalar, second: DocumentNode) -> str:
     """What to do where a key is given twice: two formulas are terms of a sum."""
     hint = "leave out one of them"
     if isinstance(first, Sequence) and isinstance(second, Sequence):
         listed = [each.value for each in (*first.items, *second.items) if isinstance(each, Scalar)]
         return f"write {key.label}: [{', '.join(dict.fromkeys(listed))}]"
+    if isinstance(first, Mapping) and isinstance(second, Mapping):
+        texts = [{k.label: each.text.source.text[v.start : v.end].split() for k, v in each.entries}
+                 for each in (first, second)]  # fmt: skip
+        for one, other, which in ((1, 0, "this one"), (0, 1, "the first one")):
+            if texts[one].items() <= texts[other].items():
+                start, node = (first_key.start, first) if one == 0 else (key.start, second)
+                whole = node.text.source.text[: node.end].rstrip()
+                begin, end = whole.count("\n", 0, start) + 1, whole.count("\n") + 1
+                lines = f", lines {begin} to {end}" if begin < end else ""
+                return f"leave out {which}{lines}: the other has all of its entries"
     values = [each.value for each in (first, second) if isinstance(each, Scalar)]
     if len(values) == 2 and all("=" in each for each in values):
         return f"{hint}, or give it another name"
@@ -260,10 +270,13 @@ class _Composer:
                 first, first_value = entries[key.label]
                 related = ((first.span, "first given here"),)
                 message = f"the key '{key.label}' is given twice"
-                hint = _one_of(*entries[key.label], value)
+                hint = _one_of(*entries[key.label], key, value)
                 self._report(key.start, key.end, message, hint, related)
                 if isinstance(first_value, Sequence) and isinstance(value, Sequence):
                     first_value.items.extend(value.items)
+                elif isinstance(first_value, Mapping) and isinstance(value, Mapping):
+                    given = {each.label for each, _ in first_value.entries}
+                    first_value.entries.extend(x for x in value.entries if x[0].label not in given)
             else:
                 entries[key.label] = (key, value)
         return list(entries.values())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.reader.habits import COMMENT
@@ -39,8 +40,7 @@ def without_foreign_lines(text: str) -> tuple[list[Diagnostic], list[str]]:
     for each in _NO_LINE.finditer(_CONFLICT.sub(_blank, text)):
         hint = COMMENT if each["comment"] else "leave it out"
         found.append(_in_line(each, lines, "this line is none of the file", hint))
-    texts = [_CONFLICT.sub(lambda m, name=name: _version(m, name), text)
-             for name in ("first", "second")]  # fmt: skip
+    texts = [_CONFLICT.sub(partial(_version, name=name), text) for name in ("first", "second")]
     return found, [_NO_LINE.sub(_blank, each) for each in dict.fromkeys(texts)]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from lagcli.diagnostics import Diagnostic
+from lagcli.reader.expressions import formula_or_none
 from lagcli.reader.friction_meant import friction_meant
 from lagcli.reader.habits import KEYS, MAPS, key_meant
 from lagcli.reader.misshapen import source_of
@@ -72,7 +73,42 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
         if moved and isinstance(node, Mapping):
             node = replace(node, entries=[entry for entry in inner if entry not in moved])
         entries += [(key, node), *moved]
-    return replace(root, entries=entries), mistakes
+    moved_root, formulas = _with_definitions(
+        replace(root, entries=entries), mentions, {*coordinates}
+    )
+    return moved_root, mistakes + formulas
+
+
+def _with_definitions(
+    root: Mapping, mentions: re.Pattern[str], coordinates: set[str]
+) -> tuple[Mapping, list[Diagnostic]]:
+    """The problem with parameters that are formulas of coordinates as definitions; one mistake."""
+    sections = {key.label: node for key, node in root.entries}
+    parameters, definitions = sections.get("parameters"), sections.get("definitions")
+    found = []
+    for key, node in getattr(parameters, "entries", ()):
+        inner = {each.label: value for each, value in getattr(node, "entries", ())}
+        value = inner.get("value", node)
+        text = value.value if isinstance(value, Scalar) and key.label.isidentifier() else ""
+        is_formula = mentions.search(text) and re.search(r"[-+*/^(']", text)
+        if is_formula and key.label not in coordinates and formula_or_none(text) is not None:
+            found.append((key, value))
+    given = definitions.entries if isinstance(definitions, Mapping) else []
+    if not (found and isinstance(parameters, Mapping)) or (definitions is not None and not given):
+        return root, []
+    keys = [key for key, _ in found]
+    named = ", ".join(f"{key.label}: {value.value}" for key, value in found)
+    listed = f"{', '.join(key.label for key in keys)} {'are' if keys[1:] else 'is'}"
+    message = f"{listed} no parameter{'s' * bool(keys[1:])}: a coordinate changes with time"
+    uses_given = {*re.findall(r"\w+", named)} & {key.label for key, _ in given}
+    hint = f"{'end' if uses_given else 'begin'} them with {named}" if given else f"{{{named}}}"
+    hint = f"formulas stand under definitions: {hint}"
+    rest = replace(parameters, entries=[each for each in parameters.entries if each[0] not in keys])
+    others = [each for each in root.entries if each[1] not in (parameters, definitions)]
+    key = next(key for key, node in root.entries if node is parameters)
+    formulas = replace(parameters, entries=[*given, *found] if uses_given else [*found, *given])
+    entries = [*others, (key, rest), (replace(key, value="definitions"), formulas)]
+    return replace(root, entries=entries), [Diagnostic(message, keys[0].span, hint)]
 
 
 def names_in(node: DocumentNode | None) -> list[str]:

@@ -79,3 +79,38 @@ def test_a_multiplier_with_a_sign_is_that_of_the_exchanged_equation():
     meant = "{equation: R = r, multiplier: N, holds_while: N >= 0}"
     assert hints(f"{begin}{given}}}\n") == [f"write {meant}"]
     assert hints(f"{begin}{meant}}}\n") == []
+
+
+@pytest.mark.parametrize(
+    ("second", "meant"),
+    [
+        ("  m: 1\n  k: 2\n", "leave out the first one, lines 2 to 3: "),
+        ("  m: 1\n", "leave out this one, lines 4 to 5: "),
+        ("  k: 2\n", "leave out one of them"),
+        ("  m: 2\n  k: 2\n", "leave out one of them"),
+    ],
+)
+def test_a_section_given_twice_hides_no_name_and_is_one_mistake(second, meant):
+    told = found(
+        f"coordinates: [x]\nparameters:\n  m: 1\nparameters:\n{second}"
+        f"T: m*x'^2/2\nV: {'k' if 'k' in second else 'm'}*x^2/2\n"
+    )
+    assert [each.message for each in told] == ["the key 'parameters' is given twice"]
+    assert told[0].hint.startswith(meant)
+
+
+@pytest.mark.parametrize(
+    ("formulas", "definitions", "meant"),
+    [
+        ("X: x + m, Y: x*m", "", "{X: x + m, Y: x*m}"),
+        ("X: x' + m", "{Y: X*m}", "begin them with X: x' + m"),
+        ("X: {value: Y + x}", "{Y: x*m}", "end them with X: Y + x"),
+    ],
+)
+def test_formulas_of_coordinates_among_the_parameters_are_one_mistake(formulas, definitions, meant):
+    defined = f"definitions: {definitions}\n" * bool(definitions)
+    told = hints(
+        f"coordinates: [x]\nparameters: {{m: 1, {formulas}}}\n{defined}"
+        "T: m*X'^2/2\nV: m*Y^2/2\n".replace("X'", "x'" if "x'" in formulas else "X'")
+    )
+    assert told == [f"formulas stand under definitions: {meant}"]
