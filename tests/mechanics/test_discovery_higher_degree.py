@@ -148,6 +148,17 @@ def test_the_lattice_of_d3_is_integrable(V):
     assert min(digits_of(derivation).values()) > 20
 
 
+@pytest.mark.parametrize("V", [
+    "1/sinh(x - y)^2 + 1/sinh(y - z)^2 + 1/sinh(z - x)^2",
+    "1/sinh(x - y)^2 - 1/cosh(y - z)^2 - 1/cosh(z - x)^2",
+])  # fmt: skip
+def test_hyperbolic_inverse_squares_have_their_integral_of_third_degree(V):
+    """Calogero and Sutherland; two kinds: Olshanetsky, Perelomov, Phys. Rep. 71 (1981) 313."""
+    found = derive(problem(f"{T3} - k*({V})", "[x, y, z]", "m k")).discovery
+    assert not found.stopped
+    assert (summary(found).in_involution, summary(found).integrable) == (3, True)
+
+
 @pytest.mark.long
 def test_three_integrals_of_which_two_commute_leave_one_of_fourth_degree():
     """Calogero's D3: Olshanetsky, Perelomov, Phys. Rep. 71 (1981) 313: degrees 2, 3 and 4.

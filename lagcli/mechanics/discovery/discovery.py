@@ -340,7 +340,7 @@ class Discovery(Setting):
     def _in_involution(self) -> int:
         """How many functions of the charges without the time commute."""
         charges = [c.charge for c in self.fixed_charges]
-        brackets = ChargeBrackets(charges, self.dynamics, self.allowed)
+        brackets = ChargeBrackets(charges, self.dynamics, Allowance())
         with suppress(NoState):
             found = brackets.functions_in_involution(range(len(charges)))
             return brackets.in_involution(range(len(charges))) if found is None else found

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, combinations_with_replacement
 
 import sympy
-from sympy import Expr
+from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, is_zero, simplify
 from lagcli.mechanics.discovery.limits import Allowance
@@ -126,8 +126,9 @@ def _turns(charge: NoetherCharge) -> set[Expr]:
 def integral_of(noether: Noether, eta: Vector, whole: Expr, gauge: Expr) -> NoetherCharge | None:
     """Q where dQ/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) identically: then 0 on the motion."""
     left_sides = noether.dynamics.lagrange.left_sides
-    left = noether.system.total_derivative(whole) - dot(eta, left_sides)
-    if is_zero(left) is not True:
+    system = noether.system
+    left = system.total_derivative(whole) - dot(eta, left_sides)
+    if not _vanishes(left, {system.t, *system.q, *system.parameters}):
         return None
     return NoetherCharge(
         "",
@@ -140,3 +141,16 @@ def integral_of(noether: Noether, eta: Vector, whole: Expr, gauge: Expr) -> Noet
         verified="exact",
         broken_by="",
     )
+
+
+def _vanishes(formula: Expr, still: set[Symbol]) -> bool:
+    """Whether it is 0: each coefficient of the velocities and accelerations, or else the whole.
+
+    Of sinh(x - y), sinh(y - z), ... a coefficient is a short fraction in exponentials.
+    """
+    parts: dict[Expr, Expr] = {}
+    for term in sympy.Add.make_args(sympy.expand_mul(formula)):
+        moving = [f for f in sympy.Mul.make_args(term) if f.free_symbols - still]
+        rate = sympy.Mul(*moving)
+        parts[rate] = parts.get(rate, sympy.S.Zero) + term / rate
+    return all(is_zero(c) for c in parts.values()) or is_zero(formula) is True
