@@ -395,6 +395,18 @@ def test_an_inverse_tangent_solves_a_mass_that_grows_as_the_square_of_time(L):
 
 
 @pytest.mark.long
+@pytest.mark.parametrize("V", ["0", "k*(x^2 + y^2 + z^2)/2"])
+def test_space_in_a_turning_frame_keeps_its_twelve(V):
+    """Niederer, Helv. Phys. Acta 45 (1972) 802; 46 (1973) 191: sch(3) of both."""
+    L = f"((x' - c*y)^2 + (y' + c*x)^2 + z'^2)/2 - {V}"
+    derivation = derive(problem(L, "[x, y, z]", "k c"))
+    found = summary(derivation.discovery)
+    assert (found.dimension, found.independent, found.integrable) == (12, 6, True)
+    assert found.name.startswith("Schrödinger sch(3)")
+    assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.long
 @pytest.mark.parametrize(
     "V", ["k*x*y", "k*(y^2 - x^2)/2", "(c*y^2 - k*x^2)/2", "k*(x^2 - y^2 + 2*x*y)"]
 )

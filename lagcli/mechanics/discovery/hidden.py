@@ -167,7 +167,10 @@ class QuadraticIntegrals:
         terms = dict.fromkeys(
             t for row in field for s in row for t in bare_terms(simplify(s), self.equations.q)
         )
-        monomials = [] if self.curved else [*self.X, *products_of_two(self.X)]
+        pairs = products_of_two(self.X)
+        monomials = [] if self.curved else [*self.X, *pairs]
+        if [*terms] == [sympy.S.One] and monomials:  # K^ab A_b of a uniform field, A = B x/2
+            monomials += dict.fromkeys(x * pair for x in self.X for pair in pairs)
         made = dict.fromkeys(t * m for t in terms for m in (sympy.S.One, *monomials))
         return list(made) if len(made) <= _MOST_OF_FIELD else []
 

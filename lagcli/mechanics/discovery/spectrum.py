@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import sympy
 from sympy import Expr, Symbol
@@ -106,7 +107,7 @@ def _factors(determinant: Expr, lam: Symbol) -> list[tuple[sympy.Poly, int]]:
     return [(factor.as_poly(lam), multiplicity) for factor, multiplicity in factors]
 
 
-def differences(found: Sequence[Exponent], most: int = 8) -> list[Exponent]:
+def differences(found: Sequence[Exponent], most: int = 9) -> list[Exponent]:
     """Of two exponents, one of which may be 0, with either sign: at most this number.
 
     Those of two that one equation has come first, as twice the frequency of two conjugate ones.
@@ -125,12 +126,10 @@ def differences(found: Sequence[Exponent], most: int = 8) -> list[Exponent]:
     for each in found:  # as they stand, for two forms of one function would be two functions
         for rate in (each.growth, -each.growth):
             _keep(result, Exponent(rate, each.frequency))
-    for i, one in enumerate(found):
-        for other in found[:i]:
-            add(one.growth - other.growth, one.frequency - other.frequency)
-            add(one.growth - other.growth, one.frequency + other.frequency)
-            if len(result) >= most:
-                return result[:most]
+    pairs = list(combinations(found, 2))
+    for sign in (-1, 1):  # differences first: a turning frame has its own frequency among them
+        for other, one in pairs if len(result) < most else ():
+            add(one.growth - other.growth, one.frequency + sign * other.frequency)
     return result[:most]
 
 
