@@ -159,33 +159,6 @@ def test_hyperbolic_inverse_squares_have_their_integral_of_third_degree(V):
     assert (summary(found).in_involution, summary(found).integrable) == (3, True)
 
 
-@pytest.mark.long
-def test_three_integrals_of_which_two_commute_leave_one_of_fourth_degree():
-    """Calogero's D3: Olshanetsky, Perelomov, Phys. Rep. 71 (1981) 313: degrees 2, 3 and 4.
-
-    The square of L that the inverse squares leave commutes with the energy alone.
-    """
-    V = "1/(x - y)^2 + 1/(y - z)^2 + 1/(z - x)^2"
-    V += f" + {V.replace('-', '+')}"
-    derivation = derive(problem(f"{T3} - k*({V})", "[x, y, z]", "m k"))
-    found = summary(derivation.discovery)
-    assert (found.in_involution, found.integrable) == (3, True)
-    system = derivation.system
-    place = dict(zip(system.q, map(sympy.Integer, (2, -3, 7)), strict=True))
-    numbers = {p: 2 if str(p) == "m" else 3 for p in system.parameters}
-    L, *charges = (
-        e.xreplace(numbers)
-        for e in (system.L, *(c.charge for c in derivation.discovery.fixed_charges))
-    )
-    degrees = {c: sympy.Poly(c.xreplace(place), *system.qdot).total_degree() for c in charges}
-    [charge] = [c for c, degree in degrees.items() if degree == 4]
-    rate = sum(
-        charge.diff(x) * v + charge.diff(v) * L.diff(x) / 2
-        for x, v in zip(system.q, system.qdot, strict=True)
-    )
-    assert sympy.expand(rate.subs(place)) == 0
-
-
 @pytest.mark.parametrize("masses", [("m", "m", "m"), ("m", "3*m", "m")])
 @pytest.mark.parametrize("spring", ["0", "k"])
 def test_what_is_integrable_has_its_last_integral_of_third_degree(spring, masses):
