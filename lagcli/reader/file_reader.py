@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from dataclasses import dataclass, field
 from itertools import islice
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
@@ -83,6 +84,7 @@ class FileReader:
     diagnostics: list[Diagnostic] = field(default_factory=list)
     #: the keys of the problem that the file has
     sections: frozenset[str] = frozenset()
+    text: str = ""
 
     def error(
         self, message: str, span: Span, hint: str = "", related: tuple[tuple[Span, str], ...] = ()
@@ -462,6 +464,8 @@ class FileReader:
             related = ((self.scope.spans[name], f"first declared here, as a {taken}"),)
             hint = "leave out one of them" if taken == kind else "give one of them another name"
             message = f"'{name}' is declared twice"
+            if taken == "coordinate" and kind == "parameter" and not self._has_rate(name):
+                hint = f"leave it out of the coordinates: {name}' occurs nowhere"
             if kind in ("multiplier", "contact force"):
                 message = f"'{name}', its {kind}, is declared twice"
                 hint += ", this one by the key multiplier"
@@ -470,3 +474,13 @@ class FileReader:
         self.scope.kinds[name] = kind
         self.scope.spans[name] = span
         return True
+
+    def _has_rate(self, coordinate: str) -> bool:
+        """Whether the file may contain the velocity or the momentum of a coordinate."""
+        x = re.escape(unicodedata.normalize("NFD", coordinate))
+        form = (
+            rf"(?<!\w)(?:[pvd]_?|d?dot_?|\\d?dot\W*|(?:Derivative|diff|D)\(){x}(?!\w)"
+            rf"|(?<!\w){x}(?:['’′`\u0307\u0308]|\(t|_?(?:dd?|d?dot)(?!\w))"
+        )
+        implied = self.sections & {"points", "definitions", "H"}
+        return bool(implied or re.search(form, unicodedata.normalize("NFD", self.text)))

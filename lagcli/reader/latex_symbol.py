@@ -7,8 +7,13 @@ letters, digits, known macros such as `\theta` and `\dot`, indices, balanced bra
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
 from lagcli.reader.regex import regex
+
+if TYPE_CHECKING:
+    from lagcli.reader.file_reader import FileReader
+    from lagcli.reader.nodes import Scalar
 
 _LETTERS = """alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa
 lambda mu nu xi pi varpi rho varrho sigma varsigma tau upsilon phi varphi chi psi omega
@@ -49,3 +54,14 @@ def symbol_mistake(symbol: str) -> str:
     if re.search(r"_[^_^{}]_|\^[^_^{}]\^|''*\^", symbol):
         return "an index stands twice"
     return ""
+
+
+def check_symbol(file: FileReader, text: Scalar) -> None:
+    """Note what is wrong with a symbol."""
+    wrong = symbol_mistake(text.value)
+    if wrong:
+        escaped = text.style == '"' and not text.value.isprintable()
+        hint = "in double quotes a backslash is an escape: use single quotes" if escaped else ""
+        bare = re.sub(r"^\$+(.*?)\$+$|^\\\((.*)\\\)$", r"\1\2", text.value)
+        hint = f"write {bare}" if bare != text.value and not symbol_mistake(bare) else hint
+        file.error(f"a symbol must be simple LaTeX: {wrong}", text.span, hint)

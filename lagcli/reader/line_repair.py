@@ -15,6 +15,7 @@ from typing import NamedTuple
 from lagcli.diagnostics import Diagnostic, Source, Span
 from lagcli.reader.habits import KEYS, SIGNS, colon_advice, habits
 from lagcli.reader.regex import regex
+from lagcli.reader.text import also_in_lines
 from lagcli.reader.yaml_errors import CONTINUES, TEXTS, continued
 from lagcli.record import replace
 
@@ -280,14 +281,11 @@ def _continued(text: str, mistake: Diagnostic) -> _Repair | None:
     more = range(mistake.span.line, last)
     for k in (mistake.span.line - 1, *more):
         lines[k] = f"  {lines[k]}"
-    return _Repair(replace(mistake, hint=mistake.hint + _also(more)), "\n".join(lines), str)
-
-
-def _also(places: Iterable[int]) -> str:
-    """`, also in lines 5 and 6` for the lines at 4 and 5, counted from 0."""
-    lines = [f"{k + 1}" for k in places]
-    listed = " and ".join(filter(None, [", ".join(lines[:-1]), *lines[-1:]]))
-    return f", also in line{'s' * bool(lines[1:])} {listed}" if lines else ""
+    return _Repair(
+        replace(mistake, hint=mistake.hint + also_in_lines(k + 1 for k in more)),
+        "\n".join(lines),
+        str,
+    )
 
 
 def _without_tabs(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
@@ -302,7 +300,9 @@ def _without_tabs(text: str, mistake: Diagnostic, read: Reading) -> _Repair | No
     if is_mixed and not read(Source("", whole))[0]:
         return None
     lines = [k for k, line in enumerate(text.split("\n")) if re.match(r" *\t\s*\S", line)]
-    return _Repair(replace(mistake, hint=mistake.hint + _also(lines[1:])), whole, str)
+    return _Repair(
+        replace(mistake, hint=mistake.hint + also_in_lines(k + 1 for k in lines[1:])), whole, str
+    )
 
 
 def _at(mistake: Diagnostic, moved: int) -> Diagnostic:

@@ -16,13 +16,13 @@ from lagcli.problem_data import Problem
 from lagcli.reader.edits import NO_NAME, PROPOSED, Edit, edits_of, is_node
 from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.regex import regex
-from lagcli.reader.text import Mistake, SourceText
+from lagcli.reader.text import Mistake, SourceText, also_in_lines
 from lagcli.reader.undeclared import COORDINATE, UNDECLARED
 from lagcli.record import replace
 
 #: Longer files are not tried; characters that are read for the hints of one file, and edits.
 _LONGEST, _READ, _MOST = 20_000, 100_000, 32
-_ENTRY = regex(r"\w+'*: ")
+_ENTRY = regex(r"\{?\w+'*: ")
 #: Hints inside of hints.
 _DEEPEST = 4
 
@@ -127,7 +127,13 @@ class _Mending:
                 for edit in edits[1:] if NO_NAME.match(mistake.message)
             )  # fmt: skip
             span = self.span_in_file(state, place)
-            here = replace(mistake, span=span, related=mistake.related + also)
+            hint = mistake.hint
+            if edits[1:] and hint.startswith("did you mean '"):  # the name, where it stands too
+                name = "'" + text[slice(*place)].rstrip("'’′") + "'"
+                alike = (at for one, at in state.errors if one.hint == hint and name in one.message)
+                lines = {self.span_in_file(state, at).line for at in alike} - {span.line}
+                hint += also_in_lines(sorted(lines)).removeprefix(",")
+            here = replace(mistake, span=span, hint=hint, related=mistake.related + also)
             self.followed.append(_Followed(here, edits[0].written.lstrip("\n"), begin))
         return after
 

@@ -6,11 +6,23 @@ import re
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagcli.reader.habits import meanings, number_and_unit, unit_at_end, unit_behind
+from lagcli.reader.habits import (
+    habits,
+    is_constant,
+    is_unit,
+    meanings,
+    number_and_unit,
+    spoken_unit,
+    unit_at_end,
+    unit_behind,
+)
+from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.regex import regex
 
 if TYPE_CHECKING:
     from collections.abc import Container
+
+    from lagcli.reader.file_reader import FileReader
 
 _COUNT = regex(r"([\d.]+(?:[eE][-+]?\d+)?)\s*(?![eE]\d+$)([^\W\d]\w*)")
 _ANGLE = regex("deg(/.*|)|rpm")
@@ -171,6 +183,22 @@ def in_radians(number: str, unit: str) -> str:
     named, half = ("degrees", 180) if found[1] == "deg" else ("gon", 200)
     value = f", value: {number}*pi/{half}" if number else ""
     return f"{half} {named} are pi: write unit: rad{found[2]}{value}"
+
+
+def check_unit(file: FileReader, text: Scalar, value: DocumentNode | None) -> None:
+    """Note what is wrong with a unit; in radians with its value for an angle in degrees."""
+    from lagcli.units import UnitMistake, read_unit
+
+    try:
+        read_unit(text.value)
+    except UnitMistake as wrong:
+        spoken = spoken_unit(text.value)
+        hint = f"write {spoken}" if is_unit(spoken) else wrong.hint
+        hint = "write 1" if text.value.casefold() in habits()["nothing"] else hint
+        number = value.value if isinstance(value, Scalar) else ""
+        if value is None or is_constant("x", number):
+            hint = in_radians(number, spoken) or hint
+        file.error(wrong.message, text.excerpt().span(wrong.start, wrong.end), hint)
 
 
 def run_mistake(text: str, option: str) -> tuple[str, str] | None:

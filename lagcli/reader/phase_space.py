@@ -125,7 +125,14 @@ def read_brackets(
                 continue
             items = file.items(value, what, hint)
             if isinstance(value, Sequence) and len(items) != 2:
-                file.error(f"{what} has {len(items)} functions, not 2", value.span, hint)
+                named = [source_of(item) for item in items]
+                other = next(x for x in (HAMILTONIAN, "p_x") if x not in named[:1])
+                pair = [named[0], *named[1:2]] if named[1:] else [*named, other]
+                as_ = "write" if named[2:] == ["t"] else "a bracket has two functions, as in"
+                fitting = f"{as_} [{', '.join(pair)}]" if named else hint
+                plural = "s" * (len(items) != 1)
+                message = f"{what} has {len(items)} function{plural}, not 2"
+                file.error(message, value.span, fitting)
             read = [file.expression(item, what, BRACKETED) for item in items]
             if len(read) == 2:
                 left, right = read

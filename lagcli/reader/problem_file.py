@@ -180,16 +180,19 @@ def _composed(
 ) -> tuple[DocumentNode, Problem | None, list[Diagnostic]]:
     """The document of a text, the problem that it writes, and all of its mistakes."""
     root, diagnostics = compose(SourceText.of(source))
-    file = FileReader(diagnostics=diagnostics)
+    file = FileReader(diagnostics=diagnostics, text=source.text)
     problem = _read(file, source, root)
     found = without_wrong_texts(file.diagnostics)
     file.diagnostics[:] = found if _X.search(source.text) else _in_own_names(found, file.scope.free)
-    if problem is not None and not file.diagnostics:
+    drawn = [v.span for k, v in getattr(root, "entries", ()) if k.label == "picture"]
+    others = [each for each in file.diagnostics
+              if not any(one.line <= each.span.line <= one.end_line for one in drawn)]  # fmt: skip
+    has_errors = any(each.is_error for each in file.diagnostics)
+    if problem is not None and not others:  # what is drawn has no dimension
         file.diagnostics += dimension_mistakes(
             problem, (lambda text: _composed(text, alone=False)[1:]) if alone else None
-        ) or slips(problem)
-    elif any(each.is_error for each in file.diagnostics):
-        problem = None
+        ) or (slips(problem) if not has_errors else [])
+    problem = None if has_errors else problem
     return root, problem, file.diagnostics
 
 

@@ -11,11 +11,8 @@ from lagcli.problem_data import Assumption, Coordinate, Parameter
 from lagcli.reader.constants import value_cycle
 from lagcli.reader.habits import (
     advised,
-    habits,
     is_constant,
-    is_unit,
     name_meant,
-    spoken_unit,
     unit_behind,
 )
 from lagcli.reader.headings import without_headings
@@ -23,7 +20,7 @@ from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, named_formulas, source_of, swept
 from lagcli.reader.names import NO_VALUE
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
-from lagcli.reader.number_units import in_digits, in_radians, in_unit
+from lagcli.reader.number_units import check_unit, in_digits, in_unit
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.sign_meant import ASSUMPTIONS, NEUTRAL, sign_meant
@@ -444,10 +441,12 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
     said: _Said = {}
     if "unit" in attributes and (text := file.scalar(attributes["unit"], "'unit'")):
         said["unit"], said["unit_span"] = text.value, text.span
-        _check_unit(file, text, attributes.get("value"))
+        check_unit(file, text, attributes.get("value"))
     if "symbol" in attributes and (text := file.scalar(attributes["symbol"], "'symbol'")):
         said["symbol"] = text.value
-        _check_symbol(file, text)
+        from lagcli.reader.latex_symbol import check_symbol
+
+        check_symbol(file, text)
     if "description" in attributes:
         text = file.scalar(attributes["description"], "'description'")
         if text is not None:
@@ -471,33 +470,6 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
             hint = hint or f"write {''.join(meant) or 'one of ' + ', '.join(ASSUMPTIONS)}"
             file.error(f"unknown assumption '{text.value}'", text.span, hint)
     return said
-
-
-def _check_unit(file: FileReader, text: Scalar, value: DocumentNode | None) -> None:
-    from lagcli.units import UnitMistake, read_unit
-
-    try:
-        read_unit(text.value)
-    except UnitMistake as wrong:
-        spoken = spoken_unit(text.value)
-        hint = f"write {spoken}" if is_unit(spoken) else wrong.hint
-        hint = "write 1" if text.value.casefold() in habits()["nothing"] else hint
-        number = value.value if isinstance(value, Scalar) else ""
-        if value is None or is_constant("x", number):
-            hint = in_radians(number, spoken) or hint
-        file.error(wrong.message, text.excerpt().span(wrong.start, wrong.end), hint)
-
-
-def _check_symbol(file: FileReader, text: Scalar) -> None:
-    from lagcli.reader.latex_symbol import symbol_mistake
-
-    wrong = symbol_mistake(text.value)
-    if wrong:
-        escaped = text.style == '"' and not text.value.isprintable()
-        hint = "in double quotes a backslash is an escape: use single quotes" if escaped else ""
-        bare = re.sub(r"^\$+(.*?)\$+$|^\\\((.*)\\\)$", r"\1\2", text.value)
-        hint = f"write {bare}" if bare != text.value and not symbol_mistake(bare) else hint
-        file.error(f"a symbol must be simple LaTeX: {wrong}", text.span, hint)
 
 
 def _check_cycles(file: FileReader, parameters: list[Parameter]) -> None:

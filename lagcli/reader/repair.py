@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from lagcli.diagnostics import Diagnostic, Source
 from lagcli.expression import Equation, Expression, Sum
 from lagcli.problem_data import Inequality
+from lagcli.reader.clauses import of_clause
 from lagcli.reader.expressions import read_equation, read_expression, sides_of
 from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.foreign.translation import translated
@@ -47,7 +48,7 @@ _MULTIPLIER = regex(
     r"(?:lambda|lam|λ)\w*\)?\s*$"
 )
 #: `! a comment` and `// a comment` behind a formula.
-_COMMENT = regex(r"(?<=[\w)'’])\s+(?:!|//|/\*)\s*[^\W\d].*$")
+_COMMENT = regex(r"(?<=[\w)'’])\s+(?:!|//(?!\s*[A-Z]\w+\s*$)|/\*)\s*[^\W\d].*$")
 DECLARE = "and declare {} under 'parameters'"
 #: A word for a constant.
 _CONSTANT = regex(
@@ -115,6 +116,8 @@ def with_whole(
         return [replace(found[0], hint=hint)]
     if what == "T" and (still := unmoved(found, node, what, scope)) != found:
         return still
+    if read is not read_equation and (clause := of_clause(node, scope)):
+        return [clause]
     if matrices := _of_matrices(node, what, scope):
         return [matrices]
     if what == "'holds_while'" and (parts := comparisons_in(node.value))[1:]:

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from lagcli.diagnostics import Diagnostic, Source, Span
 from lagcli.reader.limits import FILE_BYTES
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
@@ -48,6 +51,13 @@ class SourceText(NamedTuple):
     def span(self, start: int, end: int) -> Span:
         """The stretch from offset `start` up to, not including, `end`."""
         return Span(*self.position(start), *self.position(end))
+
+
+def also_in_lines(numbers: Iterable[int]) -> str:
+    """`, also in lines 5 and 6`; nothing for no line."""
+    lines = [*map(str, numbers)]
+    listed = " and ".join(filter(None, [", ".join(lines[:-1]), *lines[-1:]]))
+    return f", also in line{'s' * bool(lines[1:])} {listed}" if lines else ""
 
 
 def decode(name: str, data: bytes) -> tuple[Source, list[Diagnostic]]:

@@ -149,7 +149,7 @@ HABITS = [
     (text(T="p^2/(2*m)"), "write m*x'^2/2, or give H: p_x^2/(2*m) + V"),
     (text(T="p_x^2/(2*m)"), "write m*x'^2/2, or give H: p_x^2/(2*m) + V"),
     (text(coordinates="[x, x]"), "leave out one of them"),
-    (text(coordinates="[x, m]", T="m*x'^2"), "another name"),
+    (text(coordinates="[x, m]", T="m*x'^2"), "leave it out of the coordinates"),
     (text(coordinates="(x, y)"), "write [x, y]"),
     (text(coordinates="x and y"), "write [x, y]"),
     (text(coordinates="x(t), y(t)"), "write [x, y]"),

@@ -19,7 +19,7 @@ def test_an_energy_too_many_hides_no_unknown_name(wrong):
 def test_an_unknown_name_is_shown_where_it_stands_first(other):
     told = found(f"coordinates: [x]\nparameters: [m, k]\nH: px^2/(2*m) + k*x^2\n{other}\n")
     assert told[0].span.line == 3
-    assert told[0].hint == "did you mean 'p_x'?"
+    assert told[0].hint.startswith("did you mean 'p_x'?")
 
 
 def hints(written):
@@ -114,3 +114,71 @@ def test_formulas_of_coordinates_among_the_parameters_are_one_mistake(formulas, 
         "T: m*X'^2/2\nV: m*Y^2/2\n".replace("X'", "x'" if "x'" in formulas else "X'")
     )
     assert told == [f"formulas stand under definitions: {meant}"]
+
+
+@pytest.mark.parametrize(
+    ("clause", "meant"),
+    [
+        ("with h = x^2", "begin a line with definitions: {h: x^2}"),
+        (
+            ", where h = x^2 and g = 9.81",
+            "begin a line with definitions: {h: x^2}, and put g: 9.81",
+        ),
+        ("mit h = 3*k*x, u = x/k", "begin a line with definitions: {h: 3*k*x, u: x/k}"),
+        ("(wobei h = 2)", "put h: 2 under parameters"),
+    ],
+)
+def test_names_that_a_formula_explains_are_told_once(clause, meant):
+    begin = "coordinates: [x]\nparameters: {k: 2}\nT: x'^2/2\n"
+    [hint] = hints(f"{begin}V: k*h {clause}\nforces: {{x: -h}}\n")
+    assert hint.startswith(meant)
+    assert hint.endswith(f"leave out '{clause}'")
+
+
+@pytest.mark.parametrize(
+    ("given", "meant"),
+    [("[p_x, H, t]", "write [p_x, H]"), ("[x]", "a bracket has two functions, as in [x, H]"),
+     ("[H]", "a bracket has two functions, as in [H, p_x]")],
+)  # fmt: skip
+def test_a_bracket_keeps_its_own_functions(given, meant):
+    told = hints(f"coordinates: [x]\nH: p_x^2/2\nbrackets: {{a: {given}}}\n")
+    assert told == [meant]
+
+
+@pytest.mark.parametrize(
+    ("kinetic", "meant"),
+    [
+        ("T: x'^2/2", "leave it out of the coordinates: r' occurs nowhere"),
+        ("T: x'^2/2 + r'^2/2", "give one of them another name"),
+        ("T: x'^2/2 + r\u0307^2/2", "give one of them another name"),
+        ("points: {P: {position: [x, r], mass: 1}}", "give one of them another name"),
+    ],
+)
+def test_a_parameter_among_the_coordinates_is_left_out_where_it_has_no_rate(kinetic, meant):
+    told = hints(f"coordinates: [x, r]\nparameters: {{r: 2}}\n{kinetic}\nV: x^2/2\n")
+    assert meant in told
+
+
+def test_a_renamed_name_is_told_with_all_of_its_lines():
+    told = hints(
+        "coordinates: [beta]\nT: theta'^2/2\nV: cos(theta)\n"
+        "forces: {beta: -beta'}\ninitial: {theta: 1}\n"
+    )
+    assert told == ["did you mean 'beta'? also in lines 3 and 5"]
+
+
+def test_a_picture_hides_no_unit():
+    told = found(
+        "coordinates: {x: {unit: m}}\nparameters: {l: {unit: cm, value: 30}}\nT: x'^2/2\n"
+        "initial: {x: l}\npicture: {springs: [[O, P]]}\n"
+    )
+    assert [each.span.line for each in told if each.is_error] == [2, 5]
+
+
+def test_a_vector_hides_no_other_one():
+    told = found(
+        "coordinates: [x, y]\ndefinitions:\n  A: [-y, x]\n  v: [x', y']\nL: v^2/2 + dot(v, A)\n"
+    )
+    assert told[0].hint.endswith(
+        "in line 4 a vector is written by its components: v_x: x', v_y: y'"
+    )

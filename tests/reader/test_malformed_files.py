@@ -48,7 +48,7 @@ FILES = [
     (after("observables: {p_x: x}\n"), "9:15", "the momentum of the coordinate 'x'"),
     (after("observables: {x: y}\n"), "9:15", "declared twice"),
     (after("observables: {A: x}\nV: A\n"), "10:4", "'A' cannot stand in V"),
-    (after("brackets: {a: [x]}\n"), "9:15", "has 1 functions, not 2"),
+    (after("brackets: {a: [x]}\n"), "9:15", "has 1 function, not 2"),
     (after("brackets: {a: [x, shft]}\n"), "9:19", "did you mean 'shift'"),
     (after("brackets: {a: x}\n"), "9:15", "must be a list"),
     (after("canonical_transformations: {a: {Q: x, p_Q: p_x}}\n"), "9:29", "has 1 new coordinate,"),

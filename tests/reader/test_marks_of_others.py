@@ -112,7 +112,7 @@ def test_a_list_in_parentheses_is_one_mistake(shape):
 
 def test_a_name_that_is_misspelled_alike_is_told_once():
     written = text(coordinates="[θ]", T="m*theta'^2", V="theta + theta^2", initial="{θ: 1}")
-    assert messages(written) == ["unknown name 'theta' in T; did you mean 'θ'?"]
+    assert messages(written) == ["unknown name 'theta' in T; did you mean 'θ'? also in line 4"]
 
 
 @pytest.mark.parametrize("mark", ["//", ";", "%", "<!--", "--", "/*", '"""'])

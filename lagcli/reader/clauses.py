@@ -1,0 +1,57 @@
+"""Names that a formula explains by itself, as in `m*g*h with h = l - l*cos(phi)`."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from lagcli.diagnostics import Diagnostic
+from lagcli.reader.expressions import formula_or_none
+from lagcli.reader.habits import is_constant
+from lagcli.reader.misshapen import pieces
+from lagcli.reader.regex import regex
+from lagcli.reader.scope import Definition, name_mistake
+
+if TYPE_CHECKING:
+    from lagcli.reader.nodes import Scalar
+    from lagcli.reader.scope import Scope
+
+_WORD = r"(?:with|where|mit|wobei|avec|où|con|donde)\s*:?\s+"
+_CLAUSE = regex(
+    rf"(?P<formula>[^=]*?[^=\s])(?:\s*[,;]\s*(?:{_WORD})?|\s+\(?{_WORD})"
+    r"(?P<given>[^\W\d]\w*\s*=[^=<>].*?)\)?",
+    re.DOTALL,
+)
+_AND = regex(r"\s+(?:and|und|et|y|e)\s+(?=[^\W\d]\w*\s*=)")
+
+
+def of_clause(node: Scalar, scope: Scope) -> Diagnostic | None:
+    """What is done with such a formula; None for one of which a part is not read."""
+    found = _CLAUSE.fullmatch(node.value.strip())
+    if found is None:
+        return None
+    parts = (each.partition("=") for each in pieces(_AND.sub(", ", found["given"]), ",;"))
+    named = {name.strip(): value.strip() for name, _, value in parts}
+    formulas = (found["formula"].rstrip("("), *named.values())
+    is_taken = any(name_mistake(x) or scope.kinds.get(x) == "coordinate" for x in named)
+    if is_taken or any(formula_or_none(each) is None for each in formulas):
+        return None
+    sections: dict[str, list[str]] = {}
+    for name, value in named.items():
+        if name not in scope.kinds:
+            scope.kinds[name] = "definition"  # where other formulas use it
+            scope.definitions[name] = Definition(place=-1, order=0)
+            section = "parameters" if is_constant(name, value) else "definitions"
+            sections.setdefault(section, []).append(f"{name}: {value}")
+    if not sections:
+        return None
+    text = node.text.source.text
+    hints = [
+        f"put {', '.join(listed)} under {section}"
+        if re.search(rf"^{section}:", text, re.MULTILINE)
+        else f"begin a line with {section}: {{{', '.join(listed)}}}"
+        for section, listed in sections.items()
+    ]
+    gone = node.value.strip()[found.end("formula") :].strip()
+    hint = ", and ".join([*hints, f"leave out '{gone}'"])
+    return Diagnostic("a formula does not explain its names", node.span, hint)
