@@ -6,6 +6,7 @@ import re
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from lagcli.diagnostics import Diagnostic
 from lagcli.reader.habits import (
     habits,
     is_constant,
@@ -21,8 +22,6 @@ from lagcli.reader.regex import regex
 
 if TYPE_CHECKING:
     from collections.abc import Container
-
-    from lagcli.reader.file_reader import FileReader
 
 _COUNT = regex(r"([\d.]+(?:[eE][-+]?\d+)?)\s*(?![eE]\d+$)([^\W\d]\w*)")
 _ANGLE = regex("deg(/.*|)|rpm")
@@ -185,8 +184,8 @@ def in_radians(number: str, unit: str) -> str:
     return f"{half} {named} are pi: write unit: rad{found[2]}{value}"
 
 
-def check_unit(file: FileReader, text: Scalar, value: DocumentNode | None) -> None:
-    """Note what is wrong with a unit; in radians with its value for an angle in degrees."""
+def wrong_unit(text: Scalar, value: DocumentNode | None) -> Diagnostic | None:
+    """What is wrong with a unit, in radians with its value for an angle in degrees; or None."""
     from lagcli.units import UnitMistake, read_unit
 
     try:
@@ -198,7 +197,8 @@ def check_unit(file: FileReader, text: Scalar, value: DocumentNode | None) -> No
         number = value.value if isinstance(value, Scalar) else ""
         if value is None or is_constant("x", number):
             hint = in_radians(number, spoken) or hint
-        file.error(wrong.message, text.excerpt().span(wrong.start, wrong.end), hint)
+        return Diagnostic(wrong.message, text.excerpt().span(wrong.start, wrong.end), hint)
+    return None
 
 
 def run_mistake(text: str, option: str) -> tuple[str, str] | None:

@@ -20,7 +20,7 @@ from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, named_formulas, source_of, swept
 from lagcli.reader.names import NO_VALUE
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
-from lagcli.reader.number_units import check_unit, in_digits, in_unit
+from lagcli.reader.number_units import in_digits, in_unit, wrong_unit
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.sign_meant import ASSUMPTIONS, NEUTRAL, sign_meant
@@ -441,7 +441,8 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
     said: _Said = {}
     if "unit" in attributes and (text := file.scalar(attributes["unit"], "'unit'")):
         said["unit"], said["unit_span"] = text.value, text.span
-        check_unit(file, text, attributes.get("value"))
+        wrong = wrong_unit(text, attributes.get("value"))
+        file.diagnostics += [wrong] if wrong else []
     if "symbol" in attributes and (text := file.scalar(attributes["symbol"], "'symbol'")):
         said["symbol"] = text.value
         from lagcli.reader.latex_symbol import check_symbol
