@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from lagcli.diagnostics import Diagnostic
 from lagcli.reader.habits import (
     habits,
-    is_constant,
     is_unit,
     meanings,
     number_and_unit,
@@ -194,8 +193,8 @@ def wrong_unit(text: Scalar, value: DocumentNode | None) -> Diagnostic | None:
         spoken = spoken_unit(text.value)
         hint = f"write {spoken}" if is_unit(spoken) else wrong.hint
         hint = "write 1" if text.value.casefold() in habits()["nothing"] else hint
-        number = value.value if isinstance(value, Scalar) else ""
-        if value is None or is_constant("x", number):
+        number = value.value.strip() if isinstance(value, Scalar) else ""
+        if value is None or _NUMBER.fullmatch(number):
             hint = in_radians(number, spoken) or hint
         return Diagnostic(wrong.message, text.excerpt().span(wrong.start, wrong.end), hint)
     return None
