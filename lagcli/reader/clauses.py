@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.reader.expressions import formula_or_none
-from lagcli.reader.habits import is_constant
+from lagcli.reader.habits import KEYS, is_constant
 from lagcli.reader.misshapen import pieces
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import Definition, name_mistake
@@ -33,7 +33,9 @@ def of_clause(node: Scalar, scope: Scope) -> Diagnostic | None:
     parts = (each.partition("=") for each in pieces(_AND.sub(", ", found["given"]), ",;"))
     named = {name.strip(): value.strip() for name, _, value in parts}
     formulas = (found["formula"].rstrip("("), *named.values())
-    is_taken = any(name_mistake(x) or scope.kinds.get(x) == "coordinate" for x in named)
+    is_taken = any(
+        name_mistake(x) or x in KEYS or scope.kinds.get(x) == "coordinate" for x in named
+    )
     if is_taken or any(formula_or_none(each) is None for each in formulas):
         return None
     sections: dict[str, list[str]] = {}

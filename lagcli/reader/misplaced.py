@@ -7,7 +7,7 @@ import re
 from lagcli.diagnostics import Diagnostic
 from lagcli.reader.expressions import formula_or_none
 from lagcli.reader.friction_meant import friction_meant
-from lagcli.reader.habits import KEYS, MAPS, key_meant
+from lagcli.reader.habits import KEYS, MAPS, key_meant, unit_behind
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
@@ -90,7 +90,8 @@ def _with_definitions(
         inner = {each.label: value for each, value in getattr(node, "entries", ())}
         value = inner.get("value", node)
         text = value.value if isinstance(value, Scalar) and key.label.isidentifier() else ""
-        is_formula = mentions.search(text) and re.search(r"[-+*/^(']", text)
+        has_unit = unit_behind(text.replace("*", " ", 1))  # 9.81*m/s^2
+        is_formula = mentions.search(text) and re.search(r"[-+*/^(']", text) and not has_unit
         if is_formula and key.label not in coordinates and formula_or_none(text) is not None:
             found.append((key, value))
     given = definitions.entries if isinstance(definitions, Mapping) else []

@@ -49,6 +49,8 @@ _MULTIPLIER = regex(
 )
 #: `! a comment` and `// a comment` behind a formula.
 _COMMENT = regex(r"(?<=[\w)'’])\s+(?:!|//(?!\s*[A-Z]\w+\s*$)|/\*)\s*[^\W\d].*$")
+#: The marks of a line of Fortran that goes on.
+_GOES_ON = regex(r"(?<=[-+*/^(,])\s*&\s*&?\s*|\s*&\s*&?\s*(?=[-+*/^),])")
 DECLARE = "and declare {} under 'parameters'"
 #: A word for a constant.
 _CONSTANT = regex(
@@ -420,7 +422,7 @@ def _written(value: str, scope: Scope, *, equation: bool) -> list[str]:
         value = re.sub(r"(?<![^\W_])u(?![\w(])", "v", value)  # of m*u^2/2
     value = re.sub(r"&\s*=|=\s*&", "=", re.sub(r"\\\\\s*$", "", value))  # of an alignment
     value = _COMMENT.sub("", value)
-    value = value if re.search("[<>]", value) else re.sub(r"\s*&\s*", " ", value)  # of Fortran
+    value = value if re.search("[<>]", value) else _GOES_ON.sub(" ", value)
     sides = re.split("==?", value)
     if equation and len(sides) == 3 and re.fullmatch(r"\s*\w+\([\w, ]*\)\s*", sides[0]):
         return ["=".join(sides[1:])]  # f(x, y) = … = 0
