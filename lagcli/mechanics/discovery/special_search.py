@@ -52,7 +52,7 @@ _UNITS = 56_000_000  # three frequencies: 11 values take 45 million
 _FOR_PIVOTS = 0.3  # of these
 _MOST_UNKNOWNS = 150  # measured: up to 378
 _MOST_VALUES = 16  # measured: at most 5
-_MOST_PAIRS = 5
+_MOST_PAIRS = 6
 _RATIOS = (1, 2, 3)
 _MOST_OPERATIONS = 20  # measured: at most 2
 _NOT_ALL = "not all special values of the parameters were tried"
@@ -152,10 +152,10 @@ def _choices(
 ) -> Iterator[tuple[Value, ...]]:
     """One value at a time, then two, those first of which neither was found to suffice.
 
-    Beside each that was found every other parameter may be 0.
+    Beside each that was found every other parameter may be 0, or have another of the values.
     """
     yield from ((value,) for value in values[:_MOST_VALUES])
-    pairs = [*pairs, *beside(found, zeros)]
+    pairs = [*pairs, *beside(found, [*zeros, *values])]
     pairs = list({frozenset(pair): pair for pair in pairs}.values())
     pairs.sort(key=lambda pair: any(_holds(case, pair) for case in found))
     yield from pairs[:_MOST_PAIRS]
