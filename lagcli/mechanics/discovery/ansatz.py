@@ -101,12 +101,14 @@ def affine(found: Kinds) -> list[Expr]:
     one = sympy.S.One
     x = [y - found.centre.get(y, 0) for y in found.lengths]
     turned = [y / r for r in found.radii for y in x if y != r]  # r to z, in cylindrical coordinates
-    lengths = [one, *x, *(1 / r for r in found.radii), *turned, *found.exponentials]
+    lengths = [one, *x, *(1 / r for r in found.radii), *found.exponentials]
     if found.powers:
         lengths += [x[0] ** k for k in (-2, -1, 2, 3)]
     elif found.curved and len(x) <= _MOST_CURVED:
         lengths += [a * b for i, a in enumerate(x) for b in x[: i + 1]]
     by_angle = {y: _angle(y, found) for y in found.angles}
+    if _size([[*lengths, *turned], *by_angle.values()]) <= _MOST_FUNCTIONS:
+        lengths += turned
     if _size([lengths, *by_angle.values()]) <= _MOST_FUNCTIONS:
         return _products([lengths, *by_angle.values()])
     # too many: of each part of the coordinates, and the simpler ones of all
