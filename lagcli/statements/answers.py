@@ -218,7 +218,8 @@ class AlgebraSection:
     True or None; `separates` where the Hamilton-Jacobi equation shows it, not the charges, and
     `determined` where it is their number alone: as many as a state has dimensions.
     `named_where`: the name is another one where the charges are not real.  `autonomous`: how many
-    charges do not depend on t, and the name of the algebra that they make.  Where the motion
+    charges do not depend on t, and the name of the algebra that they make.  `by_functions`: so
+    many functions of the charges are in involution, not so many charges.  Where the motion
     `is_prescribed`, no symmetry was sought.
     """
 
@@ -237,6 +238,7 @@ class AlgebraSection:
     named_where: tuple[Above, ...] = ()
     is_prescribed: bool = False
     autonomous: tuple[int, str] | None = None
+    by_functions: bool = False
 
     @property
     def dimension_counts(self) -> str:

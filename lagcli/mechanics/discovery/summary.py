@@ -34,6 +34,7 @@ class Summary:
     closed: bool = False  # all brackets are combinations of the charges and of constants
     with_constants: bool = False  # constants belong to the algebra that `dimension` counts
     autonomous: tuple[int, str] | None = None  # of those without t: how many, and their algebra
+    by_functions: bool = False  # only functions of the charges are so many in involution
 
 
 def algebra_section(
@@ -67,6 +68,7 @@ def algebra_section(
         closed=found.closed,
         with_constants=found.with_constants,
         autonomous=found.autonomous,
+        by_functions=found.by_functions,
         is_prescribed=discovery.is_prescribed,
     )
 
@@ -138,6 +140,7 @@ def _free(discovery: Discovery) -> Summary:
         for k in range(points, count):
             fixed += brackets.still(given, k) if k in given else []
         involution = max(brackets.in_involution(fixed), linear or 0)
+    by_functions = involution > brackets.in_involution(fixed)
     return Summary(
         dimension,
         name,
@@ -148,6 +151,7 @@ def _free(discovery: Discovery) -> Summary:
         closed,
         structure is not None and has_constants(structure),
         alone,
+        by_functions,
     )
 
 

@@ -327,10 +327,13 @@ def _integrability(found: AlgebraSection, n: int) -> list[Part]:
         return [f"{why}: the motion is integrable by quadratures (Liouville)."]
     law = (
         "By Liouville's theorem the motion is integrable by quadratures with as many independent "
-        "constants, whose brackets with each other vanish, as degrees of freedom. Among the "
-        "functions of k independent constants, with brackets that are such functions and of rank "
-        "r, there are k − r/2 of them (Nekhoroshev; Mishchenko and Fomenko). "
+        "constants, whose brackets with each other vanish, as degrees of freedom. "
     )
+    if found.by_functions:
+        law += (
+            "Among the functions of k independent constants, with brackets that are such functions "
+            "and of rank r, there are k − r/2 of them (Nekhoroshev; Mishchenko and Fomenko). "
+        )
     here = f"Here their number is {count}, with {n} degree{'s' * (n != 1)} of freedom"
     verdict = ": it is integrable." if found.integrable else ", which does not decide it."
     return [law, here + verdict]
