@@ -603,9 +603,12 @@ def test_powers_in_the_inertia_are_dilated_and_turn_where_they_are_equal(sign):
     given = f"coordinates: {{u: {POS}, x: {{}}, y: {{}}}}\nparameters: {{p: {{}}, q: {{}}}}\n"
     derivation = derive(f"{given}L: ({sign}u'^2 + u^(2*p)*x'^2 + u^(2*q)*y'^2)/2\n")
     assert [c.name for c in derivation.discovery.charges] == ["energy", "p_x", "p_y", "dilation"]
-    cases = {(str(c.parameter), str(c.value)): c.charges for c in derivation.special_cases}
+    found = derivation.special_cases
+    cases = {(str(c.parameter), str(c.value)): c.charges for c in found if not c.given}
     assert set(cases) == {("p", "0"), ("q", "0"), ("q", "p")}
     assert [c.name for c in cases["q", "p"]] == ["L_z"]
+    # flat where one of them is 0 and the other 1, with 2 x and 2 y as angles: 12 symmetries
+    assert all(c.number == 12 for c in found if c.given)
 
 
 CHARTS_OF_SPACE = {
