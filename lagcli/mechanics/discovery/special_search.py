@@ -48,7 +48,7 @@ from lagcli.problem_data import Problem
 from lagcli.record import replace
 
 _MOST_COORDINATES = 4  # measured: up to 5
-_UNITS = 56_000_000  # three frequencies: 11 values take 45 million
+_UNITS = 64_000_000  # three frequencies: 13 values take 64 million
 _FOR_PIVOTS = 0.3  # of these
 _MOST_UNKNOWNS = 150  # measured: up to 378
 _MOST_VALUES = 16  # measured: at most 5
