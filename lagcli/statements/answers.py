@@ -218,8 +218,8 @@ class AlgebraSection:
     True or None; `separates` where the Hamilton-Jacobi equation shows it, not the charges, and
     `determined` where it is their number alone: as many as a state has dimensions.
     `named_where`: the name is another one where the charges are not real.  `autonomous`: how many
-    charges do not depend on t, and the name of the algebra that they make.  `by_functions`: so
-    many functions of the charges are in involution, not so many charges.  Where the motion
+    charges do not depend on t, and the name of the algebra that they make.  `by_functions`:
+    `in_involution` counts functions of the charges, as fewer charges are.  Where the motion
     `is_prescribed`, no symmetry was sought.
     """
 

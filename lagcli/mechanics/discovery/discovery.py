@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from itertools import combinations_with_replacement
 
 import sympy
 from sympy import Expr
@@ -21,6 +20,7 @@ from lagcli.mechanics.discovery.ansatz import (
     TimeFunctions,
     affine,
     point_unknowns,
+    products_of_two,
     quadratic_unknowns,
 )
 from lagcli.mechanics.discovery.brackets import ChargeBrackets, NoState
@@ -387,8 +387,8 @@ class Discovery(Setting):
             if found:
                 self.words.append("also at a fixed energy, T without a common factor")
                 known = [c.charge for c in self.fixed_charges]
-                products = [a * b for a, b in combinations_with_replacement(known, 2)]
-                new = new_charges([*known, *products], found, self.dynamics, self.allowed)
+                known += products_of_two(known)
+                new = new_charges(known, found, self.dynamics, self.allowed)
                 self.listing.add_hidden(("", charge) for charge in new)
                 return
 

@@ -34,6 +34,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import derivative, dot, simplify
+from lagcli.mechanics.discovery.ansatz import products_of_two
 from lagcli.mechanics.discovery.hidden import expanded, potential, roots_in
 from lagcli.mechanics.discovery.isometries import Vector
 from lagcli.mechanics.discovery.killing import KillingFrame
@@ -157,7 +158,7 @@ class KillingIntegrals:
     @property
     def _monomials(self) -> list[Expr]:
         X = self.frame.X
-        return [sympy.S.One, *X, *(x * y for x, y in combinations_with_replacement(X, 2))]
+        return [sympy.S.One, *X, *products_of_two(X)]
 
     def _closed(self, rate: Expr) -> list[Expr]:
         """What must vanish: the rate for N = 3, the curl of the slopes of S for even N."""
@@ -233,7 +234,7 @@ class KillingIntegrals:
     def _products_of_terms(self) -> list[Expr]:
         """Of two terms of V."""
         terms = [term for term in bare_terms(self._rest, self.equations.q) if term != 1]
-        return [a * b for a, b in combinations_with_replacement(terms, 2)]
+        return products_of_two(terms)
 
     def _shapes(self, f: Expr) -> list[Expr]:
         """Terms of f times monomials in X, and these over roots in f: x/r of Kepler's problem."""

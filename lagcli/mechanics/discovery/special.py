@@ -32,7 +32,7 @@ from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.slots import SlotEquations
-from lagcli.mechanics.discovery.spectrum import Exponent
+from lagcli.mechanics.discovery.spectrum import Exponent, has_roots
 from lagcli.mechanics.discovery.surface import independent_on_surface
 from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.noether import NoetherCharge
@@ -438,15 +438,11 @@ def _solved(relation: Expr, parameters: Sequence[Symbol]) -> Iterator[Value]:
             roots = solve_for(relation, parameter)
             if roots is not None:
                 found.append((parameter, [simplify(x) for x in roots.values]))
-    found.sort(key=lambda solved: not all(map(_is_rational, solved[1])))
+    found.sort(key=lambda solved: any(map(has_roots, solved[1])))
     for parameter, values in found[:1]:
         for value in values:
             if not value.has(sympy.I) and _admissible(parameter, value):
                 yield parameter, value
-
-
-def _is_rational(value: Expr) -> bool:
-    return not any(p.exp.is_Rational and p.exp.q > 1 for p in value.atoms(sympy.Pow))
 
 
 def _admissible(parameter: Symbol, value: Expr) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from itertools import combinations_with_replacement
 
 import sympy
 from sympy import Expr, Symbol
@@ -12,7 +11,7 @@ from lagcli.algebra import is_zero
 from lagcli.algebra.build import free_of
 from lagcli.algebra.place import NO_VALUE
 from lagcli.diagnostics import ProblemError
-from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unknowns
+from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, point_unknowns, products_of_two
 from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
@@ -179,8 +178,7 @@ def _beyond_products(
     if all(c in there.point_charges for c in new) or there.dynamics.constraints.equations:
         return tuple(new)
     lasting = [sympy.S.One, *(c for c in known if there.system.t not in c.free_symbols)]
-    products = [a * b for a, b in combinations_with_replacement(lasting, 2)]
-    beyond = new_charges([*known, *products], new, there.dynamics, allowed)
+    beyond = new_charges([*known, *products_of_two(lasting)], new, there.dynamics, allowed)
     return tuple(c for c in new if c in there.point_charges or c in beyond)
 
 

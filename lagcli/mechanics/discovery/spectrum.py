@@ -245,11 +245,11 @@ def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
     if c.is_nonpositive:  # one square of each sign
         s, inside = frequency_of(-c), frequency_of(simplify(b**2 / 4 - c))
         frequency = sympy.sqrt(simplify(inside + b / 2))
-        growth = sympy.sqrt(simplify(inside - b / 2)) if _has_roots(s) else s / frequency
+        growth = sympy.sqrt(simplify(inside - b / 2)) if has_roots(s) else s / frequency
         real = [Exponent(sign * growth, sympy.S.Zero) for sign in (1, -1)]
         return [*real, Exponent(sympy.S.Zero, frequency)]
     s = frequency_of(c)
-    if _has_roots(s):
+    if has_roots(s):
         inside = frequency_of(simplify(b**2 / 4 - c))
         squares = [simplify(b / 2 + inside), simplify(b / 2 - inside)]
         return [exponent for x in squares for exponent in _quadratic(sympy.S.Zero, x)]
@@ -264,7 +264,8 @@ def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
     ]
 
 
-def _has_roots(formula: Expr) -> bool:
+def has_roots(formula: Expr) -> bool:
+    """Whether there is a broken power in it."""
     return any(p.exp.is_Rational and p.exp.q > 1 for p in formula.atoms(sympy.Pow))
 
 

@@ -34,7 +34,7 @@ class Summary:
     closed: bool = False  # all brackets are combinations of the charges and of constants
     with_constants: bool = False  # constants belong to the algebra that `dimension` counts
     autonomous: tuple[int, str] | None = None  # of those without t: how many, and their algebra
-    by_functions: bool = False  # only functions of the charges are so many in involution
+    by_functions: bool = False  # fewer charges than functions of them are in involution
 
 
 def algebra_section(
@@ -139,8 +139,9 @@ def _free(discovery: Discovery) -> Summary:
         given = tuple(fixed)  # a sum of integrals may commute with another, as each does not
         for k in range(points, count):
             fixed += brackets.still(given, k) if k in given else []
-        involution = max(brackets.in_involution(fixed), linear or 0)
-    by_functions = involution > brackets.in_involution(fixed)
+    commuting = brackets.in_involution(fixed)
+    if involution is None:
+        involution = max(commuting, linear or 0)
     return Summary(
         dimension,
         name,
@@ -151,7 +152,7 @@ def _free(discovery: Discovery) -> Summary:
         closed,
         structure is not None and has_constants(structure),
         alone,
-        by_functions,
+        involution > commuting,
     )
 
 

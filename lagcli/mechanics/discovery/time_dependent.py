@@ -58,14 +58,14 @@ def of_changing_coefficients(
     driven = [f for k in rows for f in _terms(given[k]) if f.free_symbols.isdisjoint(moving)]
     forced += [g for f in driven for g in (tau**2 * f, tau**2 * f * s)]
     turning = _turning_pairs(given, q, v, t)
+    seconds = {second for second, _ in turning.values()}
     for k, (acceleration, x, rate) in enumerate(zip(given, q, v, strict=True)):
-        if k in rows or any(k == later for _, later, _ in turning):
+        if k in rows or k in seconds:
             continue
-        pair = next((each for each in turning if each[0] == k), None)
-        if pair is None:
+        if k not in turning:
             solved = solved and not _changes_by(acceleration, moving - {x, rate}, moving, t)
-        field = pair[2] if pair else sympy.S.Zero
-        angle = antiderivative(field / 2, t) if pair else sympy.S.Zero
+        _, field = turning.get(k, (k, sympy.S.Zero))
+        angle = antiderivative(field / 2, t)
         solution = _of_equation(acceleration, x, rate, field, moving, t)
         if solution is None:
             continue
@@ -110,12 +110,13 @@ def of_euler(
 
 def _turning_pairs(
     accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
-) -> list[tuple[int, int, Expr]]:
-    """x'' = a x + b y + c x' + d y', y'' = a y - b x + c y' - d x' with 2 b = d' - c d, and d.
+) -> dict[int, tuple[int, Expr]]:
+    """x'' = a x + b y + c x' + d y', y'' = a y - b x + c y' - d x' with 2 b = d' - c d.
 
-    In axes that turn with -d/2 both are w'' = c w' + (a - d^2/4) w, as in a field B(t) = d.
+    In axes that turn with -d/2 both are w'' = c w' + (a - d^2/4) w, as in a field B(t) = d.  The
+    place of y and d by that of x.
     """
-    found: list[tuple[int, int, Expr]] = []
+    found: dict[int, tuple[int, Expr]] = {}
     terms, moving = [_terms(each) for each in accelerations], {*q, *v}
     for k, m in combinations(range(len(q)), 2):
         a, b, c, d = (
@@ -126,7 +127,7 @@ def _turning_pairs(
             continue
         gaps = (a[0] - a[1], b[0] + b[1], c[0] - c[1], d[0] + d[1])
         if not any(map(simplify, (*gaps, 2 * b[0] - d[0].diff(t) + c[0] * d[0]))):
-            found.append((k, m, d[0]))
+            found[k] = m, d[0]
     return found
 
 
