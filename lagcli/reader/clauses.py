@@ -33,6 +33,10 @@ def of_clause(node: Scalar, scope: Scope) -> Diagnostic | None:
     parts = (each.partition("=") for each in pieces(_AND.sub(", ", found["given"]), ",;"))
     named = {name.strip(): value.strip() for name, _, value in parts}
     formulas = (found["formula"].rstrip("("), *named.values())
+    if {*named} <= {"T", "V"} - scope.energies.keys():
+        lines = ", ".join(f"{name}: {value}" for name, value in named.items())
+        hint = f"write {formulas[0].strip()}, and on a line of its own {lines}"
+        return Diagnostic("two keys on one line", node.span, hint)
     is_taken = any(
         name_mistake(x) or x in KEYS or scope.kinds.get(x) == "coordinate" for x in named
     )

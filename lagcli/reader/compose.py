@@ -37,6 +37,9 @@ _TAKEN = regex("[\ue000\ue001]")
 _WITH_BRACES = "inside { } and [ ] a text with braces stands in quotes"
 #: Of one such group in another, or behind another.
 _DEEPEST = 8
+#: Blanks that cannot indent.
+BLANKS = "\t\u00a0\u2000-\u200b\u202f\u205f\u3000"
+_INDENTED = regex(rf"^ *([{BLANKS}])\s*(?:- |[^\W\d][\w']*:(?:\s|$))", re.MULTILINE)
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
@@ -56,6 +59,9 @@ def compose(text: SourceText) -> tuple[DocumentNode, list[Diagnostic]]:
     Mistake
         When there is no document, more than one, or none that YAML can read.
     """
+    if not text.source.text.isascii() and (found := _INDENTED.search(text.source.text)):
+        message = f"the blank U+{ord(found[1]):04X} cannot indent"
+        raise Mistake(Diagnostic(message, text.span(*found.span(1)), "indent with spaces"))
     composer = _Composer(text)
     try:
         for event in yaml.parse(composer.hidden, Loader=_LOADER):

@@ -56,7 +56,7 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
         edit = Edit(start, end, better + written[len(bare) :] * ("'" not in better))
         is_name = named[2] and mistake.message.startswith("unknown name '")
         return [[edit, *(_elsewhere(bare, edit, text.source.text) if is_name else ())]]
-    if moved := _moved(hint, start, end, text):
+    if moved := _moved(mistake, end, text):
         return [moved]
     if hint.partition(":")[0] == "leave it out":
         return [[_without(start, end, text, root)]]
@@ -182,13 +182,16 @@ def _likeness(edits: list[Edit], text: str) -> float:
     return SequenceMatcher(None, text[begin:stop], changed, autojunk=False).ratio()
 
 
-def _moved(hint: str, start: int, end: int, text: SourceText) -> list[Edit]:
+def _moved(mistake: Diagnostic, end: int, text: SourceText) -> list[Edit]:
     """The edits of hints on blanks and hyphens at the beginnings of lines."""
-    written = text.source.text
-    begin = text.line_starts[text.position(start)[0] - 1]
+    written, hint, line = text.source.text, mistake.hint, mistake.span.line
+    begin = text.line_starts[line - 1]
+    if mistake.message.endswith("', but not in it") and hint.startswith("begin the line with blan"):
+        lines = [line, *map(int, re.findall(r"\d+", hint))]
+        return [Edit(at, at, _BLANKS) for at in (text.line_starts[each - 1] for each in lines)]
     if hint in {"begin the line with blanks", "begin the line with more blanks"}:
-        lines = _ALIKE.match(written[begin:])
-        inner = lines[0].rstrip("\n") if lines else ""
+        alike = _ALIKE.match(written[begin:])
+        inner = alike[0].rstrip("\n") if alike else ""
         whole = re.sub(r"^(?=.)", _BLANKS, inner, flags=re.MULTILINE)
         return [Edit(begin, begin + len(inner), whole)]
     if hint == "leave out the '-' before each key":

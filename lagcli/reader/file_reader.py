@@ -323,17 +323,9 @@ class FileReader:
             if required.key not in given | near:
                 self.error(f"{what} has no {required.key}", required.span, required.hint)
                 return {}
-        above = ""
-        entries = self._without_split_lists(entries, names)
-        for key, value in entries:
+        for key, value in self._without_split_lists(entries, names):
             if key.label in names:
                 found[key.label] = (key, value)
-                above = key.label if key.label in MAPS and value.is_empty else ""
-            elif above:
-                if found.pop(above, None):
-                    message = f"'{key.label}' stands below '{above}', but not in it"
-                    self.error(message, key.span, "begin the line with blanks")
-                self.scope.refused.append(key.label)
             else:
                 assert isinstance(node, Mapping)
                 wrong = unknown_key(key, value, what, names, node, self.scope)
@@ -370,7 +362,8 @@ class FileReader:
         """A formula whose names are all known and allowed in its role."""
         alone = node.value.strip() if isinstance(node, Scalar) else ""
         is_open = role in {*_NUMERIC, NUMBERS} and alone not in self.scope.kinds
-        number = in_digits(alone) if is_open else alone
+        names = {*self.scope.kinds} - {what.split("'")[1] if what.startswith("the value") else ""}
+        number = in_digits(alone, names) if is_open else alone
         wrong = unit_in_formula(number, what, self.scope.kinds, role in _NUMERIC)
         if number != alone and not wrong:
             wrong = "a number is written in digits", f"write {number}"

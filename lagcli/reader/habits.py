@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import re
 import unicodedata
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -54,6 +55,12 @@ _WITH_UNIT = regex(
     r"(?P<unit>(?:[kmcµunp]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa|F|H|Wb|Ω|ohm)"
     r"|rad|deg|rpm|min|h|mol)(?:[ \^*/·⋅²³].*)?)"
 )
+#: A value that is left open.
+_OPEN = regex(
+    r"(?i:[?¿…_.*–—-]+|none|any|arbitrary|const|constant|free|given|null|open|symbolic|tb[ad]|true"
+    r"|unknown|wanted|yes|gesucht|gegeben|unbekannt|beliebig|frei|inconnue?|libre|quelconque"
+    r"|desconocid[oa]|dad[oa]|incognit[oa]|not[oa])"
+)
 _ANGLES = frozenset("theta th phi ph psi alpha beta gamma varphi angle θ φ ϕ ψ α β γ".split())
 _SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
 #: How often a function differentiates.
@@ -62,7 +69,9 @@ RATES = {**dict.fromkeys("Derivative derivative D ddt dt Dt der deriv diff dot".
 POWERS = frozenset("POWER POTENZ PUISSANCE pow power Pow Power".split())
 SQUARES = frozenset("square sqr sq".split())
 FOREIGN = RATES.keys() | POWERS | SQUARES | {"norm", "hypot"}
-_VULGAR = {"½": "1/2", "⅓": "1/3", "⅔": "2/3", "¼": "1/4", "¾": "3/4", "⅛": "1/8"}
+VULGAR = "½⅓⅔¼¾⅕⅖⅗⅘⅙⅚⅛⅜⅝⅞"
+#: `12½` and `1 1/2`.
+_MIXED = regex(rf"(?<![\w.^*/'])(\d+)\s*(?:([{VULGAR}])|(?<=\s)(\d/\d\d?)(?![\w.^]))")
 
 
 @cache
@@ -285,9 +294,26 @@ def superscript(text: str) -> str:
     return "^" + "".join(digits) if text and len(digits) == len(text) else ""
 
 
+def is_open(text: str) -> bool:
+    """Whether a value is left open: `?`, `unknown`."""
+    return _OPEN.fullmatch(text.strip()) is not None
+
+
 def fraction(character: str) -> str:
     """`1/2` for ½; nothing for other characters."""
-    return _VULGAR.get(character, "")
+    return unicodedata.normalize("NFKC", character).replace("⁄", "/") if character in VULGAR else ""
+
+
+def with_mixed_numbers(text: str) -> str:
+    """`12.5` for `12½` and `12 1/2`, `4/3` for `1⅓`."""
+
+    def one(found: re.Match[str]) -> str:
+        part = Fraction(fraction(found[2] or "") or found[3])
+        total = int(found[1]) + part
+        written = f"{float(total)}" if 1000 % part.denominator == 0 else f"({total})"
+        return written if part < 1 else found[0]
+
+    return re.sub(r"^\((\d+/\d+)\)$", r"\1", _MIXED.sub(one, text))
 
 
 def comparisons_in(text: str) -> list[str]:

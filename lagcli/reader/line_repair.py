@@ -13,6 +13,7 @@ from html import unescape
 from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic, Source, Span
+from lagcli.reader.compose import BLANKS
 from lagcli.reader.habits import KEYS, SIGNS, colon_advice, habits
 from lagcli.reader.regex import regex
 from lagcli.reader.text import also_in_lines
@@ -27,6 +28,8 @@ _SHOWN = 5
 _ENTRY = regex(r"(?P<key>\s*(?:- )?[^\W\d][\w ']*:\s+)(?P<value>\S.*)")
 #: What other languages put before a formula: `@(x)`, `lambda x:`, and marks that YAML keeps.
 _BEFORE = regex(r"^(?:@\([\w, ]*\)|lambda\b[\w, ]*:|[`@%&!*>=]+(?=[\w( ]))\s*")
+#: Between dividend and divisor: m*x'^2 : 2.
+_OVER = regex(r"(?<=[\w)'²³])\s+:\s+(?=[\d(])")
 #: A formula that begins with a group in brackets or quotes.
 _GROUP = regex(r"(?:\[([^\]]*)\]|\{([^}:]*)\}|\"([^\"]*)\"|'([^']*)')(?P<rest>\s*[-+*/^(\w].*)")
 #: A value that is a sign: `> 0`, `assume: m>0`.
@@ -36,6 +39,9 @@ _SIGNED = regex(
 #: The formula in a hint.
 _PROPOSED = regex(r"(?:write|did you mean) (.*?)\??")
 _ASSIGNED = regex(r"[^\W\d][\w()=' ]*?\s*:?=\s*[^=]")
+_TWO_KEYS = regex(
+    rf"^(.*?[^\s:;,])\s*[;,]?\s+(?=(?:{'|'.join(KEYS)}):\s)|^([^{{]*?)\s*[;,]\s+(?=[^\W\d]\w*:\s)"
+)
 #: What is said of a line that is none of the file.
 _NO_LINE = regex(
     r"this line is none of the file; (?!.*(?:write |```)).*"
@@ -106,9 +112,10 @@ def _listed(line: str) -> str:
 
 
 def _formula(line: str) -> str:
-    """Without what other languages put before a formula."""
+    """Without what other languages put before a formula, and with '/' for ':'."""
     found = _ENTRY.fullmatch(line)
-    return line if found is None else found["key"] + _BEFORE.sub("", found["value"]).rstrip("`")
+    value = _BEFORE.sub("", found["value"]).rstrip("`") if found else ""
+    return found["key"] + _OVER.sub("/", value) if found else line
 
 
 def _grouped(line: str) -> str:
@@ -155,7 +162,9 @@ def _assumed(line: str) -> str:
 _CHANGES: tuple[Callable[[str], str], ...] = (
     lambda line: re.sub(r"\s+(?://|/\*|!\s)\s*(?=\S)", "  # ", line, count=1),
     lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
-    lambda line: re.sub(r"(?<=:)\s+\?\s*(?=[,}]|$)", "", line),
+    lambda line: re.sub(r"(?<=:)\s+\?\s*$", "", line),
+    lambda line: re.sub(r"(?:(?<=\{)value: +\?+(?:, +)?|, +value: +\?+)(?=[\w},])", "", line),
+    lambda line: re.sub(r"(?<=: )\s*\?+\s*(?=[,}])", "", line),
     lambda line: re.sub(r"(?<=unit: )\s*-+(?=\s*(?:#|$))", "1", line),
     _assumed,
     lambda line: re.sub(r"\\\[([A-Z])([a-z]+)\]", lambda m: m[1].lower() + m[2], line),
@@ -180,6 +189,9 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
         r"^(\s*\"?[^\W\d]\w*'?\"?(?:\((?:t=)?0\))?)\s*(?:<-|←|:=|->|→|=>|=|：)\s*", r"\1: ", line
     ),
     lambda line: re.sub(r"^(\s+[^\W\d]\w*)(?=\s*(?:#.*)?$)", r"\1:", line),
+    lambda line: re.sub(  # {S: for: m}
+        r"(?<=[{,])(\s*\w+: )(\w+: [^,:{}\[\]]*[^\s,:{}\[\]])\s*(?=[,}])", r"\1{\2}", line
+    ),
     _with_blanks,
     _formula,
     lambda line: re.sub(r"^(\s*[\w ]+:\s+)-\s+(?=\S)", r"\1-", line),
@@ -200,7 +212,7 @@ _CHANGES: tuple[Callable[[str], str], ...] = (
     ),
     lambda line: line.replace(";", ",") if re.search(r"[\[{].*;", line) else line,
     lambda line: re.sub(r"(?<=[^\s:,])\s+(?:%|--|;)\s*(?=\S)", "  # ", line, count=1),
-    lambda line: re.sub(r"^([^{]*?)\s*[;,]\s+(?=[^\W\d]\w*:\s)", r"\1\n", line, count=1),
+    lambda line: _TWO_KEYS.sub(r"\1\2\n", line, count=1),
     lambda line: re.sub(r"(?<=[:,\[] )[%@`&!*](?=\w)", "", line),
     _listed,
     _closed,
@@ -241,7 +253,7 @@ def all_mistakes(
         Whether YAML reads a text, and the mistakes in it, with those that others hide or without.
     """
     found: list[Diagnostic] = []
-    moved = 0  # lines that the proposals have more than the file
+    cuts: list[tuple[int, int]] = []  # lines that are two, and where the second begins
     is_read = False
     while not is_read and len(found) < _MOST:
         repair = _repaired(text, mistakes[0], read) or _left_out(text, mistakes[0])
@@ -249,12 +261,15 @@ def all_mistakes(
         if repair is None:
             break
         repair = _everywhere(text, repair, read)
-        found.append(_at(repair.mistake, moved))
-        moved += repair.text.count("\n") - text.count("\n")
+        found.append(_at(repair.mistake, cuts))
+        if repair.text.count("\n") > text.count("\n"):
+            line = repair.mistake.span.line
+            one, two = text.split("\n")[line - 1], repair.text.split("\n")[line]
+            cuts.append((line, one.rfind(f"{two.partition(':')[0]}:")))
         text = repair.text
         is_read, mistakes = read(Source("", text))
     rest = fully(Source("", text))[1] if is_read else mistakes[:1] if found else mistakes
-    whole = (*found, *(_at(each, moved) for each in rest if each.is_error))
+    whole = (*found, *(_at(each, cuts) for each in rest if each.is_error))
     return tuple(sorted(whole, key=lambda each: each.span))
 
 
@@ -289,27 +304,31 @@ def _continued(text: str, mistake: Diagnostic) -> _Repair | None:
 
 
 def _without_tabs(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
-    """The file with a blank for each tab, where one indents: all columns are the same.
+    """The file with a blank for each tab or other blank, where one indents, in the same column.
 
     None where lines with blanks do not fit them.
     """
-    if mistake.hint != "indent with spaces" or "\t" not in text:
+    whole = re.sub(f"[{BLANKS}]", " ", text)
+    if mistake.hint != "indent with spaces" or whole == text:
         return None
-    whole = text.replace("\t", " ")
     is_mixed = re.search(r"^ +\S", text, re.MULTILINE)
     if is_mixed and not read(Source("", whole))[0]:
         return None
-    lines = [k for k, line in enumerate(text.split("\n")) if re.match(r" *\t\s*\S", line)]
+    lines = [k for k, line in enumerate(text.split("\n")) if re.match(rf" *[{BLANKS}]\s*\S", line)]
     return _Repair(
         replace(mistake, hint=mistake.hint + also_in_lines(k + 1 for k in lines[1:])), whole, str
     )
 
 
-def _at(mistake: Diagnostic, moved: int) -> Diagnostic:
-    """The mistake some lines further above."""
-    span = mistake.span
-    line, end = max(1, span.line - moved), max(1, span.end_line - moved)
-    return replace(mistake, span=replace(span, line=line, end_line=end)) if moved else mistake
+def _at(mistake: Diagnostic, cuts: list[tuple[int, int]]) -> Diagnostic:
+    """The mistake at its place in the file, in which a line is one that was cut in two."""
+    for line, column in reversed(cuts):
+        span = mistake.span
+        if span.line > line:
+            begin, end = ((at - 1, column * (at == line + 1)) for at in (span.line, span.end_line))
+            moved = Span(begin[0], span.column + begin[1], end[0], span.end_column + end[1])
+            mistake = replace(mistake, span=moved)
+    return mistake
 
 
 def _repaired(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
@@ -338,14 +357,11 @@ def _repaired(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
             if is_moved:
                 moved = replace(mistake, hint=_indented(lines[:number], line))
                 return _Repair(moved, changed, change)
-            _, cut, key = line.partition("\n")
-            hint = (
-                f"begin a new line with '{key.partition(':')[0]}:'"
-                if cut
-                else f"write {line.strip()}"
-            )
+            one, cut, second = line.strip().partition("\n")
+            hint = f"write {one}" + f", and on a line of its own {second}" * bool(cut)
             added = line[-1] if line.startswith(lines[number].rstrip()) else ""
-            message = _NEVER_CLOSED.get(added, mistake.message)
+            message = "two keys on one line" if cut else mistake.message
+            message = _NEVER_CLOSED.get(added, message)
             left = lines[number].strip().removeprefix(line.strip()).strip()
             message = f"no '{left}' ends a line" if left in {*";,."} else message
             return _Repair(replace(mistake, message=message, span=span, hint=hint), changed, change)
@@ -374,6 +390,8 @@ def _with_line(
             break
         key = entry["key"].lstrip()
         own = proposed[1].partition("; ")[0] if proposed[1].startswith(key) else proposed[1]
+        only = re.match(r"\{(\w+: )[^,]*\}$", entry["value"])  # {S: {for: m}}
+        own = f"{{{own}}}" if only and own.startswith(only[1]) else own
         line = entry["key"] + own.removeprefix(key)
     return is_read, found, changed, line
 

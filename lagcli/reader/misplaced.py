@@ -7,14 +7,27 @@ import re
 from lagcli.diagnostics import Diagnostic
 from lagcli.reader.expressions import formula_or_none
 from lagcli.reader.friction_meant import friction_meant
-from lagcli.reader.habits import KEYS, MAPS, key_meant, unit_behind
+from lagcli.reader.habits import (
+    KEYS,
+    MAPS,
+    is_constant,
+    key_meant,
+    letters,
+    meanings,
+    spellings,
+    unit_behind,
+)
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
+from lagcli.reader.text import also_in_lines
 from lagcli.record import replace
 
 _ENERGIES = frozenset("TVLH")
 _RELATION = regex("[=<>]")
+#: What the entries of a section have that are not recognized by its emptiness.
+_ATTRIBUTES = {"coordinates": {"unit", "symbol", "description", "assume"}}
+_ATTRIBUTES["parameters"] = {*_ATTRIBUTES["coordinates"], "value", "integer"}
 #: Sections whose entries are called by names of the user's, never by these keys.
 _SECTIONS = frozenset(
     "coordinates parameters points constraints contacts forces symmetries initial find".split()
@@ -27,6 +40,7 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
     An energy has a formula of coordinates: `T: 2` is a parameter, `H: x = y` a constraint, and
     the T of a coordinate T its own.  What is a key already is none.
     """
+    root, mistakes = _with_sections(root)
     given = {key.label for key, _ in root.entries}
     coordinates = [name for key, node in root.entries if key.label == "coordinates"
                    for name in names_in(node)]  # fmt: skip
@@ -43,7 +57,6 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
         return key.label in MAPS and isinstance(value, Mapping | Sequence)
 
     entries: list[tuple[Scalar, DocumentNode]] = []
-    mistakes = []
     for key, node in root.entries:
         whole = node.entries if isinstance(node, Mapping) and key.label not in KEYS else []
         meant = [key_meant(each.label, KEYS) for each, _ in whole]
@@ -77,6 +90,61 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
         replace(root, entries=entries), mentions, {*coordinates}
     )
     return moved_root, mistakes + formulas
+
+
+def _with_sections(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
+    """The problem with entries that begin where their section does inside of it, as a mistake."""
+    entries: list[tuple[Scalar, DocumentNode]] = []
+    moved: dict[str, list[tuple[Scalar, DocumentNode]]] = {}
+    for key, value in root.entries:
+        head, node = entries[-1] if entries else (key, key)
+        inner = node.entries if isinstance(node, Mapping) else []
+        is_open = node.is_empty or head.label in moved
+        if entries and head.label in MAPS and _is_of(head, node, key, value, is_open=is_open):
+            moved.setdefault(head.label, []).append((key, value))
+            start = node.start if inner else key.start
+            entries[-1] = (head, Mapping(key.text, start, value.end, [*inner, (key, value)]))
+        else:
+            entries.append((key, value))
+    mistakes = []
+    for section, found in moved.items():
+        text = root.text.source.text
+        ends = (k.end if v.is_empty else v.start + len(text[v.start : v.end].rstrip())
+                for k, v in found)  # fmt: skip
+        lines = [x for (key, _), end in zip(found, ends, strict=True)
+                 for x in range(key.span.line, root.text.position(end)[0] + 1)]  # fmt: skip
+        names = ", ".join(f"'{key.label}'" for key, _ in found)
+        message = f"{names} stand{'s' * (not found[1:])} below '{section}', but not in it"
+        hint = f"begin the line with blanks{also_in_lines(lines[1:])}"
+        mistakes.append(Diagnostic(message, found[0][0].span, hint))
+    return (replace(root, entries=entries) if moved else root), mistakes
+
+
+def _is_of(
+    head: Scalar, node: DocumentNode, key: Scalar, value: DocumentNode, *, is_open: bool
+) -> bool:
+    """Whether an entry belongs to the section above it, which is empty or has others like it."""
+    word, text = key.label, key.text.source.text
+    written = value.value if isinstance(value, Scalar) else ""
+    if key.in_flow or not (is_open or (isinstance(node, Mapping) and text[node.start] != "{")):
+        return False
+    if word in KEYS:  # H: 3, where H is a parameter
+        used = re.search(rf"(?<![\w']){word}(?![\w':(])", text)
+        return is_open and word in _ENERGIES and is_constant("x", written) and used is not None
+    known = (*KEYS, *meanings("parts"))
+    if len(word) > 2 and key_meant(word, known) is not None:
+        return False
+    if is_open:
+        return True
+    if head.label == "initial":
+        names = {each.label.rstrip("'") for each, _ in getattr(node, "entries", ())}
+        return word.rstrip("'") in names and is_constant("x", written)
+    advice = {**spellings("advice", "problem"), **spellings("advice", "simulation")}
+    if not word.isidentifier() or (word[1:] and letters(word) in advice):
+        return False
+    inner = {each.label for each, _ in getattr(value, "entries", ())}
+    is_number = head.label == "parameters" and is_constant(word, written)
+    return is_number or (bool(inner) and inner <= _ATTRIBUTES.get(head.label, set()))
 
 
 def _with_definitions(

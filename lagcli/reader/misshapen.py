@@ -330,11 +330,14 @@ def key_by_shape(value: DocumentNode, problem: Mapping) -> str | None:
             return next((key for key in ("coordinates", "parameters") if key not in given), None)
     if isinstance(value, Mapping) and value.entries:
         numbers = [isinstance(v, Scalar) and is_constant("x", v.value) for _, v in value.entries]
+        listed = given.get("coordinates")
+        items = getattr(listed, "items", ())
+        known = [each.value for each in items if isinstance(each, Scalar)]
+        known += [key.label for key, _ in getattr(listed, "entries", ())]
+        changed = [k.label for _, v in value.entries for k, _ in getattr(v, "entries", ())]
+        if changed and {*changed} <= {*known, "t", "gauge"}:
+            return None if "symmetries" in given else "symmetries"
         if all(numbers):
-            listed = given.get("coordinates")
-            items = getattr(listed, "items", ())
-            known = [each.value for each in items if isinstance(each, Scalar)]
-            known += [key.label for key, _ in getattr(listed, "entries", ())]
             stated = all(key.label.rstrip("'") in known for key, _ in value.entries)
             key = "initial" if stated else "parameters"
             return None if key in given else key

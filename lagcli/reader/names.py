@@ -29,10 +29,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 _MOMENTA = "momenta stand in H: give H, or write velocities x'"
-#: Words for a value that is left open.
-NO_VALUE = frozenset(
-    "const constant unknown free any None null none symbolic given yes true".split()
-)
 _ORDERS = ("coordinate", "velocity", "acceleration", "third derivative")
 
 
@@ -233,7 +229,7 @@ def _meant(name: str, what: str, order: str) -> str:
     The order is `first`, or `unlike` for a name that no known one is spelled like.
     """
     said = (
-        each.expand(advice).replace("PLACE", what.rpartition(" ")[2].strip("'"))
+        each.expand(advice)
         for place, form, advice in habits()["names_in"][order]
         if re.match(place, what) and (each := re.fullmatch(form, name))
     )

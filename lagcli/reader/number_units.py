@@ -15,6 +15,7 @@ from lagcli.reader.habits import (
     spoken_unit,
     unit_at_end,
     unit_behind,
+    with_mixed_numbers,
 )
 from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.regex import regex
@@ -37,10 +38,25 @@ _LETTERS = {
 _NUMBER = regex(r"[-+]?(?:\d{1,20}\.?\d{0,20}|\.\d{1,20})(?:[eE][-+]?\d{1,2}|/[1-9]\d{0,20})?")
 _IN_WORDS = regex(r"(?:an?\s+)?[^\W\d_]{3,}(?:[\s-]+[^\W\d_][\w/^*]*)*")
 _TIME = (("s", Fraction(1)),)
+#: Before a number that is not exact.
+_ABOUT = regex(
+    r"(?i:[≈≃≅~∼=]+|(?:ca|circa|approx|env|aprox|etwa|rund|ungefähr|approximately|about|roughly"
+    r"|around|environ|cirka)\b\.?(?!\s*$))\s*(?=[-+.\d]*\d|[a-z]{3})"
+)
+#: `10k` and `4.7M`.
+_WITH_PREFIX = regex(r"([-+]?\d+\.?\d*)\s?([kMG])")
 
 
-def in_digits(text: str) -> str:
-    """`12` for `twelve`, `3/2` for `one and a half`, `0.25 m` for `a quarter of a m`."""
+def in_digits(text: str, names: Container[str] = ()) -> str:
+    """`12` for `twelve`, `3/2` for `one and a half`, `0.25 m` for `a quarter of a m`.
+
+    Also `9.81` for `≈ 9,81`, `12.5` for `12½`, and `10000` for `10k` where k is none of the names.
+    """
+    if (exact := _ABOUT.sub("", text, count=1) if _ABOUT.match(text) else text) != text:
+        text = re.sub(r"^([-+]?\d+),(?=\d)(?!\d{3}$)", r"\1.", exact)
+    text = with_mixed_numbers(text)
+    if (short := _WITH_PREFIX.fullmatch(text)) and short[2] not in names:
+        return f"{Fraction(short[1]) * 1000 ** (1 + 'kMG'.index(short[2]))}"
     if not _IN_WORDS.fullmatch(text):
         return text
     numbers = meanings("numbers")

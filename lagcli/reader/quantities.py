@@ -12,13 +12,13 @@ from lagcli.reader.constants import value_cycle
 from lagcli.reader.habits import (
     advised,
     is_constant,
+    is_open,
     name_meant,
     unit_behind,
 )
 from lagcli.reader.headings import without_headings
 from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, named_formulas, source_of, swept
-from lagcli.reader.names import NO_VALUE
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
 from lagcli.reader.number_units import in_digits, in_unit, wrong_unit
 from lagcli.reader.regex import regex
@@ -123,6 +123,9 @@ def read_parameters(
             rest = (f", {k}: {source_of(v)}" for k, v in attributes.items() if k not in _ASSUMED)
             hint = f"write {key.label}: {{assume: {sign}{''.join(rest)}}}"
             file.error(f"an assumption stands under 'assume' of '{key.label}'", key.span, hint)
+        elif is_free and is_open(bare):
+            hint = f"leave out what is not known: write {key.label}:"
+            file.error(f"'{bare}' is not a value", attributes["value"].span, hint)
         elif isinstance(given := attributes.get("value"), Scalar) and (
             found := RANGE.fullmatch(given.value)
         ):
@@ -197,7 +200,7 @@ def _indexed(name: str, node: DocumentNode | None) -> str:
 def _with_words(text: str, known: Collection[str]) -> str:
     """`write {value: 1, description: mass of the bob}` for `1 (mass of the bob)`."""
     found = _NUMBER_WITH_WORDS.fullmatch(text)
-    if found is None or unit_behind(text) or {*re.findall(r"\w+", found[2])} & {*known}:
+    if found is None or unit_behind(text) or found[2].split()[0] in known:
         return ""
     return f"write {{value: {found[1]}, description: {found[2].strip()}}}"
 
@@ -212,7 +215,7 @@ def is_described(text: str, known: Collection[str]) -> bool:
     longest = max(words, key=len)
     if len(words) > 1:
         return len(longest) > 3 and longest not in FUNCTIONS
-    is_name = longest in GREEK or longest in NO_VALUE or closest(longest, [*ASSUMPTIONS, *known])
+    is_name = longest in GREEK or is_open(longest) or closest(longest, [*ASSUMPTIONS, *known])
     return len(longest) > 3 and longest.islower() and longest not in FUNCTIONS and not is_name
 
 
@@ -268,7 +271,7 @@ def _declared(
         named = [(name, value) for name, _, value in (x.partition(": ") for x in given.split(", "))]
         listed = ", ".join(name for name, _ in named)
         state = f"write [{listed}], and below it initial: {{{given}}}"
-        if all(_WORDS.fullmatch(value) and value not in NO_VALUE for _, value in named):
+        if all(_WORDS.fullmatch(value) and not is_open(value) for _, value in named):
             described = (f"{name}: {{description: {value}}}" for name, value in named)
             state = given = ", ".join(described)
         hint = state if section == "coordinates" and "{" not in given else f"write {{{given}}}"

@@ -19,6 +19,7 @@ from lagcli.reader.habits import (
     meanings,
     superscript,
     unit_behind,
+    with_mixed_numbers,
 )
 from lagcli.reader.regex import regex
 from lagcli.reader.strange_characters import END_VALUE, character_meant
@@ -100,8 +101,15 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
         return Diagnostic(f"{shown} has no meaning in an expression", span, "leave it out")
     if character in '"“”„' and not (tokens and tokens[-1].type == "NAME"):
         return Diagnostic("quotes are not part of a formula", span, "leave them out")
+    if character == "#":
+        remark = excerpt.value[at:]
+        hint = f"leave out '{remark}'" if excerpt.in_flow else ""
+        hint = hint or f"a comment has a blank before it: write {excerpt.value[:at]} {remark}"
+        return Diagnostic(f"{shown} has no meaning in an expression", span, hint)
     if REMARK.search(excerpt.value):
         return Diagnostic("a remark is no part of a formula", span, COMMENT)
+    if character in "≈≃≅" and not tokens:
+        return Diagnostic(f"{shown} has no meaning in an expression", span, "leave it out")
     if character in "°˚":
         return Diagnostic("angles are in radians", span)
     hint = character_meant(excerpt.value[at:], tokens) or meanings("characters").get(character, "")
@@ -153,6 +161,9 @@ def _missing_product(
     if apart and REMARK.search(excerpt.value):
         return Diagnostic("a remark is no part of a formula", span, COMMENT)
     rest = excerpt.value[left.start_pos :]
+    if left.type == "NUMBER" and (one := with_mixed_numbers(rest)) != rest:
+        whole = excerpt.value[: left.start_pos] + one
+        return Diagnostic("a number is one number of digits", span, f"write {whole}")
     if right.type == "NAME" and (number := _EXPONENT.match(rest)):
         value, e, d, sign, digits = number.groups()
         hint = f"write {value}e{sign}{digits}" if digits else f"as in {value}e-3"

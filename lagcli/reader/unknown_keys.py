@@ -199,7 +199,7 @@ def _meant_of_problem(
         shape
         and not is_slip
         and near != word.casefold()
-        and (not hint or (near in MAPS - {shape} and is_list))
+        and (not hint or hint[:8] == "did you " or (near in MAPS - {shape} and is_list))
     ):
         meant, hint = shape, f"the key is {shape}"
     if energy_ := potential_meant(word, value, around, _coordinates(around)):

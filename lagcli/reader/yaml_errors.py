@@ -17,7 +17,6 @@ from lagcli.reader.habits import (
     colon_advice,
     habits,
     key_meant,
-    meanings,
 )
 from lagcli.reader.headings import SECTIONS
 from lagcli.reader.misshapen import pieces
@@ -233,7 +232,6 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
         return Diagnostic(
             "a formula has no cases", span, CASE if whole == value else f"write {whole}"
         )
-    word = re.search(r":\s.*\S\s+(\w+)\s*$", lines[line - 1][: column - 1])
     inner = re.match(r"\s*(\w+):\s+([^\W\d][\w ]*'*:.*\S)", lines[line - 1])
     if inner and inner[1] in MAPS:
         name, _, value = inner[2].partition(":")
@@ -245,9 +243,6 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
             return Diagnostic("each equation has a name", span, f"write {inner[1]}: {{{inner_}}}")
         hint = f"write {inner[1]}: {{{inner[2]}}}"
         return Diagnostic("a map on the line of its key stands in braces", span, hint)
-    is_joined = re.match(r"\s*\w+:[\[{]", lines[line - 1])
-    if word and word[1] in meanings("keys").values() and not is_joined:
-        return Diagnostic("two keys on one line", span, f"begin a new line with '{word[1]}:'")
     return Diagnostic("a second ':' in one value", span, "put the whole value in quotes")
 
 

@@ -523,7 +523,7 @@ OTHERS = [
     (text(expect="{degrees_of_freedom: [x]}"), "write 1"),
     (text(find="{a: {where: m*x'' = -k*x, for: x''}}"), "accelerations are found"),
     (text(observables="[angular momentum]"), "write {A: x*p_x}"),
-    (text(unit_system="SI"), "write parameters: {m: {unit: kg}}"),
+    (text(unit_system="SI"), "leave it out: a unit stands with its name, m: {unit: kg}"),
     (text(damping_ratio="0.05"), "dissipation: c*x'^2/2"),
     ("Energy\n" + text(), "a heading is a comment, which begins with '#': # Energy"),
 ]  # fmt: skip

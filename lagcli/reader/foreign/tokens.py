@@ -13,10 +13,18 @@ from lagcli.reader.foreign.indexed_sums import written_out
 from lagcli.reader.foreign.lengths import component, with_components, with_products
 from lagcli.reader.foreign.vector_products import vector_product, with_single_components
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant, parts_of
-from lagcli.reader.habits import RELATIONS, REMARK, advised, foreign_function, unit_behind
+from lagcli.reader.habits import (
+    RELATIONS,
+    REMARK,
+    VULGAR,
+    advised,
+    foreign_function,
+    unit_behind,
+    with_mixed_numbers,
+)
 from lagcli.reader.regex import regex
 
-RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻½⅓⅔¼¾⅛"
+RAISED = f"⁰¹²³⁴⁵⁶⁷⁸⁹⁻{VULGAR}"
 _LETTER = rf"[^\W\d{RAISED}]"
 _TOKEN = regex(
     r"(?P<skip>(?:\s|\$|\\[,;:! ]"
@@ -89,7 +97,7 @@ class Token(NamedTuple):
 def prepared(text: str, names: Vocabulary) -> str:
     """With the marks of web pages, v² and Leibniz' derivatives in the notation of a file."""
     text = re.sub(r"^\s*[rfbu]?(['\"])(.*)\1\s*$", r"\2", unescape(text))
-    text = _DONE_WITH.sub("", text)
+    text = with_mixed_numbers(_DONE_WITH.sub("", text))
     text = re.sub(r"\b([pP]i|PI)\(\s*\)", "pi", text)
     text = _CONSTANT.sub(
         lambda m: m[0] if m[0] in names.known else advised("constants", m[0]) or m[0], text
@@ -112,7 +120,8 @@ def prepared(text: str, names: Vocabulary) -> str:
     along_z = vector_product(text, names.coordinates, {*names.known})
     text = along_z[0] if len(along_z) == 1 else text
     text = with_products(written_out(text, names), names)
-    text = re.sub(r"->|→|⇒", "=", text) if names.related else text
+    text = re.sub(r"->|[→⇒≈≃≅]", "=", text) if names.related else text
+    text = re.sub(r"(?<=[\w)'²])\s*:\s*(?=\d)", "/", text)
     if names.related and not {"d", "dt"} & {*names.known} and re.search(r"\bd[^\W\dt]", text):
         text = re.sub(r"(?<=[\w)'])\s*\*?\s*\bdt\b|\bdt\s*\*\s*", "", text)
     text = text if {"i", "j"} & {*names.known} else _COMPLEX.sub(r"cos(\1)", text)
