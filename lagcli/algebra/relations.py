@@ -115,7 +115,7 @@ class Relations:
             return True
         if relation.is_zero():
             return False
-        found = self._solution(field, relation.numerator)
+        found = self._solution(field, relation)
         if found is None:
             rest = field.polynomial_to_sympy(relation.numerator)
             if rest in self.remaining or -rest in self.remaining:
@@ -127,10 +127,10 @@ class Relations:
         self.solved[symbol] = value
         return True
 
-    def _solution(self, field: Field, poly: Poly) -> tuple[Symbol, Expr] | None:
+    def _solution(self, field: Field, relation: Element) -> tuple[Symbol, Expr] | None:
         """The most welcome symbol in which the relation is linear, and its value."""
         best: tuple[tuple[int, ...], Symbol, Element] | None = None
-        ring = field.ring
+        ring, poly = field.ring, relation.numerator
         used = ring.used(poly)
         hidden = {
             s for g in used if field.generators[g].kind != "symbol"
@@ -141,7 +141,8 @@ class Relations:
             if number not in used or symbol in hidden or ring.degree(poly, number) != 1:
                 continue
             slope = ring.derivative(poly, number)
-            if not self._divides(field, slope) or self._loses_a_branch(field, poly, number):
+            nonzero = slope == relation.denominator or self._divides(field, slope)
+            if not nonzero or self._loses_a_branch(field, poly, number):
                 continue
             value = field.element(slope * ring.generator(number) - ring.lift(poly), slope)
             sign = int(symbol.is_positive is True and _negative(value))

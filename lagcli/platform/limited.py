@@ -36,15 +36,27 @@ def limited(call: Callable[[], Result], units: float, seconds: float) -> Result:
         When it takes more.  What it was working on is then in no certain state.
     """
     watcher = _Watcher(work_done() + units, time.process_time() + seconds)
+    _limits.append(watcher)
     try:
         result = call()
         watcher.close()
     except BaseException:
         watcher.close()
         raise
+    finally:
+        _limits.remove(watcher)
     if work_done() > watcher.end:
         raise OutOfWork
     return result
+
+
+def limited_to(share: float, call: Callable[[], Result]) -> Result:
+    """What the call returns, within a share of what the call around it has left."""
+    if not _limits:
+        return call()
+    around = _limits[-1]
+    units, seconds = around.end - work_done(), around.last_second - time.process_time()
+    return limited(call, share * units, share * seconds)
 
 
 class _Watcher:
@@ -52,7 +64,7 @@ class _Watcher:
 
     def __init__(self, end: float, last_second: float) -> None:
         self.end = end
-        self._last_second = last_second
+        self.last_second = last_second
         self._thread = threading.get_ident()
         self._lock = threading.Lock()
         self._closed = threading.Event()
@@ -70,13 +82,16 @@ class _Watcher:
     def _watch(self) -> None:
         looks = 0
         while not self._closed.wait(_EVERY):
-            over = work_done() > self.end or time.process_time() > self._last_second
+            over = work_done() > self.end or time.process_time() > self.last_second
             if over and looks % _AGAIN == 0:
                 with self._lock:
                     if not self._closed.is_set():
                         self._raised = True
                         _raise_in(self._thread, OutOfWork)
             looks += over
+
+
+_limits: list[_Watcher] = []  # of the calls that are running, the innermost last
 
 
 def _raise_in(thread: int, exception: type[BaseException] | None) -> None:

@@ -6,7 +6,7 @@ import pytest
 import sympy as sp
 
 from lagcli.platform.effort import EFFORT, OutOfWork, work_done
-from lagcli.platform.limited import limited
+from lagcli.platform.limited import limited, limited_to
 
 x, y, z = sp.symbols("x y z", real=True)
 
@@ -44,6 +44,21 @@ def test_too_much_work_is_too_much_even_when_it_has_ended_meanwhile() -> None:
     with pytest.raises(OutOfWork):
         limited(quick, 900, 1e9)
     assert limited(quick, 1100, 1e9) == 1
+
+
+def test_a_share_is_one_of_what_is_left_around_it() -> None:
+    def quick(units: int) -> int:
+        EFFORT.fractions += units
+        return units
+
+    def around() -> int:
+        first = quick(500)
+        with pytest.raises(OutOfWork):
+            limited_to(0.5, lambda: quick(400))
+        return first + limited_to(0.8, lambda: quick(60))
+
+    assert limited(around, 1000, 1e9) == 560
+    assert limited_to(0.5, lambda: quick(10_000)) == 10_000  # nothing is around it
 
 
 @pytest.mark.long

@@ -21,6 +21,13 @@ def test_rolling_is_solved_for_the_coordinate_that_leaves_no_fraction() -> None:
     assert relations.substitute(dx**2) == R**2 * dtheta**2
 
 
+def test_a_velocity_is_solved_for_where_its_slope_is_the_denominator_of_the_relation() -> None:
+    rho = sp.sqrt(x**2 + r**2)  # on the cone y = rho; its derivative has no value where rho = 0
+    relations = Relations([y - rho, dy - (x * dx + r * dr) / rho], moving=[x, y, r, dx, dy, dr])
+    assert relations.remaining == []
+    assert sp.simplify(relations.solved[dy] - (x * dx + r * dr) / rho) == 0
+
+
 def test_a_constant_distance_is_solved_for() -> None:
     assert Relations([r - R1 - R2, dr]).solved == {r: R1 + R2, dr: 0}
 

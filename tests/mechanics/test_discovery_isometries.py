@@ -325,3 +325,17 @@ def test_a_saddle_on_a_cone_is_special_where_the_cone_is_a_plane(n):
     )
     found = {str(c.value): c.number for c in derive(text).special_cases}
     assert found["1"] == 6
+
+
+@pytest.mark.long
+def test_a_flat_cone_whose_cartesian_coordinates_are_not_found_is_said_to_be_one():
+    found = derive("""
+coordinates: [x, y, z]
+parameters: {c: {assume: positive}}
+T: (x'^2 + y'^2 + z'^2)/2
+V: -1/sqrt(x^2 + y^2 + z^2)
+constraints: {cone: z = c*sqrt(x^2 + y^2)}
+""").discovery
+    assert {charge.name for charge in found.charges} == {"energy", "L_z"}
+    assert found.unconstrained is not None
+    assert "the kinetic energy is flat, but Cartesian coordinates were not found" in found.stopped

@@ -192,6 +192,10 @@ class Setting:
             return None
         rest = self.system.L.xreplace(dict.fromkeys(self.system.qdot, sympy.S.Zero))
         found = Isometries(self.equations, rest, self.allowed)
+        if not found.functions and found.metric.curvature is not None:
+            what = "Cartesian coordinates" if found.flat else "the isometries"
+            kind = "flat" if found.flat else "of constant curvature"
+            self.stopped.append(f"the kinetic energy is {kind}, but {what} were not found")
         return found if found.functions else None
 
     @property

@@ -43,12 +43,15 @@ from lagcli.mechanics.discovery.special import (
     steady_in_another_time,
 )
 from lagcli.mechanics.noether import NoetherCharge
+from lagcli.platform.effort import OutOfWork
+from lagcli.platform.limited import limited_to
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 
 _MOST_COORDINATES = 4  # measured: up to 5
 _UNITS = 64_000_000  # three frequencies: 13 values take 64 million
 _FOR_PIVOTS = 0.3  # of these
+_SHARE = 0.8  # of what its section has left
 _MOST_UNKNOWNS = 150  # measured: up to 378
 _MOST_VALUES = 16  # measured: at most 5
 _MOST_PAIRS = 6
@@ -72,7 +75,8 @@ def special_cases(
     variables = (system.t, *discovery.system.q, *discovery.system.qdot)
     found: list[SpecialCase] = []
     searches: list[tuple[SpecialCase, Discovery]] = []
-    try:
+
+    def look() -> None:
         values, pairs = _to_try(searched, discovery, allowed)
         for choice in _choices(values, pairs, found, discovery.words, missing(system.parameters)):
             if any(sympy.count_ops(value) > _MOST_OPERATIONS for _, value in choice):
@@ -99,7 +103,10 @@ def special_cases(
                 number, given = len(there.charges), tuple(choice[1:])
                 found.append(SpecialCase(*choice[0], number, charges, there.degree, given))
                 searches.append((found[-1], there))
-    except TooMuchWork:
+
+    try:
+        limited_to(_SHARE, look)
+    except (TooMuchWork, OutOfWork):
         discovery.words.append(_NOT_ALL)
     if found and searched.degree > 2:  # the values come from the searches up to second degree
         discovery.words.append(_NOT_ALL)
