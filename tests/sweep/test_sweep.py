@@ -234,6 +234,18 @@ def test_a_sweep_that_is_killed_goes_on_to_the_same_bytes(tmp_path):
 
 
 @pytest.mark.long
+@pytest.mark.skipif(sys.platform == "win32", reason="no such signal")
+def test_no_process_outlives_a_sweep_that_is_killed(tmp_path):
+    command = [sys.executable, "-m", "lagcli", "sweep", "double-pendulum-equal", "-j", "3"]
+    command += ["--vary", "phi1=0.1:2:4000", "--until", "50", "-o", str(tmp_path / "cut.csv")]
+    with subprocess.Popen(command, stderr=subprocess.PIPE) as process:
+        time.sleep(4)  # they have begun, and are far from the end
+        assert process.poll() is None
+        process.kill()
+        process.communicate(timeout=60)  # to the end of the pipe, which all of them hold
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("platform", ["darwin", "win32"])
 def test_processes_that_are_started_anew_give_the_same_bytes(platform, tmp_path, monkeypatch):
     """As on macOS and Windows, where nothing is forked."""

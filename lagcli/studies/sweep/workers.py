@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import logging
 import multiprocessing
+import os
 import signal
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -21,7 +22,7 @@ from concurrent.futures import (
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, suppress
 from itertools import islice
-from threading import Lock
+from threading import Lock, Thread
 from typing import TypeVar
 
 Part = TypeVar("Part")
@@ -62,16 +63,24 @@ def cores(jobs: int) -> Iterator[Executor]:
     """Processes of this machine."""
     context = multiprocessing.get_context("fork" if sys.platform == "linux" else "spawn")
     jobs = min(jobs, _MOST) if sys.platform == "win32" else jobs
-    with ProcessPoolExecutor(jobs, mp_context=context, initializer=_leave_signals) as pool:
+    with ProcessPoolExecutor(jobs, mp_context=context, initializer=_prepared) as pool:
         try:
             yield pool
         except BrokenProcessPool:
             raise NoCluster("a process of this sweep was killed, or had no memory left") from None
 
 
-def _leave_signals() -> None:
-    """Ctrl-C is the parent's to answer."""
+def _prepared() -> None:
+    """Ctrl-C is the parent's to answer; where the parent was killed, its process ends too."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 @contextmanager
