@@ -28,6 +28,8 @@ _COEFFICIENTS = {
 }
 #: `y .ge. 0` and `y >= 0`.
 _INEQUALITY = regex(r"[<>≤≥]|\.(?i:[gl][et])\.")
+#: `|x| <= l` and `abs(x) <= l`.
+_AROUND = regex(r"(?:\|([^<>|]+)\||abs\(([^<>]+)\))\s*<=\s*([^<>]+)")
 _HINT = "write floor: {gap: y >= 0, restitution: 0.8}"
 
 
@@ -102,6 +104,9 @@ def _hint(file: FileReader, key: Scalar, value: Mapping, known: tuple[str, ...])
         formulas = (v for k, v in given.items() if k not in known)
         formulas = (v for v in formulas if re.search("^[^<>]*[-+*/^=][^<>]*$", v))
         laws += [v if "=" in v else f"{v} = 0" for v in formulas]
+    elif gaps := [v for k, v in given.items() if k not in known and _INEQUALITY.search(v)]:
+        inner = {k: v for k, v in given.items() if k in known}
+        return f"write {contacts_for(key.label, gaps, inner)}"
     if not laws:
         return _HINT if sign == ">=" else f"write {key.label}: {{equation: left = right}}"
     rest = (f", {k}: {v}" for k, v in given.items() if k in known)
@@ -130,7 +135,7 @@ def read_contacts(file: FileReader, given: list[Declared]) -> tuple[Contact, ...
         if "gap" not in one.attributes:
             continue
         what = f"the contact '{one.key.label}'"
-        gap = _gap(file, one.attributes["gap"], what)
+        gap = _gap(file, one, what)
         restitution = None
         if RESTITUTION in one.attributes:
             restitution = read_restitution(file, one.attributes[RESTITUTION], what)
@@ -146,14 +151,30 @@ def read_contacts(file: FileReader, given: list[Declared]) -> tuple[Contact, ...
     return tuple(contacts)
 
 
-def _gap(file: FileReader, node: DocumentNode, what: str) -> Equation:
+def contacts_for(name: str, gaps: list[str], attributes: dict[str, str]) -> str:
+    """`lower: {gap: x >= 0, restitution: e}, upper: …` for two sides, also those of `|x| <= l`."""
+    plain = (re.sub("[<≤]=?", "<=", re.sub("[>≥]=?", ">=", each)) for each in gaps)
+    sides = [
+        side for each in plain for side in _AROUND.sub(r"\1\2 >= -\3\n\1\2 <= \3", each).split("\n")
+    ]
+    parts = [re.split(r"\s*([<>]=)\s*", side.strip()) for side in sides]
+    names = [f"{name}_{place}" for place, _ in enumerate(parts, 1)] if parts[1:] else [name]
+    if [sign for _, sign, _ in parts] == [">=", "<="] and parts[0][0] == parts[1][0]:
+        names = ["lower", "upper"]
+    rest = "".join(f", {key}: {each}" for key, each in attributes.items()
+                   if key != "multiplier" or not parts[1:])  # fmt: skip
+    wholes = (f"{{gap: {' '.join(each)}{rest}}}" if rest else " ".join(each) for each in parts)
+    return ", ".join(map("{}: {}".format, names, wholes))
+
+
+def _gap(file: FileReader, one: Declared, what: str) -> Equation:
     """`y >= 0`, `y <= h`, or an expression that is not negative."""
-    before = len(file.diagnostics)
+    before, node = len(file.diagnostics), one.attributes["gap"]
     parts = comparisons_in(node.value) if isinstance(node, Scalar) else []
     if parts[1:] and all(map(_INEQUALITY.search, parts)):
-        name = what.split("'")[1]
-        each = ", ".join(f"{name}_{place}: {part}" for place, part in enumerate(parts, start=1))
-        file.error("two statements in one", node.span, f"each has its own name: {each}")
+        rest = {name: source_of(x) for name, x in one.attributes.items() if name != "gap"}
+        hint = f"write {contacts_for(one.key.label, parts, rest)}"
+        file.error("two statements in one", one.key.span, hint)
         gap = Equation(ZERO, ZERO, span=node.span)
     elif isinstance(node, Scalar) and _INEQUALITY.search(node.value):
         found = file.comparison(node, what, POSITION)

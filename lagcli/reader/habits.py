@@ -38,6 +38,9 @@ SIGNS = {">": "positive", "<": "negative", ">=": "nonnegative", "≥": "nonnegat
 RELATIONS = {rf"\.(?i:{word})\.": sign for word, sign in
              (("ge", ">="), ("gt", ">"), ("le", "<="), ("lt", "<"), ("eq", "="))}  # fmt: skip
 _AND = regex(r"\s*(?:\.(?i:and)\.|&&|(?<=\s)(?i:and|und)(?=\s))\s*")
+#: `0 <= x < 1`, and the relation of both sides exchanged.
+_BETWEEN = regex(r"^([^<>≤≥]+?)\s*([<>]=?|[≤≥])\s*([^<>≤≥]+?)\s*([<>]=?|[≤≥])\s*([^<>≤≥]+)$")
+_TURNED = str.maketrans("<>≤≥", "><≥≤")
 COMMENT = "a comment begins with '#'"
 PROGRAM = "a problem has keys with their values, as in coordinates: [x], and no program"
 CASES = frozenset("if for when where else otherwise piecewise Piecewise".split())
@@ -317,11 +320,17 @@ def with_mixed_numbers(text: str) -> str:
 
 
 def comparisons_in(text: str) -> list[str]:
-    """`y >= 0` and `y <= 10` for `y .ge. 0 .and. y .le. 10`."""
+    """`y >= 0` and `y <= 10` for `y .ge. 0 .and. y .le. 10` and for `0 <= y <= 10`."""
     for form, sign in RELATIONS.items():
         text = re.sub(rf"\s*{form}\s*", f" {sign} ", text)
     text = re.sub("=([<>])", r"\1=", text)
-    return [each.strip() for each in _AND.split(text)]
+    parts = [each.strip() for each in _AND.split(text)]
+    return [each for part in parts for each in _BETWEEN.sub(_both, part).split("\n")]
+
+
+def _both(found: re.Match[str]) -> str:
+    low, sign, name, other, high = found.groups()
+    return f"{name} {sign.translate(_TURNED)} {low}\n{name} {other} {high}"
 
 
 def names_among(text: str) -> list[str]:

@@ -83,6 +83,9 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
     if units[1:] and place is None:
         return units
     unit = units[0] if units else None
+    is_name = unit is not None and text.source.text[begin:stop] == unit.message.split("'")[1]
+    if unit is not None and place is None and _is_usual(unit) and not is_name:
+        return units
     if not found[1:]:
         if place is not None:
             return [_with_term(found[0], place, text)]

@@ -8,7 +8,13 @@ from typing import TYPE_CHECKING
 
 from lagcli.expression import ZERO, Name, name_nodes
 from lagcli.problem_data import Constraint, pushing_sign
-from lagcli.reader.contacts import RESTITUTION, Declared, declared, read_restitution
+from lagcli.reader.contacts import (
+    RESTITUTION,
+    Declared,
+    contacts_for,
+    declared,
+    read_restitution,
+)
 from lagcli.reader.habits import comparisons_in
 from lagcli.reader.misshapen import as_equation, is_sentence, pieces, source_of, texts_of
 from lagcli.reader.names import derivative_order
@@ -52,8 +58,9 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     hint = f"write {{{written}}}" if given[1:] or constants else f"write {written}"
     hint = ", ".join([hint, *constants])
     if any(map(_INEQUALITY.search, texts)):
-        gaps = (f"{name}: {gap}" for each in given for name, gap in _gaps("floor", each))
-        file.error(_A_CONTACT, node.span, f"write contacts: {{{', '.join(gaps)}}}")
+        gaps = [gap for each in given for gap in comparisons_in(each)]
+        hint = f"write contacts: {{{contacts_for('floor', gaps, {})}}}"
+        file.error(_A_CONTACT, node.span, hint)
         return []
     named = file.named(node, "constraints", _CONSTRAINT_ATTRIBUTES, hint)
     entries = file.of_section(named, "constraints", _CONSTRAINT_ATTRIBUTES)
@@ -72,50 +79,30 @@ def _is_refused(file: FileReader, key: Scalar, value: DocumentNode) -> bool:
     """Whether an entry is no constraint but a contact, or several constraints: a mistake."""
     parts = {k.label: v for k, v in getattr(value, "entries", ())}
     node = parts.get("equation", value)
-    written = " and ".join(comparisons_in(node.value)) if isinstance(node, Scalar) else ""
+    written = node.value if isinstance(node, Scalar) else ""
     if re.search("[<>≤≥]", key.label):  # {x <= 1}
         written = key.label
-    if _INEQUALITY.search(written) and not is_sentence(written, file.scope.kinds):
+    statements = [x for each in equations_in(written) for x in comparisons_in(each)]
+    gaps = [each for each in statements if _INEQUALITY.search(each)]
+    equations = [re.sub("={2,}", "=", each) for each in statements if each not in gaps]
+    if gaps and not is_sentence(written, file.scope.kinds):
         attributes = {name: source_of(parts[name]) for name in _OF_CONTACT if name in parts}
         name = key.label if key.label.isidentifier() else "floor"
-        whole = ", ".join(
-            f"{each}: {_with_gap(gap, attributes)}" for each, gap in _gaps(name, written)
-        )
-        hint = f"write contacts: {{{whole}}}"
-        file.error(_A_CONTACT, key.span, hint)
+        hint = f"write contacts: {{{contacts_for(name, gaps, attributes)}}}"
+        if equations:
+            law, multiplier = equations[0], attributes.pop("multiplier", "")
+            law = f"{{equation: {law}, multiplier: {multiplier}}}" if multiplier else law
+            other = contacts_for(f"{name}_2", gaps, attributes)
+            hint = f"write {name}: {law}, and contacts: {{{other}}}"
+        file.error(_A_CONTACT, key.span, "" if equations[1:] else hint)
         file.scope.refused.append(attributes.get("multiplier", f"lambda_{key.label}"))
         return True
-    equations = equations_in(written)
     if equations[1:]:
         named = (f"{key.label}_{place}: {each}" for place, each in enumerate(equations, start=1))
         hint = f"each equation has its own name: {', '.join(named)}"
         file.error(f"'{key.label}' has several equations", key.span, hint)
         file.scope.refused.append("")
     return bool(equations[1:])
-
-
-def _gaps(name: str, written: str) -> list[tuple[str, str]]:
-    """The gap of one contact, or the two of `0 <= x <= l` and `abs(x) <= l`."""
-    whole = re.sub(r"=*([<>])=*", r"\1=", written.replace("≤", "<").replace("≥", ">"))
-    found = re.fullmatch(r"([^<>]+)<=([^<>]+)<=([^<>]+)", whole)
-    if " and " in whole:
-        parts = enumerate(whole.split(" and "), start=1)
-        return [(f"{name}_{k}", gap) for k, part in parts for _, gap in _gaps(name, part)]
-    around = re.fullmatch(r"(?:\|([^<>|]+)\||abs\(([^<>]+)\))\s*<=([^<>]+)", whole)
-    if around:
-        end = around[3].strip()
-        return [("lower", f"{(around[1] or around[2])} >= -{end}"),
-                ("upper", f"{(around[1] or around[2])} <= {end}")]  # fmt: skip
-    if found:
-        low, x, high = map(str.strip, found.groups())
-        return [("lower", f"{x} >= {low}"), ("upper", f"{x} <= {high}")]
-    return [(name, re.sub(r"\s*([<>]=)\s*", r" \1 ", whole))]
-
-
-def _with_gap(gap: str, attributes: dict[str, str]) -> str:
-    """The gap of a contact, in a map where it has attributes."""
-    rest = "".join(f", {name}: {value}" for name, value in attributes.items())
-    return f"{{gap: {gap}{rest}}}" if rest else gap
 
 
 def equations_in(text: str) -> list[str]:

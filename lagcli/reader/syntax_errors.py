@@ -76,7 +76,7 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
         return Diagnostic("'->' has no meaning", _span(token, excerpt), "write '='")
     if token.type == "COMPARISON":
         message = f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once"
-        hint = _one_by_one(excerpt.value) if start == "comparison" else CASE
+        hint = "write each by itself, under its own name" if start == "comparison" else CASE
         if re.fullmatch(r"\s*\w*\s*(?:<=|≤)\s*0\s*", excerpt.value) and start == "expression":
             hint = "write {assume: real}: no assumption says <= 0"
         if start == "expression" and re.search(r"<[^<>]+>", excerpt.value):
@@ -254,15 +254,6 @@ def _unexpected(
         return f"nothing stands before '{token}'", f"leave out '{token}'"
     hint = COMMENT if f"{previous}{token}" in {"//", "/*"} else f"leave out '{token}'"
     return f"'{token}' cannot follow '{previous}'", hint
-
-
-def _one_by_one(written: str) -> str:
-    """`x >= -1` and `x <= 1` for `-1 <= x <= 1`."""
-    found = re.fullmatch(r"([^<>≤≥]+)(?:<=?|≤)([^<>≤≥]+)(?:<=?|≤)([^<>≤≥]+)", written)
-    if found is None:
-        return "write each by itself, under its own name"
-    low, name, high = (each.strip() for each in found.groups())
-    return f"write each by itself, as in lower: {name} >= {low}, upper: {name} <= {high}"
 
 
 def _open_parenthesis(tokens: list[Token]) -> Token | None:

@@ -19,8 +19,8 @@ def errors(written):
 
 @pytest.mark.parametrize(
     ("unit", "kinetic", "potential", "wrong", "hint"),
-    [("N", "m*x'^2/2", "k*x^2/2", "'k*x^2/2'", "write N/m for the unit N of k: "),
-     ("kg", "m*x'^2/2", "k*x^2/2 - m*g*x", "'k*x^2/2'", "write N/m for the unit kg of k: "),
+    [("N", "m*x'^2/2", "k*x^2/2", "the unit of 'k'", "write N/m"),
+     ("kg", "m*x'^2/2", "k*x^2/2 - m*g*x", "the unit of 'k'", "write N/m"),
      ("N/m", "m*x'^2/2", "k*x/2 - m*g*x", "'k*x/2'", "write k*x^2/2: "),
      ("N/m", "m*x'/2", "k*x^2/2 - m*g*x", "'m*x'/2'", "write m*x'^2/2: "),
      ("N/m", "x'^2/2", "k*x^2/2 - m*g*x", "'x'^2/2'", "write m*x'^2/2: "),

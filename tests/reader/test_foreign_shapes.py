@@ -491,7 +491,7 @@ def test_a_range_for_a_contact_is_two_contacts(comparison, low, high):
     hint = only_mistake(
         text(contacts=f'{{walls: "{low} {comparison} x {comparison} {high}"}}')
     ).hint
-    lower, upper = re.fullmatch(r".*as in lower: (.*), upper: (.*)", hint).groups()
+    lower, upper = re.fullmatch(r"write lower: (.*), upper: (.*)", hint).groups()
     assert messages(text(contacts=f'{{lower: "{lower}", upper: "{upper}"}}')) == []
     assert (lower, upper) == (f"x >= {low}", f"x <= {high}")
 

@@ -529,7 +529,7 @@ HABITS = [
     (text(forces='{x: "-sign(k, x\')"}'), "write -abs(k)*sign(x')"),
     (text(forces='{x: "-math.copysign(2.5, x\')"}'), "write -2.5*sign(x')"),
     (text(contacts="{floor: x .ge. 0.}"), "write x >= 0."),
-    (text(contacts="{floor: x.GT.0 .and. x.lt.10}"), "floor_1: x > 0, floor_2: x < 10"),
+    (text(contacts="{floor: x.GT.0 .and. x.lt.10}"), "lower: x >= 0, upper: x <= 10"),
     (text(constraints="{c: x .Eq. k}"), "write x = k"),
     (text(constraints="{c: x .le. k}"), "write contacts: {c: x <= k}"),
     (text(parameters="{k: {unit: Grad, value: 30}}"), "write unit: rad, value: 30*pi/180"),
