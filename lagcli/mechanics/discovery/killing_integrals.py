@@ -46,7 +46,7 @@ from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.noether import Noether, NoetherCharge
 from lagcli.mechanics.total_derivative import boundary_term
 
-_MOST_UNKNOWNS = 400  # measured: at most 213; 414 for D3 are found, but not printed in time
+_MOST_UNKNOWNS = 450  # measured: at most 414, for D3
 
 
 @dataclass(frozen=True, slots=True)
