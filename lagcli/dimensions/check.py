@@ -29,6 +29,14 @@ _NAMES_IN_HINT = 5
 #: Of a half turn: the largest denominator of an angle in units of pi.
 _DEGREES = 180
 #: Wrong units that are looked for at once, and the sets of them that are tried.
+#: Letters for a quantity by its unit.
+_LETTERS = {
+    "s": ["t_1", "tau"],
+    "1/s": ["omega", "gamma"],
+    "m": ["a", "h"],
+    "1/m": ["k"],
+    "N": ["F"],
+}
 _MOST_UNITS, _MOST_SETS = 3, 60
 
 
@@ -146,6 +154,7 @@ class _Checker:
     def __init__(self, inference: Inference, text: str | None = None) -> None:
         self.inference = inference
         self.problem = inference.problem
+        self._declared: dict[tuple[str, str], str] = {}  # by unit and value, for hints
         self._lines = (self.problem.source.text if text is None else text).split("\n")
 
     def given(self) -> Iterator[tuple[Quantity, Form]]:
@@ -189,8 +198,26 @@ class _Checker:
             others = self._named(reference, several=True)
             message = f"{quoted} is {self._named(form)} where the other terms are {others}"
         nodes = [term.node, *(each.node for each in alike[:1])]
-        return Diagnostic(message, _bare(term.node).span, self._advice(term.node, form, reference),
-                          related=tuple(self._inferred(nodes)))  # fmt: skip
+        advice = self._with_a_unit(term.node, minus(reference, form), is_argument=not reference)
+        advice = advice or self._advice(term.node, form, reference)
+        related = tuple(self._inferred(nodes))
+        return Diagnostic(message, _bare(term.node).span, advice, related=related)
+
+    def _with_a_unit(self, node: Expression, missing: Form, *, is_argument: bool) -> str:
+        """The 1 of `t - 1`, and the 2 of `sin(2*t)`, as a parameter with a unit."""
+        number = re.match(r"([\d.]+)(?:\s*\*\s*(?=[^\W\d]))?", text := self._quoted(node)[1:-1])
+        rest = text[number.end() :] if number else text
+        is_rate = is_argument and re.fullmatch(r"[^\W\d]\w*", rest)
+        if unknowns(missing) or not (is_rate or (number and not rest)):
+            return ""
+        unit = str(self.inference.system.unit(missing))
+        value, taken = number[1] if number else "1", {*self.inference.demands.names}
+        taken |= {*self._declared.values()} - {self._declared.get((unit, value), "")}
+        names = (x + index for index in ("", "_0", "_1") for x in _LETTERS.get(unit, ["c"]))
+        name = next((each for each in names if each not in taken), "c_2")
+        self._declared[unit, value] = name
+        given = f"{name}: {{unit: {unit}, value: {value}}}"
+        return f"declare {given} under parameters, and write {name}{'*' * bool(rest)}{rest}"
 
     def no_energy(self) -> Iterator[Diagnostic]:
         """T and V, or L, whose terms agree, but on something that is no energy."""

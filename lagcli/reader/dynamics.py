@@ -6,11 +6,18 @@ import re
 from typing import TYPE_CHECKING
 
 from lagcli.problem_data import Point, Problem
+from lagcli.reader.bodies_meant import NO_ROTATION, of_bodies
 from lagcli.reader.by_coordinate import by_name, coordinate_meant, of_vectors
 from lagcli.reader.file_reader import Required
 from lagcli.reader.foreign.words import polar_speed
 from lagcli.reader.growth import growth
-from lagcli.reader.habits import KEYS, colon_advice, is_angle, is_constant, key_meant
+from lagcli.reader.habits import (
+    KEYS,
+    colon_advice,
+    is_angle,
+    is_constant,
+    key_meant,
+)
 from lagcli.reader.headings import forces_without_headings, without_headings
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.misshapen import as_list, named_formulas, source_of
@@ -19,6 +26,7 @@ from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Growth, Role
 from lagcli.reader.suggest import did_you_mean
+from lagcli.record import replace
 
 if TYPE_CHECKING:
     from lagcli.diagnostics import Span
@@ -225,7 +233,13 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
             hint = f"write {{position: {source_of(value)}, mass: {_mass_of(file, key.label)}}}"
             file.error(f"{what} must be a map, not a list", value.span, hint)
         else:
+            before = len(file.diagnostics)
             found = file.attributes(value, what, _POINT_ATTRIBUTES, required)
+            file.diagnostics[before:] = [
+                replace(x, hint=of_bodies(file, entries) or x.hint)
+                if x.hint.startswith(NO_ROTATION) else x
+                for x in file.diagnostics[before:]
+            ]  # fmt: skip
         attributes = {name: attribute for name, (_, attribute) in found.items()}
         if "position" not in attributes:
             file.scope.refused.append("points")

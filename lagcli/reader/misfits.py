@@ -134,7 +134,7 @@ def _with_term(
 
     A unit that the quantity has in most books comes before another term, any other one after.
     """
-    if mistake.hint.startswith(("write ", "give ")):  # of units that do not go together
+    if mistake.hint.startswith(("write ", "give ", "declare ")):  # of units and numbers
         return mistake
     begin, stop = text.offsets(mistake.span)
     written = text.source.text

@@ -180,3 +180,22 @@ def test_a_factor_too_many_is_left_out_with_its_sign():
     for term in ("F*x", "x*F"):
         [only] = errors(file % term)
         assert only.hint.startswith("write F: ")
+
+
+@pytest.mark.parametrize(
+    ("force", "number", "unit"),
+    [("F*sin(2*t)", "2", "1/s"), ("F*sign(t - 0.5)", "0.5", "s"), ("F*exp(-t)", "1", "1/s"),
+     ("F*cos(3*x)", "3", "1/m"), ("F + 4", "4", "N")],
+)  # fmt: skip
+def test_a_number_that_lacks_a_unit_becomes_a_parameter_with_it(force, number, unit):
+    begin = (
+        "coordinates: {x: {unit: m}}\nparameters: {m: {unit: kg}, F: {unit: N}%s}\nT: m*x'^2/2\n"
+    )
+    [only] = errors(f"{begin % ''}forces: {{x: {force}}}\n")
+    name, meant = re.fullmatch(
+        r"declare (\w+): .* under parameters, and write (.*)", only.hint
+    ).groups()
+    assert f"{{unit: {unit}, value: {number}}}" in only.hint
+    declared = f", {name}: {{unit: {unit}, value: {number}}}"
+    written = force.replace(only.message.split("'")[1], meant)
+    assert errors(f"{begin % declared}forces: {{x: {written}}}\n") == []
