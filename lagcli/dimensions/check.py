@@ -14,7 +14,7 @@ from lagcli.dimensions.forms import ENERGY, TIME, Form, minus, plus, times, unkn
 from lagcli.dimensions.inference import Inference, gives_units, quantities
 from lagcli.dimensions.kinds import kind
 from lagcli.dimensions.system import Incoherent, dimension_of, meaning_of
-from lagcli.dimensions.terms import Group, Reader, Term, representative
+from lagcli.dimensions.terms import Group, Reader, Term, bare, representative
 from lagcli.dimensions.usual import is_usual
 from lagcli.expression import Expression, Name, Negative, Number, walk
 from lagcli.problem_data import JACOBI_FUNCTION, Problem, Quantity
@@ -201,7 +201,7 @@ class _Checker:
         advice = self._with_a_unit(term.node, minus(reference, form), is_argument=not reference)
         advice = advice or self._advice(term.node, form, reference)
         related = tuple(self._inferred(nodes))
-        return Diagnostic(message, _bare(term.node).span, advice, related=related)
+        return Diagnostic(message, bare(term.node).span, advice, related=related)
 
     def _with_a_unit(self, node: Expression, missing: Form, *, is_argument: bool) -> str:
         """The 1 of `t - 1`, and the 2 of `sin(2*t)`, as a parameter with a unit."""
@@ -233,15 +233,15 @@ class _Checker:
         if self.problem.lagrangian is None:
             letter = "T" if self.problem.hamiltonian is None else "H"
             message = f"{self._quoted(node)} is {named}, {letter} must be {energy}"
-            yield Diagnostic(message, _bare(node).span, advice)
+            yield Diagnostic(message, bare(node).span, advice)
         else:  # the length of a path has the same extremals as an energy
             message = f"L is usually {energy}, {self._quoted(node)} is {named}"
-            yield Diagnostic(message, _bare(node).span, advice, "warning")
+            yield Diagnostic(message, bare(node).span, advice, "warning")
 
     # Words.
 
     def _quoted(self, node: Expression) -> str:
-        span = _bare(node).span
+        span = bare(node).span
         if span.line < 1:
             return "a term"
         last = span.end_line - 1
@@ -338,7 +338,7 @@ class _Checker:
             f"initial {each}": value for each, value in self.problem.initial.items()
             if each.name == quantity.name
         }  # fmt: skip
-        numbers = {key: _bare(node) for key, node in given.items() if node is not None}
+        numbers = {key: bare(node) for key, node in given.items() if node is not None}
         system, written = self.inference.system, quantity.unit or ""
         unit = read_unit(written)
         if better.isalpha() and name in dict(unit.factors):
@@ -367,7 +367,3 @@ class _Checker:
                 value = f"{times_}pi" + f"/{exact.denominator}" * (exact.denominator > 1)
             whole.append(f"{key}: {sign}{value}")
         return f"write {', '.join(whole)}"
-
-
-def _bare(node: Expression) -> Expression:
-    return node.operand if isinstance(node, Negative) else node

@@ -119,14 +119,19 @@ class Reader:
         parts = tuple(terms)
         if not parts:
             return None
+        alone = [part.form for part in parts if isinstance(bare(part.node), Name)]
+        has_numbers = not all(_has_names(part.node) for part in parts)
+        group = Group(
+            terms=parts,
+            expected=expected,
+            subject=subject,
+            usual=representative(alone) if alone and has_numbers else None,  # x of x - 1
+            span=parts[0].node.span.to(parts[-1].node.span),
+            is_force=is_force,
+        )
         if len(parts) > 1 or expected is not None:
-            span = parts[0].node.span.to(parts[-1].node.span)
-            self.groups.append(
-                Group(terms=parts, expected=expected, subject=subject, span=span, is_force=is_force)
-            )
-        if expected is not None:
-            return expected
-        return representative([part.form for part in parts])
+            self.groups.append(group)
+        return group.representative
 
     def form(self, expression: Expression) -> Form | None:
         """The dimension of a formula; None of 0, which has any."""
@@ -221,6 +226,11 @@ class Reader:
         for slope in slopes:
             form = minus(form, slope)
         return form
+
+
+def bare(node: Expression) -> Expression:
+    """A term without its sign."""
+    return node.operand if isinstance(node, Negative) else node
 
 
 _MINUS = Fraction(-1)

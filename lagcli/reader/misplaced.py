@@ -131,7 +131,7 @@ def _is_of(
     if word in KEYS:  # H: 3, where H is a parameter
         used = re.search(rf"(?<![\w']){word}(?![\w':(])", text)
         return is_open and word in _ENERGIES and is_constant("x", written) and used is not None
-    known = (*KEYS, *meanings("parts"))
+    known = KEYS if is_open else (*KEYS, *meanings("parts"))
     if len(word) > 2 and key_meant(word, known) is not None:
         return False
     if is_open:

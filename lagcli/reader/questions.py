@@ -391,6 +391,10 @@ def _number(file: FileReader, node: DocumentNode, what: str) -> Expression:
         only = ends[1].strip() in {"t", "time"}
         file.error("'until' is a time", node.span, f"write {ends[2].strip()}" if only else stop)
         return ZERO
+    word = node.value.strip() if isinstance(node, Scalar) else ""
+    if re.fullmatch(r"(?i:[-+.]*(?:inf|infinity|oo|∞|forever|unendlich|infini))", word):
+        file.error(f"{what} is a number", node.span, "there is no infinity: write 10")
+        return ZERO
     if isinstance(node, Scalar) and re.fullmatch(
         r"[^\W\d]{3,}(?:\s+[^\W\d]+)+", node.value.strip()
     ):

@@ -175,6 +175,10 @@ def _meant_of_problem(
         scope.refused += signals
         listed, called = (", ".join(x + end for x in signals) for end in (": [t]", "(t)"))
         return None, f"functions of the time: write functions: {{{listed}}}, and {called} in forces"
+    if isinstance(value, Sequence) and hint.startswith("option"):  # outputs: [x, xdot]
+        shown = [state_meant(source_of(x), _coordinates(around)) for x in value.items]
+        command = f'an option, not a key: lagcli simulate FILE --show "{",".join(shown)}"'
+        return None, command if all(shown) and shown else hint
     if whole := _of_each(word, value, around):
         return None, f"each name has its own: write {whole}"
     if written and (state := _state_meant(key, written, around)):
