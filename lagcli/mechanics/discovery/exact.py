@@ -136,7 +136,8 @@ class ExactSolver:
         pairs = list(combinations(constants, 2))
         differences = [((a - b) % PRIME, x - y) for (a, x), (b, y) in pairs]
         sums = [((a + b) % PRIME, x + y) for (a, x), (b, y) in pairs]
-        return [*differences, *sums, *constants][:_MOST_LINEAR]
+        made = [pair for pair in (*differences, *sums) if pair[0]]  # |b| - b is 0 here
+        return [*made, *constants][:_MOST_LINEAR]
 
     def _made(self, atoms: Sequence[tuple[int, Expr]]) -> Iterator[_ConstantMonomial]:
         """The shortest first."""

@@ -283,4 +283,4 @@ def frequency_of(square: Expr) -> Expr:
     radicands = [p.base for p in roots if not p.base.is_number]
     if len(radicands) > 1 and any(each.is_Add for each in radicands):
         root = sympy.sqrt(square)  # not torn apart
-    return simplify(root.replace(sympy.Abs, lambda x: x))
+    return simplify(root).replace(sympy.Abs, lambda x: x)
