@@ -230,7 +230,12 @@ def with_assumed_sign(
 
 
 def vanishes_at_random(expression: Expr) -> bool:
-    """Whether an expression is 0 at random values of its symbols at which it is real.
+    """Whether `zero_at_random` says so."""
+    return zero_at_random(expression) is True
+
+
+def zero_at_random(expression: Expr) -> bool | None:
+    """Whether an expression is 0 at random values of its symbols; None where it is not real.
 
     To 25 digits beside its terms, or to 9 where it has a rounded number in it.  Moduli and signs
     are tried with letters of both signs.
@@ -255,4 +260,4 @@ def vanishes_at_random(expression: Expr) -> bool:
             found.append(abs(sum(parts)) < scale * mpf(10) ** (-9 if decimals else -25))
         if not found[-1] or len(found) == ((6 if both else 2) if symbols else 1):
             break
-    return bool(found) and all(found)
+    return all(found) if found else None

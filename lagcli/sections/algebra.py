@@ -9,6 +9,8 @@ from lagcli.document import Block, Paragraph
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import Object, fields_of
 from lagcli.notation.letters import names_in
+from lagcli.platform.effort import OutOfWork
+from lagcli.platform.limited import limited_to
 from lagcli.problem_data import ExpectAlgebra, ExpectSpecial
 from lagcli.reader.scope import CONSTANTS
 from lagcli.reader.shapes import (
@@ -32,6 +34,7 @@ from lagcli.statements.wording import conditions, rows_by_name, values_of, where
 if TYPE_CHECKING:
     from lagcli.mechanics.statements import Statements
 
+_SHARE = 0.8  # of the work that is left, for the Hamilton-Jacobi equation
 #: Names of algebras that are the same for frequencies that are not real.
 _AS_WELL = ("R^", "R with", "Heisenberg", "Galilei")
 
@@ -88,7 +91,10 @@ def _separates(statements: Statements) -> bool:
     from lagcli.mechanics.reduction.separation import Separation
 
     separation = Separation(statements.derivation)
-    found = separation.driven or separation.separated
+    try:
+        found = limited_to(_SHARE, lambda: separation.driven or separation.separated)
+    except OutOfWork:
+        return False
     return found is not None and len(found.constants) == len(separation.system.q)
 
 

@@ -340,9 +340,7 @@ def test_kepler_with_a_mass_that_changes_linearly_has_the_vector_of_runge_and_le
 @pytest.mark.parametrize("changing", ["/t^4", "/t^2", "/(t + 1)^4", "/(1 + b*t)^2"])
 def test_the_square_of_a_strength_of_either_sign_serves_as_a_positive_one(sign, changing):
     """k and -k are the same file: sin(k/t) needs no |k|."""
-    made = derive(
-        f"coordinates: [x]\nparameters: [k, b]\nL: x'^2/2 {sign} k^2*x^2{changing}/2\n"
-    )
+    made = derive(f"coordinates: [x]\nparameters: [k, b]\nL: x'^2/2 {sign} k^2*x^2{changing}/2\n")
     assert made.discovery.stopped == []
     kept = digits_of(made)
     assert len(kept) == 5
