@@ -16,6 +16,7 @@ from lagcli.mechanics.reduction.separation import Separation
 from lagcli.mechanics.reduction.separation_statement import hamilton_jacobi
 from lagcli.pipeline import explain
 from lagcli.reader import parse_text
+from tests.solved import solve
 
 from .derived import derive
 from .test_explanation import words
@@ -384,3 +385,22 @@ def test_a_logarithm_has_no_constant_factor():
     ]
     assert inside
     assert not any(each.startswith(("abs(F*(", "F*(")) for each in inside)
+
+
+@pytest.mark.long
+def test_a_pendulum_of_two_rods_in_space_does_not_separate_and_says_so_in_time():
+    """Marsden, Scheurle, Z. angew. Math. Phys. 44 (1993) 17: E and the vertical momentum."""
+    rods = "sin({0})*cos({1}) sin({0})*sin({1}) -cos({0})"
+    first = rods.format("a", "u").split()
+    second = [f"{x} + {y}" for x, y in zip(first, rods.format("b", "v").split(), strict=True)]
+    names = [f"{x}{n}" for n in (1, 2) for x in "xyz"]
+    definitions = "".join(
+        f"  {name}: {formula}\n" for name, formula in zip(names, [*first, *second], strict=True)
+    )
+    T = " + ".join(f"{name}'^2/2" for name in names)
+    text = (
+        f"coordinates: [a, u, b, v]\nparameters: [g]\ndefinitions:\n{definitions}T: {T}\n"
+        "V: g*(z1 + z2)\n"
+    )
+    found = solve(derive(text).problem, ["algebra"]).sections["algebra"]
+    assert (found.independent, found.in_involution, found.integrable) == (2, 2, None)
