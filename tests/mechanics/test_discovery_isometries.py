@@ -338,4 +338,4 @@ constraints: {cone: z = c*sqrt(x^2 + y^2)}
 """).discovery
     assert {charge.name for charge in found.charges} == {"energy", "L_z"}
     assert found.unconstrained is not None
-    assert "the kinetic energy is flat, but Cartesian coordinates were not found" in found.stopped
+    assert "the kinetic energy is flat, but no Cartesian coordinates were found" in found.ansatz

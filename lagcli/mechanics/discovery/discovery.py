@@ -140,6 +140,8 @@ class Discovery(Setting):
                 self.stopped.append(
                     f"{what}: a formula has no value there, so the search is incomplete"
                 )
+        if self.without_isometries:
+            self.words.append(self.without_isometries)
         if len(self.system.q) > 1 and not self.dynamics.constraints.equations:
             what = "those" if self.degree > 1 else "other first integrals"
             self.words.append(f"{what} of degree {self.degree + 1} or higher were not sought")

@@ -35,6 +35,8 @@ class Setting:
     ----------
     words, stopped : list of str
         What is searched, and which parts of it were not finished, and why.
+    without_isometries : str
+        That T has a constant curvature, where its isometries were not found.
     """
 
     def __init__(self, noether: Noether) -> None:
@@ -44,6 +46,7 @@ class Setting:
         self.allowed = Allowance()
         self.words: list[str] = []
         self.stopped: list[str] = []
+        self.without_isometries = ""
 
     @cached_property
     def listing(self) -> Listing:
@@ -192,10 +195,11 @@ class Setting:
             return None
         rest = self.system.L.xreplace(dict.fromkeys(self.system.qdot, sympy.S.Zero))
         found = Isometries(self.equations, rest, self.allowed)
-        if not found.functions and found.metric.curvature is not None:
-            what = "Cartesian coordinates" if found.flat else "the isometries"
-            kind = "flat" if found.flat else "of constant curvature"
-            self.stopped.append(f"the kinetic energy is {kind}, but {what} were not found")
+        if not found.functions and found.metric.n > 1 and found.metric.curvature is not None:
+            kind, what = "of constant curvature", "isometries"
+            if found.flat:
+                kind, what = "flat", "Cartesian coordinates"
+            self.without_isometries = f"the kinetic energy is {kind}, but no {what} were found"
         return found if found.functions else None
 
     @property
