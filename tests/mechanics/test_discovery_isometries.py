@@ -284,6 +284,22 @@ def test_a_length_has_the_isometries_of_space_and_time(root):
     assert min(digits_of(derivation).values()) > 20
 
 
+IN_A_FIELD = {
+    "-m*sqrt(1 + a^2*x^2 - x'^2/(1 + a^2*x^2)) + F*x": "[x]",
+    "-m*sqrt(1 - cosh(a*t)^2*x'^2) + F*sinh(a*t)*x'": "[x]",
+    "-m*sqrt(a^2*x^2 - x'^2) + F*x^2/2": "{x: {assume: positive}}",
+}
+
+
+@pytest.mark.parametrize("L", IN_A_FIELD)
+def test_a_field_as_strong_everywhere_leaves_the_three_isometries_of_a_line(L):
+    """Comtet, Ann. Phys. 173 (1987) 185, of the half plane: dA is a multiple of the area."""
+    derivation = derive(problem(L, IN_A_FIELD[L], "m a F"))
+    found = summary(derivation.discovery)
+    assert (found.dimension, found.independent) == (3, 2)
+    assert min(digits_of(derivation).values()) > 20
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("mass", ["m", "M"])
 def test_coordinates_are_called_cartesian_where_their_masses_are_equal(mass):

@@ -220,12 +220,16 @@ class Setting:
     def of_spacetime(self) -> SlotEquations | None:
         """Of g where L is the length sqrt(-g) of the path (t, q), whatever its parameter.
 
-        With g positive along space, roots of its components are real where L is.
+        But for terms up to first degree in q', those of a field.  With g positive along space, roots of its components are real where L is.
 
         Landau, Lifshitz, *The Classical Theory of Fields*, section 87.
         """
         t, q, v = self.system.t, self.system.q, self.system.qdot
-        square = -(self.system.L**2)
+        parts = sympy.Add.make_args(self.system.L)
+        field = sympy.Add(*(part for part in parts if part.is_polynomial(*v)))
+        square = -((self.system.L - field) ** 2)
+        if field.is_polynomial(*v) and sympy.Poly(field, *v).total_degree() > 1:
+            return None
         if self.dynamics.constraints.equations or self.quadratic_mass or not self.canonical:
             return None
         if not square.is_polynomial(*v) or sympy.Poly(square, *v).total_degree() > 2:
