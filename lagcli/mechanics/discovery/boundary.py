@@ -76,6 +76,9 @@ def _vanishes(change: Expr, variables: Sequence[Symbol], allowed: Allowance) -> 
 def _candidates(by_t: Expr, by_q: Sequence[Expr], t: Symbol, q: Sequence[Symbol]) -> list[Expr]:
     found = {x * term: None for x, slope in zip(q, by_q, strict=True)
              for term in _functions(slope, t, q)}  # fmt: skip
+    for x, slope in zip(q, by_q, strict=True):  # exp(x) is its own integral, cos(x) that of -sin(x)
+        terms = (term for term in _functions(slope, t, q) if not _is_power(term, x))
+        found |= {f: None for term in terms for f in _functions(term.diff(x), t, q)}
     by_slopes = list(found)
     left = list(_functions(by_t, t, q))
     seen: set[Expr] = set()
@@ -98,6 +101,11 @@ def _candidates(by_t: Expr, by_q: Sequence[Expr], t: Symbol, q: Sequence[Symbol]
     found.pop(sympy.S.One, None)
     # products of many sines and cosines of t have too many derivatives; G = x G,x + f(t)
     return list(found) if len(found) <= _MOST_CANDIDATES else by_slopes
+
+
+def _is_power(term: Expr, x: Symbol) -> bool:
+    """Whether it has none of the functions of x that are closed under d/dx."""
+    return all(free_of(f, [x]) for f in term.atoms(*_OF_TIME))
 
 
 def _means(term: Expr, t: Symbol) -> set[Expr]:

@@ -220,7 +220,8 @@ class Setting:
     def of_spacetime(self) -> SlotEquations | None:
         """Of g where L is the length sqrt(-g) of the path (t, q), whatever its parameter.
 
-        But for terms up to first degree in q', those of a field.  With g positive along space, roots of its components are real where L is.
+        But for terms up to first degree in q', those of a field.  With g positive along space,
+        roots of its components are real where L is.
 
         Landau, Lifshitz, *The Classical Theory of Fields*, section 87.
         """
