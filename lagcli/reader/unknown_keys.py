@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING, NamedTuple
 
 from lagcli.reader.by_coordinate import coordinate_meant, state_meant
+from lagcli.reader.equations_meant import energies_of
 from lagcli.reader.foreign.words import momentum_meant
 from lagcli.reader.friction_meant import friction_meant
 from lagcli.reader.habits import (
@@ -32,6 +33,7 @@ from lagcli.reader.misshapen import (
     key_by_shape,
     range_end,
     source_of,
+    texts_of,
     values_in,
     values_of,
 )
@@ -179,6 +181,11 @@ def _meant_of_problem(
         shown = [state_meant(source_of(x), _coordinates(around)) for x in value.items]
         command = f'an option, not a key: lagcli simulate FILE --show "{",".join(shown)}"'
         return None, command if all(shown) and shown else hint
+    given = {k.label: v for k, v in around.entries}
+    if hint == DERIVED and not given.keys() & {"T", "V", "L", "H", "forces", "dissipation"}:
+        constants = names_in(given.get("parameters"))
+        energies = energies_of(texts_of(value), _coordinates(around), constants)
+        return None, f"the equations of motion are derived: write {energies}" if energies else hint
     if whole := _of_each(word, value, around):
         return None, f"each name has its own: write {whole}"
     if written and (state := _state_meant(key, written, around)):
