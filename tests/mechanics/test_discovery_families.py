@@ -230,6 +230,17 @@ def test_special_values_are_those_of_the_family(parameters, coordinates, L, valu
     assert {(p, sympy.simplify(sympy.sympify(v, locals_))) for p, v in named} <= found
 
 
+def test_without_a_term_the_exponent_has_values_of_its_own():
+    """A uniform force has the Schroedinger algebra, which d/x^2 beside it does not leave."""
+    x = f"{{x: {POS}}}"
+    text = f"{{parameters: [k, d, n], coordinates: {x}, L: x'^2/2 - k*x^n - d/x^2}}"
+    cases = derive(text).special_cases
+    numbers = {str(sorted(map(str, [(c.parameter, c.value), *c.given]))): c.number for c in cases}
+    assert numbers["['(d, 0)', '(n, 1)']"] == 5
+    assert numbers["['(d, -k)', '(n, -2)']"] == 5  # free
+    assert "['(n, 1)']" not in numbers
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("force", ["", "forces: {y: -2}"])
 def test_growths_are_commensurate_as_frequencies_are(force):

@@ -121,14 +121,14 @@ def missing(parameters: Sequence[Symbol]) -> list[Value]:
     return [(p, sympy.S.Zero) for p in parameters if _admissible(p, sympy.S.Zero)]
 
 
-def beside(found: Sequence[SpecialCase], others: Sequence[Value]) -> Iterator[tuple[Value, Value]]:
-    """Each value that was found, and one of the others of another parameter."""
-    for case in (case for case in found if not case.given):
-        for other in others:
-            value = case.value.xreplace(dict([other]))
-            apart = other[0] != case.parameter and case.parameter not in other[1].free_symbols
-            if apart and _admissible(case.parameter, value):
-                yield other, (case.parameter, value)
+def beside(one: Value, others: Sequence[Value]) -> Iterator[tuple[Value, Value]]:
+    """A value and each of the others of another parameter."""
+    parameter, value = one
+    for other in others:
+        there = value.xreplace(dict([other]))
+        apart = other[0] != parameter and parameter not in other[1].free_symbols
+        if apart and _admissible(parameter, there):
+            yield other, (parameter, there)
 
 
 def _both_vanish(

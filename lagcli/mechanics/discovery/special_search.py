@@ -54,7 +54,7 @@ _FOR_PIVOTS = 0.3  # of these
 _SHARE = 0.8  # of what its section has left
 _MOST_UNKNOWNS = 150  # measured: up to 378
 _MOST_VALUES = 16  # measured: at most 5
-_MOST_PAIRS = 6
+_MOST_PAIRS = 20  # measured: up to 31
 _RATIOS = (1, 2, 3)
 _MOST_OPERATIONS = 20  # measured: at most 2
 _NOT_ALL = "not all special values of the parameters were tried"
@@ -75,10 +75,32 @@ def special_cases(
     variables = (system.t, *discovery.system.q, *discovery.system.qdot)
     found: list[SpecialCase] = []
     searches: list[tuple[SpecialCase, Discovery]] = []
+    at_one: dict[Value, Discovery] = {}
+
+    def choices() -> Iterator[tuple[Value, ...]]:
+        """One value at a time, then two, those last of which one was tried in vain.
+
+        Beside each that is 0 or was found other parameters have the values sought there, or are 0.
+        """
+        values, together = _to_try(searched, discovery, allowed)
+        yield from ((value,) for value in values[:_MOST_VALUES])
+        alone = {(case.parameter, case.value) for case in found}
+        again = {v: there for v, there in at_one.items() if v[1] == 0 or v in alone}
+        pairs: list[tuple[Value, Value]] = []
+        for value, there in again.items():
+            pairs += beside(value, _to_try(there.unconstrained or there, there, allowed)[0])
+            discovery.words.extend({_NOT_ALL} & {*there.words})
+        pairs += together
+        for value in again:
+            pairs += beside(value, missing(system.parameters))
+        pairs = list({frozenset(pair): pair for pair in pairs}.values())
+        pairs.sort(key=lambda pair: len({*pair} & at_one.keys() - again.keys()))
+        yield from pairs[:_MOST_PAIRS]
+        if len(values) > _MOST_VALUES or len(pairs) > _MOST_PAIRS:
+            discovery.words.append(_NOT_ALL)
 
     def look() -> None:
-        values, pairs = _to_try(searched, discovery, allowed)
-        for choice in _choices(values, pairs, found, discovery.words, missing(system.parameters)):
+        for choice in choices():
             if any(sympy.count_ops(value) > _MOST_OPERATIONS for _, value in choice):
                 discovery.words.append(_NOT_ALL)
                 continue
@@ -87,8 +109,12 @@ def special_cases(
             if there is not None and {*there.stopped} - {*discovery.stopped}:
                 discovery.words.append(_NOT_ALL)
                 continue  # their number would be too small
+            if there is None:
+                continue
+            if len(choice) == 1:
+                at_one[choice[0]] = there
             less = [discovery, *(each for case, each in searches if _holds(case, choice))]
-            if there is None or not all(_has_more(there, each) for each in less):
+            if not all(_has_more(there, each) for each in less):
                 continue
             known = [
                 part for each in less for c in each.charges
@@ -147,26 +173,6 @@ def _to_try(
     if searched.accelerations:
         values += damped_powers(searched.accelerations, system)
     return values, together
-
-
-def _choices(
-    values: Sequence[Value],
-    pairs: Sequence[tuple[Value, Value]],
-    found: Sequence[SpecialCase],
-    words: list[str],
-    zeros: Sequence[Value],
-) -> Iterator[tuple[Value, ...]]:
-    """One value at a time, then two, those first of which neither was found to suffice.
-
-    Beside each that was found every other parameter may be 0, or have another of the values.
-    """
-    yield from ((value,) for value in values[:_MOST_VALUES])
-    pairs = [*pairs, *beside(found, [*zeros, *values])]
-    pairs = list({frozenset(pair): pair for pair in pairs}.values())
-    pairs.sort(key=lambda pair: any(_holds(case, pair) for case in found))
-    yield from pairs[:_MOST_PAIRS]
-    if len(values) > _MOST_VALUES or len(pairs) > _MOST_PAIRS:
-        words.append(_NOT_ALL)
 
 
 def _holds(case: SpecialCase, choice: Sequence[Value]) -> bool:
