@@ -247,7 +247,13 @@ def special_curvature(equations: SlotEquations) -> list[Expr]:
     if not (parameters and fixed and 1 < len(equations.q) <= _MOST_CURVED):
         return []
     condition = Metric(equations.q, equations.mass).constant_where(parameters)
-    return [factor for factor, _ in sympy.factor_list(condition)[1]]
+    return _factors(condition)
+
+
+def _factors(relation: Expr) -> list[Expr]:
+    """Of its numerator; none of a relation that always holds."""
+    above = sympy.expand(sympy.numer(sympy.together(relation)))
+    return [] if above.is_number else [factor for factor, _ in sympy.factor_list(above)[1]]
 
 
 def _parameters(formula: Expr, equations: SlotEquations) -> list[Expr]:
@@ -290,7 +296,7 @@ def damped_powers(accelerations: Sequence[Expr], system: System) -> Iterator[Val
                 relation = linear + critical
             else:
                 continue
-            for factor, _ in sympy.factor_list(sympy.numer(sympy.together(relation)))[1]:
+            for factor in _factors(relation):
                 found |= dict.fromkeys(_solved(factor, system.parameters))
     yield from found
 
@@ -378,7 +384,7 @@ def linear_force(X: Expr, rest: Expr, x: Symbol) -> list[Expr]:
     if not above.is_polynomial(x):
         return []
     common = sympy.gcd_list(sympy.Poly(above, x).coeffs())
-    return [factor for factor, _ in sympy.factor_list(common)[1]] if common.free_symbols else []
+    return _factors(common)
 
 
 def _wave_numbers(formulas: Sequence[Expr], q: Sequence[Symbol]) -> list[tuple[Symbol, Expr]]:
@@ -408,10 +414,7 @@ def _commensurate(
             for one, other in pairs:
                 total, product = simplify(one + other), simplify(one * other)
                 relation = R * total**2 - (1 + R) ** 2 * product
-                condition = sympy.expand(sympy.numer(sympy.together(relation)))
-                if condition.is_number:  # the ratio has no parameter in it
-                    continue
-                for factor, _ in sympy.factor_list(condition)[1]:
+                for factor in _factors(relation):
                     if sign(factor) not in (1, -1):
                         yield from _solved(factor, parameters)
 
