@@ -29,6 +29,23 @@ def test_isometries_of_the_second_degree(text, algebra, dimension):
     assert (found.name, found.dimension, found.integrable) == (algebra, dimension, True)
 
 
+def test_a_half_plane_has_its_isometries_in_parabolic_coordinates():
+    found = derive("{coordinates: [x, y], L: (1/x^2 + 1/y^2)*(x'^2 + y'^2)/2}").discovery
+    assert summary(found).name == "sl(2,R) + R"
+
+
+@pytest.mark.long
+def test_a_surface_of_koenigs_has_constant_curvature_without_a_term():
+    """a/x^2 + b/y^2 + d where d = 0 and b = a: a half plane, in parabolic coordinates."""
+    cases = derive("""
+coordinates: [x, y]
+parameters: [a, b, d]
+T: (a/x^2 + b/y^2 + d)*(x'^2 + y'^2)/2
+""").special_cases
+    given = {str(sorted(map(str, [(c.parameter, c.value), *c.given]))): c.number for c in cases}
+    assert given["['(b, a)', '(d, 0)']"] == 4
+
+
 @pytest.mark.long
 def test_the_integral_of_uhlenbeck():
     """(a - b)(c - b) times y^2 + L_xy^2/(b - a) + L_yz^2/(b - c)."""

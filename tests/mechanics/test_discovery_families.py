@@ -242,6 +242,14 @@ def test_without_a_term_the_exponent_has_values_of_its_own():
 
 
 @pytest.mark.long
+def test_two_terms_of_V_are_missing_together():
+    """T is flat in parabolic coordinates, and free where both terms of V are missing."""
+    V, T = "(a*u^6 + b*cos(v))/(u^2 + v^2)", "(u^2 + v^2)*(u'^2 + v'^2)/2"
+    cases = derive(f"{{coordinates: [u, v], parameters: [a, b], T: {T}, V: {V}}}").special_cases
+    assert [c.number for c in cases if len(c.given) == 1 and c.value == 0] == [8]
+
+
+@pytest.mark.long
 @pytest.mark.parametrize("force", ["", "forces: {y: -2}"])
 def test_growths_are_commensurate_as_frequencies_are(force):
     """x = exp(-a t) and y = exp(-b t), where one is the other, its inverse or its square."""
@@ -607,6 +615,7 @@ def test_two_terms_may_have_to_be_absent_together(coordinates):
     assert case.number > len(derivation.discovery.charges)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("sign", "+-")
 def test_powers_in_the_inertia_are_dilated_and_turn_where_they_are_equal(sign):
     """Kasner's metrics: homothetic for all exponents, with a rotation for two equal ones.
@@ -620,8 +629,11 @@ def test_powers_in_the_inertia_are_dilated_and_turn_where_they_are_equal(sign):
     cases = {(str(c.parameter), str(c.value)): c.charges for c in found if not c.given}
     assert set(cases) == {("p", "0"), ("q", "0"), ("q", "p")}
     assert [c.name for c in cases["q", "p"]] == ["L_z"]
-    # flat where one of them is 0 and the other 1, with 2 x and 2 y as angles: 12 symmetries
-    assert all(c.number == 12 for c in found if c.given)
+    # flat where one of them is 0 and the other 0 or 1: 12 symmetries; where both are 1 a cone
+    # over a plane, with the dilation's conformal partner
+    for case in (c for c in found if c.given):
+        both_1 = {case.value, *(v for _, v in case.given)} == {1}
+        assert case.number == (6 if both_1 else 12)
 
 
 CHARTS_OF_SPACE = {

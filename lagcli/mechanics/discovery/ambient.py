@@ -201,8 +201,12 @@ def _profile(x: Symbol, metric: Metric) -> Iterator[Expr]:
 
 
 def _degree(entries: Sequence[Expr], x: Symbol) -> int:
-    """Of X in x: the metric has the squares of its slopes (x^3 where 9 x^4 + 1 stands in it)."""
+    """Of X in x: the metric has the squares of its slopes (x^3 where 9 x^4 + 1 stands in it).
+
+    Beside 1/x^2 too: (x^2 + y^2)^2/(x y) in 1/x^2 + 1/y^2, parabolic coordinates of a half plane.
+    """
     degrees = [sympy.degree(e, x) for e in entries if e.is_polynomial(x)]
+    degrees += [4 for e in entries if e.as_base_exp() == (x, -2)]
     return min(_HIGHEST, int(max([2, *degrees])) // 2 + 1)
 
 

@@ -105,15 +105,23 @@ def both_vanish(
 
 
 def both_missing(
-    values: Sequence[Value], inertia: Sequence[Expr], parameters: Sequence[Symbol]
+    values: Sequence[Value], inertia: Sequence[Expr], system: System, rest: Expr
 ) -> list[tuple[Value, Value]]:
-    """Two parameters that are 0 together, each of which was tried, or one of the inertia."""
+    """Two parameters that are 0 together: each was tried, or one is of the inertia.
+
+    Or what is left of L at rest has no coordinates then, and has some where one alone is 0.
+    """
     tried = [p for p, value in values if value == 0]
+
+    def is_free(*zeros: Value) -> bool:
+        return free_of(rest.xreplace(dict(zeros)), system.q)
+
     return [
         (p, r)
-        for p, r in combinations(missing(parameters), 2)
+        for p, r in combinations(missing(system.parameters), 2)
         if {p[0], r[0]} <= {*tried} or {p[0], r[0]} & {*inertia}
-    ]
+        or (is_free(p, r) and not is_free(p) and not is_free(r))
+    ]  # fmt: skip
 
 
 def missing(parameters: Sequence[Symbol]) -> list[Value]:

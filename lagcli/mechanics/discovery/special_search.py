@@ -169,7 +169,7 @@ def _to_try(
     ratios = _RATIOS if _is_timed(searched) else (1,)
     values = candidates(system, factors, exponents, ratios)
     both = inertia if searched.quadratic_mass else system.parameters
-    together += both_missing(values, both, system.parameters)
+    together += both_missing(values, both, system, at_rest)
     if searched.accelerations:
         values += damped_powers(searched.accelerations, system)
     return values, together
