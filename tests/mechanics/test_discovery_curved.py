@@ -6,8 +6,10 @@ of integrable Hamiltonian systems*, in CIME Lectures 1978 (Uhlenbeck's integrals
 """
 
 import pytest
+import sympy
 
 from lagcli.algebra import is_zero
+from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.summary import summary
 
 from .derived import derive
@@ -44,6 +46,18 @@ T: (a/x^2 + b/y^2 + d)*(x'^2 + y'^2)/2
 """).special_cases
     given = {str(sorted(map(str, [(c.parameter, c.value), *c.given]))): c.number for c in cases}
     assert given["['(b, a)', '(d, 0)']"] == 4
+
+
+@pytest.mark.parametrize(("wave", "sign"), [(sympy.cosh, 1), (sympy.cos, -1)])
+def test_a_universe_of_constant_curvature_is_found_among_others(wave, sign):
+    """-dt^2 + cosh(H t)^2 (dr^2/(1 - K r^2) + r^2 dphi^2) is de Sitter's where K = H^2."""
+    t, r, phi, H, K = sympy.symbols("t r phi H K", real=True)
+    a = wave(H * t) ** 2
+    g = sympy.diag(-1, a / (1 - K * r**2), a * r**2)
+    condition = Metric([t, r, phi], g.tolist()).constant_where([H, K])
+    assert condition != 0
+    assert condition.subs(K, sign * H**2).simplify() == 0
+    assert condition.subs(K, -sign * H**2).simplify() != 0
 
 
 @pytest.mark.long

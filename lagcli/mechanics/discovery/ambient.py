@@ -32,7 +32,7 @@ from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.mechanics.discovery.ansatz import complexity
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.metric import Metric
+from lagcli.mechanics.discovery.metric import HYPERBOLIC, Metric
 from lagcli.mechanics.discovery.modular import NoPoint, independent
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.spectrum import roots_of
@@ -40,7 +40,6 @@ from lagcli.mechanics.discovery.spectrum import roots_of
 _MOST = 320  # measured: at most 100
 _HIGHEST = 5  # power of a coordinate
 _SHORT = 8  # operations of an integrand that SymPy's rules are tried on
-_HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 _PARTNERS = {
     sympy.sin: sympy.cos, sympy.cos: sympy.sin, sympy.sinh: sympy.cosh, sympy.cosh: sympy.sinh
 }  # fmt: skip
@@ -149,7 +148,7 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
     parts = _parts(metric)
     alone = [e for e in parts if e.free_symbols & set(metric.q) == {x}]
     found: dict[Expr, None] = {one: None}
-    waves = ((CIRCULAR, sympy.sin, sympy.cos), (_HYPERBOLIC, sympy.sinh, sympy.cosh))
+    waves = ((CIRCULAR, sympy.sin, sympy.cos), (HYPERBOLIC, sympy.sinh, sympy.cosh))
     for kinds, *two in waves:  # those of a shared denominator too, as cosh(x) - cos(y)
         for a in _arguments(parts, kinds):
             if a.free_symbols & set(metric.q) == {x}:
@@ -270,7 +269,7 @@ def _below(expressions: Iterable[Expr]) -> list[Expr]:
 
 
 def _without_functions(expression: Expr) -> Expr:
-    functions = expression.atoms(*CIRCULAR, *_HYPERBOLIC, sympy.exp)
+    functions = expression.atoms(*CIRCULAR, *HYPERBOLIC, sympy.exp)
     return expression.xreplace({f: sympy.Dummy() for f in functions})
 
 

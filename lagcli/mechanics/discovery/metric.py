@@ -24,9 +24,10 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra import derivative, dot, simplify
-from lagcli.algebra.build import free_of
+from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.numeric import DIGITS, Evaluator
 
+HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 _SMALL = mpf(10) ** -15
 _FIRST = mpf(19) / 17  # of the parameters: no exponent with which a component is 0
 _POINTS = (mpf(3) / 7, mpf(8) / 11)  # for the first symbol; the others follow at steps of 1/13
@@ -131,7 +132,8 @@ class Metric:
     def constant_where(self, parameters: Sequence[Symbol]) -> Expr:
         """What vanishes with parameters at which the curvature is constant, by rational points.
 
-        1 where there is none, and where the components there are no rational functions of them.
+        1 where there is none, and where the components there are no rational functions of them and
+        of exponentials and tangents.
         """
         planes = list(combinations(range(self.n), 2))
         pairs = list(combinations_with_replacement(planes, 2))
@@ -142,8 +144,10 @@ class Metric:
         found = sympy.S.Zero
         for R, area in values if first else ():
             assert first is not None
-            condition = sympy.numer(sympy.together(R * first[1] - first[0] * area))
-            if condition.atoms(sympy.Function) or not condition.is_polynomial(*parameters):
+            relation = (R * first[1] - first[0] * area).rewrite(HYPERBOLIC, sympy.exp)
+            condition = sympy.numer(sympy.together(relation.rewrite(CIRCULAR, sympy.tan)))
+            functions = {f: sympy.Dummy() for f in condition.atoms(sympy.Function)}
+            if not condition.xreplace(functions).is_polynomial(*parameters):
                 return sympy.S.One
             found = sympy.gcd(found, condition)
         return found

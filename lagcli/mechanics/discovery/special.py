@@ -255,7 +255,7 @@ def special_curvature(equations: SlotEquations) -> list[Expr]:
     if not (parameters and fixed and 1 < len(equations.q) <= _MOST_CURVED):
         return []
     condition = Metric(equations.q, equations.mass).constant_where(parameters)
-    return _factors(condition)
+    return [factor for factor in _factors(condition) if not factor.atoms(sympy.Function)]
 
 
 def _factors(relation: Expr) -> list[Expr]:
