@@ -93,7 +93,7 @@ def read_number(text: str, option: str) -> Expression:
 
 def scope_of(problem: Problem) -> Scope:
     """The names of a problem that has been read, and `energy` where it is free."""
-    scope = Scope(arity={name: len(arguments) for name, arguments in problem.functions.items()})
+    scope = Scope(arguments={name: [*given] for name, given in problem.functions.items()})
     scope.kinds.update({c.name: "coordinate" for c in problem.coordinates})
     scope.kinds.update({p.name: "parameter" for p in problem.parameters})
     scope.kinds.update(dict.fromkeys(problem.functions, "function"))

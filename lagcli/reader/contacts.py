@@ -159,7 +159,7 @@ def contacts_for(name: str, gaps: list[str], attributes: dict[str, str]) -> str:
     ]
     parts = [re.split(r"\s*([<>]=)\s*", side.strip()) for side in sides]
     names = [f"{name}_{place}" for place, _ in enumerate(parts, 1)] if parts[1:] else [name]
-    if [sign for _, sign, _ in parts] == [">=", "<="] and parts[0][0] == parts[1][0]:
+    if [each[1:2] for each in parts] == [[">="], ["<="]] and parts[0][0] == parts[1][0]:
         names = ["lower", "upper"]
     rest = "".join(f", {key}: {each}" for key, each in attributes.items()
                    if key != "multiplier" or not parts[1:])  # fmt: skip

@@ -265,7 +265,8 @@ class FileReader:
             coordinates = [*self.scope.of_kind("coordinate")]
             rates = [state_meant(key.label, coordinates) for key, _ in node.entries]
             left = (f"{each} = " * each.endswith("''") for each in rates)
-            listed_ = (side + source_of(v) for side, (_, v) in zip(left, node.entries, strict=True))
+            inner = (source_of(k if v.is_empty else v) for k, v in node.entries)
+            listed_ = (side + each for side, each in zip(left, inner, strict=True))
             hint = f"write [{', '.join(listed_)}]"
         self.error(f"{what} must be a list, not {kind(node)}", node.span, hint)
         return []

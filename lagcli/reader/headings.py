@@ -6,9 +6,10 @@ import re
 from collections.abc import Collection
 
 from lagcli.notation.greek import BY_NAME as GREEK
-from lagcli.reader.habits import spellings, unit_behind
+from lagcli.reader.habits import number_and_unit, spellings, unit_behind
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.number_units import with_radians
 from lagcli.reader.regex import regex
 
 #: A value of Python, `float = 1.0`, and a map without its braces.
@@ -27,9 +28,10 @@ SYSTEMS = {
     "cylindrical": "[r, phi, z]",
     "generalized": "[q_1, q_2]",
 }
-_SPEED = regex("(?i:(?:initial_|launch_)?(?:speed|velocity)|v_?0?)")
+_SPEED = regex("(?i:(?:(?:initial|launch)[_ ])?(?:speed|velocity)|v_?0?)")
 _SLOPE = regex(
-    "(?i:(?:initial_|launch_)?(?:angle|direction|elevation|inclination)|alpha|theta)_?0?"
+    "(?i:(?:(?:initial|launch)[_ ])?(?:angle|direction|elevation|inclination|winkel)"
+    "|alpha|theta|phi|beta|α|θ|φ)_?0?(?:_?deg(?:rees)?)?"
 )
 #: The section that an attribute belongs to.
 SECTIONS = {
@@ -144,14 +146,16 @@ def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:
 
 def state_of_launch(node: DocumentNode, coordinates: list[str]) -> str:
     """`{x': v*cos(a), y': v*sin(a)}` for `{speed: v, angle: a}` in a plane; nothing for others."""
-    given = {key.label: source_of(value) for key, value in getattr(node, "entries", ())}
+    entries = getattr(node, "entries", ())
+    given = {key.label: _number_of(value) or source_of(value) for key, value in entries}
     speed, angle = ([each for each in given if word.fullmatch(each)] for word in (_SPEED, _SLOPE))
     axes = [x for x in coordinates if x in {"x", "y", "z"}]
     if {*speed, *angle} & {*coordinates} or (len(speed), len(angle), len(axes)) != (1, 1, 2):
         return ""
     size, slope = given.pop(speed[0]), given.pop(angle[0])
+    size = number_and_unit(size)[0] if number_and_unit(size)[1] else size
     size = f"({size})" if re.search(r"\S\s*[-+]", size) else size
-    slope = re.sub(r"([\d.]+)\s*(?:°|deg\w*)", r"\1*pi/180", slope)
+    slope = with_radians(slope, most=1.6)
     given |= {f"{axes[0]}'": f"{size}*cos({slope})", f"{axes[1]}'": f"{size}*sin({slope})"}
     return f"write {{{', '.join(map('{0[0]}: {0[1]}'.format, given.items()))}}}"
 

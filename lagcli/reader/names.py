@@ -167,9 +167,9 @@ def _name(
             elif node.primes:
                 yield Diagnostic(f"{thing} has no primes", node.span)
         case "function":
-            coordinates = [*scope.of_kind("coordinate")]
-            fits = scope.arity.get(name) == len(coordinates)
-            hint = f"write {node}({', '.join(coordinates) if fits else '…'})"
+            given, known = scope.arguments.get(name, []), [*scope.of_kind("coordinate")]
+            given = given if {*given} <= {*known, "t"} else known * (len(given) == len(known))
+            hint = f"write {node}({', '.join(given) or '…'})"
             yield Diagnostic(f"'{name}' is a function and needs arguments", node.span, hint)
         case None:
             yield from _other_name(node, scope, role, what)
@@ -249,6 +249,7 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     if not role.parameters and not role.definitions and role.order < 0:
         return role.why
     words = Vocabulary(tuple(coordinates), frozenset(), moving=scope.moving)
+    words = words._replace(turning=turning(scope, what))
     of_drive = role.driven and name in VELOCITIES
     rate = role.order > 0 and not of_drive and rate_meant(name, words)
     if role.order > 0 and (speed := _speed_along(name, coordinates)):
@@ -285,6 +286,15 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     return UNDECLARED + (", or its formula under 'definitions'" if role.definitions else "")
 
 
+def turning(scope: Scope, what: str) -> str:
+    """The only angle whose velocity stands in no term of an energy; else nothing."""
+    law = scope.energies.get(what, "'") if what in {"T", "L"} else "'"
+    law = "'" if re.search(r"\b(?:omega|Omega|w|ω|Ω)\b", scope.energies.get("V", "")) else law
+    still = [x for x in scope.of_kind("coordinate") if is_angle(x) and f"{x}'" not in law]
+    in_others = any(each.order > 0 for each in scope.definitions.values())
+    return still[0] if len(still) == 1 and law != "'" and not in_others else ""
+
+
 def _speed_along(name: str, coordinates: list[str]) -> str:
     """`r*sin(theta)*phi'` for `v_phi` beside a radius; nothing for other names."""
     along = re.fullmatch(r"v_?(\w+)", name)
@@ -306,15 +316,15 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
             hint = f"write diff({name}(x), x)"
             yield Diagnostic(f"'{name}' with primes has no meaning", node.span, hint)
         elif count != FUNCTIONS[name]:
-            yield _wrong_count(name, FUNCTIONS[name], count, node)
+            yield _wrong_count(node, FUNCTIONS[name])
     elif scope.kinds.get(name) == "function":
-        arity = scope.arity.get(name, count)
+        arity = len(scope.arguments.get(name, node.arguments))
         if node.primes and arity != 1:
             hint = f"write diff({name}, 1)(…) for the derivative by the first"
             message = f"a prime needs a function of one argument, '{name}' has {arity}"
             yield Diagnostic(message, node.span, hint)
         elif count != arity:
-            yield _wrong_count(name, arity, count, node)
+            yield _wrong_count(node, arity, scope)
     elif name in scope.kinds or name in {"t", "pi"} or scope.coordinate_of_momentum(name):
         written = name + "'" * node.primes
         message = f"{written} is a {scope.kinds.get(name, 'quantity')}, not a function"
@@ -336,9 +346,7 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         functions = [*FUNCTIONS, "diff", *scope.of_kind("function")]
         spelled = name.lower() if len(name) > 1 and name.isupper() else name  # LN
         best = "" if foreign_function(name) else closest(spelled, functions)
-        given = [
-            str(x) if isinstance(x, Name) else "xyzuvw"[i % 6] for i, x in enumerate(node.arguments)
-        ]
+        given = _names_of(node)
         hint = f"declare it: functions: {{{name}: [{', '.join(given)}]}}, or write its formula"
         hint = f"did you mean {best}(…)?" if best else hint
         if power := re.fullmatch(r"(sin|cos|tan|sinh|cosh|tanh)2", name):
@@ -348,12 +356,26 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         yield Diagnostic(f"unknown function '{name}' in {what}", node.span, hint)
 
 
-def _wrong_count(name: str, arity: int, count: int, node: Expression) -> Diagnostic:
-    plural = "argument" if arity == 1 else "arguments"
+def _names_of(node: Call | PartialCall) -> list[str]:
+    """The arguments, with a letter for each that is no name."""
+    return [str(x) if isinstance(x, Name) else "xyzuvw"[i % 6]
+            for i, x in enumerate(node.arguments)]  # fmt: skip
+
+
+def _wrong_count(node: Call | PartialCall, arity: int, scope: Scope | None = None) -> Diagnostic:
+    """The hint has the declared arguments where they are names of the file, and the others."""
+    name, given, plural = node.function, _names_of(node), "argument" if arity == 1 else "arguments"
     hint = {"atan": "write atan2(y, x)", "atan2": "write atan2(y, x) for y/x",
             "log": "write log(x)/log(b) for the base b"}.get(name)  # fmt: skip
-    hint = hint or f"write {name}({', '.join('xyzuvw'[:arity]) if arity <= 6 else '…'})"
-    return Diagnostic(f"'{name}' takes {arity} {plural}, not {count}", node.span, hint)
+    more = (x for x in "xyzuvw…" if x not in given)
+    whole = [given[i] if i < len(given) else next(more, "…") for i in range(min(arity, 9))]
+    hint = hint or f"write {name}({', '.join(whole)})"
+    if scope is not None:
+        declared = scope.arguments.get(name, ())
+        entry = f"functions: {{{name}: [{', '.join(given)}]}}"
+        are_known = {*declared} <= {*scope.kinds, "t"}
+        hint = f"write {name}({', '.join(declared)}), or {entry}" if are_known else f"write {entry}"
+    return Diagnostic(f"'{name}' takes {arity} {plural}, not {len(given)}", node.span, hint)
 
 
 def _integral(node: Call, role: Role, what: str) -> Iterator[Diagnostic]:
@@ -362,7 +384,7 @@ def _integral(node: Call, role: Role, what: str) -> Iterator[Diagnostic]:
     if not role.integrals:
         yield Diagnostic(f"an integral cannot stand in {what}", node.span, instead("integral"))
     elif count != 4 or node.primes:
-        yield _wrong_count("integral", 4, count, node)
+        yield _wrong_count(node, 4)
     elif not isinstance(node.arguments[1], Name):
         yield Diagnostic("an integral is taken by a name, such as x", node.arguments[1].span)
 
@@ -374,9 +396,9 @@ def _partial_call(node: PartialCall, scope: Scope) -> Iterator[Diagnostic]:
         hint = did_you_mean(name, functions) or "declare it under 'functions'"
         yield Diagnostic(f"'{name}' is not a function of this problem", node.span, hint)
         return
-    arity = scope.arity.get(name, len(node.arguments))
+    arity = len(scope.arguments.get(name, node.arguments))
     if len(node.arguments) != arity:
-        yield _wrong_count(name, arity, len(node.arguments), node)
+        yield _wrong_count(node, arity, scope)
     for index in node.indices:
         if not 1 <= index <= arity:
             message = f"'{name}' has no argument number {index}"

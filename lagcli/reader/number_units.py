@@ -189,6 +189,13 @@ def in_unit(text: str, unit: str) -> tuple[str, str] | None:
     return message, f"write {float(Fraction(number)) * factor / other:.10g}"
 
 
+def with_radians(angle: str, most: float) -> str:
+    """`45*pi/180` for `45°`, and for a number alone of more than `most` radians."""
+    if _NUMBER.fullmatch(angle) and abs(Fraction(angle)) > most:
+        return f"{angle}*pi/180"
+    return re.sub(r"([\d.]+)\s*(?:°|deg\w*)", r"\1*pi/180", angle)
+
+
 def in_radians(number: str, unit: str) -> str:
     """What to write for a parameter in degrees or gon; nothing for other units."""
     found = re.fullmatch(r"(deg|gon)(/.*|)", unit)

@@ -239,12 +239,16 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
             continue
         what, given = f"the arguments of '{name}'", getattr(value, "value", "")
         if call or given:
+            within = re.fullmatch(r"(\w*)\(\s*([\w, ]+?)\s*\)", given)
+            if within and within[1] not in FUNCTIONS:  # U: U(r)
+                given = within[2]
             hint = f"write {name}: [{call[2]}]" if call else f"write [{given}]"
             if not re.fullmatch(r"(?!\d)[\w\s,]*", given):
                 whole = f"write definitions: {{{name}: {given}}}"
                 hint = f"{_FORMULA}: {whole}"
             file.error(f"{what} must be a list", (key if call else value).span, hint)
-            file.scope.arity[name] = call[2].count(",") + 1 if call else 1
+            names = call[2] if call else "" if hint.startswith(_FORMULA) else given
+            file.scope.arguments[name] = re.split(r"\s*,\s*", names)
             continue
         arguments = [file.scalar(item, f"an argument of '{key.label}'")
                      for item in file.items(value, what)]  # fmt: skip
@@ -252,13 +256,15 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
             wrong = argument and name_mistake(argument.label)
             if argument and wrong and argument.label != "t":
                 is_formula = re.search(r"[-+*/^(]", argument.label)
+                within = re.fullmatch(rf"{key.label}\(([\w, ]+)\)", argument.label)
                 hint = f"write r, and {key.label}({argument.label}) where it is used"
+                hint = f"write {within[1]}" if within else hint
                 file.error(wrong[0], argument.span, hint if is_formula else wrong[1])
         if not arguments and isinstance(value, Sequence):
             file.error(f"'{key.label}' has no argument", value.span, "declare a parameter")
         functions[key.label] = tuple(argument.label for argument in arguments if argument)
         if arguments:
-            file.scope.arity[key.label] = len(arguments)
+            file.scope.arguments[key.label] = [*functions[key.label]]
     return functions
 
 

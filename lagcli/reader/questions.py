@@ -30,7 +30,7 @@ from lagcli.reader.misshapen import (
 )
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import Mapping, Scalar, Sequence
-from lagcli.reader.number_units import run_mistake, unit_mistake
+from lagcli.reader.number_units import run_mistake, unit_mistake, with_radians
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import INITIAL, NUMBERS, POSITION, QUESTION, Role
 from lagcli.reader.suggest import closest, did_you_mean
@@ -117,6 +117,7 @@ def _state_name(
             turns = re.search(r"ang|áng|wink|угл|угол", key.label, re.IGNORECASE) is not None
             along = [x for x in coordinates if is_angle(x) == turns] or coordinates
             number = source_of(value) if len(along) == 1 else "…"
+            number = with_radians(number, most=6.3) if is_angle(along[0]) and not rate else number
             if not turns or along[0] not in {*"xyzrs"}:
                 hint = f"write {along[0]}{chr(39) * bool(rate)}: {number or '…'}"
         if re.search(r"[=→>]", key.label):

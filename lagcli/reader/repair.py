@@ -18,7 +18,7 @@ from lagcli.reader.foreign.words import UnclearText, Vocabulary, square_of_speed
 from lagcli.reader.habits import COMMENT, comparisons_in, is_angle, name_meant
 from lagcli.reader.misshapen import FRICTION, as_equation, as_rayleigh, behind_words, is_sentence
 from lagcli.reader.momenta_meant import with_momenta, with_velocities
-from lagcli.reader.names import name_mistakes
+from lagcli.reader.names import name_mistakes, turning
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
@@ -156,7 +156,7 @@ def with_whole(
         return [Diagnostic("a sentence is no formula", node.span, hint)]
     for written in _written(given, scope, equation=read is not read_expression):
         try:
-            names = _vocabulary(scope, role)
+            names = _vocabulary(scope, role)._replace(turning=turning(scope, what))
             whole = translated(written, names._replace(related=read is read_equation))
             if read is read_equation:
                 whole = multiplied_out(whole, scope) or whole

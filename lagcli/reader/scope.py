@@ -101,7 +101,7 @@ class Scope:
 
     kinds: dict[str, Kind] = field(default_factory=dict)
     spans: dict[str, Span] = field(default_factory=dict)
-    arity: dict[str, int] = field(default_factory=dict)  # of the declared functions
+    arguments: dict[str, list[str]] = field(default_factory=dict)  # of the declared functions
     definitions: dict[str, Definition] = field(default_factory=dict)
     #: names that could not be declared: what is unknown afterwards may be one of them
     refused: list[str] = field(default_factory=list)

@@ -10,6 +10,8 @@ from tests.reader.test_habits import text
 
 PLANE = {"coordinates": "[x, y]", "T": "m*(x'^2 + y'^2)/2"}
 OF_TIME = {"V": "U(x, t)*W(t)"}
+ANGLE = {"coordinates": "[theta]", "T": "m*theta'^2/2", "V": "k*cos(theta)"}
+TURNING = {"coordinates": "[x, theta]"}
 UNITS = {"coordinates": "{x: {unit: m}}", "V": "m*g*x", "initial": "{x: 1}"}
 PAIR = {"observables": "{A_x: x*p_x, B: p_x}"}
 
@@ -49,6 +51,27 @@ HINTS = [
     (text(parameters="\n  - m = 1\n  - G*M = 4\n  - k = 2"), "write {m: 1, GM: 4, k: 2}"),
     (text(**PLANE, initial="{x: 1, speed: 3, angle: 30°}"),
      "write {x: 1, x': 3*cos(30*pi/180), y': 3*sin(30*pi/180)}"),
+    *[(text(**PLANE, initial=f"{{x: 1, v0: 10{unit}, {key}: {angle}}}"),
+       f"write {{x: 1, x': 10*cos({radians}), y': 10*sin({radians})}}")
+      for unit, key, angle, radians in (
+          ("", "angle", "45", "45*pi/180"), (" m/s", "launch angle", "-30", "-30*pi/180"),
+          ("", "alpha", "0.7", "0.7"), ("", "theta", "pi/4", "pi/4"),
+          ("", "angle_deg", "45", "45*pi/180"), ("", "phi", "{value: 45, unit: deg}", "45*pi/180"))],
+    *[(text(**ANGLE, initial=f"{{angle: {angle}}}"), f"write theta: {radians}")
+      for angle, radians in (("45", "45*pi/180"), ("45°", "45*pi/180"), ("3", "3"))],
+    *[(text(functions=f"{{U: {given}}}", V="U(x)"), "write [x]")
+      for given in ("U(x)", "x", "f(x)", "(x)", "{x}", "'U(x)'")],
+    (text(functions="{U: [U(x)]}", V="U(x)"), "write x"),
+    (text(functions="{U: U(x, t)}", V="U(x, t)"), "write [x, t]"),
+    (text(**PLANE, functions="{U: [x]}", V="U(x, y)"), "write U(x), or functions: {U: [x, y]}"),
+    (text(**PLANE, functions="{U: [a, b]}", V="U(x)"), "write functions: {U: [x]}"),
+    (text(functions="{U: [x, t]}", V="U"), "write U(x, t)"),
+    (text(V="sin(x, k)"), "write sin(x)"),
+    *[(text(**TURNING, T=f"m*(x'^2 + 2*x'*{omega}*cos(theta) + {omega}^2)/2"),
+       "write m*(x'^2 + 2*x'*theta'*cos(theta) + theta'^2)/2") for omega in ("omega", "ω", "w", "Omega")],
+    *[(text(**TURNING, T=T, V=V), "or its formula under 'definitions'")
+      for T, V in (("m*(x'^2 + theta'^2 + omega^2*sin(theta)^2)/2", "k*x"),
+                   ("m*(x'^2 + omega^2*x^2)/2 + m*omega", "k*x*omega"))],
     (text(initial="{angle: 0.5}"), "known are x and velocities: x'"),
     (text(T="m*|x'|^2/2"), "write m*x'^2/2"),
     (text(T="m*|x' - k|²/2 + k*|x'|^3"), "write m*(x' - k)^2/2 + k*abs(x')^3"),

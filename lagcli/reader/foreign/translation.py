@@ -153,7 +153,8 @@ class _Translation(Functions):
         if word in VELOCITIES and more and self.has_time:
             name, more = word, 0  # cos(omega*t), x - v*t
         primes += more
-        if word in VELOCITIES and more and not (word == "v" and self.sign() == "^"):
+        is_letter = word in VELOCITIES and name != self.names.turning
+        if is_letter and more and not (word == "v" and self.sign() == "^"):
             self.by_letter.add(name)
         if self.called_by_time():
             if name not in self.names.dependent or (more and "dot" not in word):

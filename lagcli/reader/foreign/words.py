@@ -40,6 +40,7 @@ class Vocabulary(NamedTuple):
     components: Mapping[str, str] = {}  #: of points: what `bob.x` is written as
     moving: tuple[str, ...] = ()  #: definitions that depend on coordinates or on the time
     related: bool = False  #: in an equation, where v = ω R relates the velocities
+    turning: str = ""  #: in an energy, the angle that has no velocity yet, whose is ω
 
     @property
     def known(self) -> tuple[str, ...]:
@@ -137,6 +138,8 @@ def rate_meant(word: str, names: Vocabulary) -> tuple[str, int] | None:
         alike = [x for x in names.coordinates if is_angle(x) == turns]
         polar = radial and not ({"s", *alike} == {"s"} and "z" not in names.coordinates)
         found |= {(x, 1) for x in alike if len(alike) == 1 and (alone or turns or not polar)}
+    if names.turning and word in {"omega", "Omega", "w"}:
+        found.add((names.turning, 1))
     if alone and names.coordinates[0] in {"q", "Q"} and word in {"i", "I"}:  # a current
         found.add((names.coordinates[0], 1))
     if names.momenta and alone and word in {"p", "P"}:
