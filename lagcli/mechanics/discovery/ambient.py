@@ -136,9 +136,15 @@ def _of_warped(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
 
 
 def _of_all(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
+    """Of the shortest functions of each coordinate, as many as may be tried."""
     factors, joint = [_of_coordinate(x, metric, K) for x in metric.q], _joint(metric)
-    plain = [[f for f in each if not _has_sums_below(f)] for each in factors]
-    return [*product(*factors), *product(joint[1:], *plain)]
+    factors = [sorted(each, key=complexity) for each in factors]
+    while True:
+        plain = [[f for f in each if not _has_sums_below(f)] for each in factors]
+        tried = [*product(*factors), *product(joint[1:], *plain)]
+        if len(tried) <= _MOST:
+            return tried
+        max(factors, key=len).pop()
 
 
 def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
@@ -170,7 +176,8 @@ def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
         place = metric.q.index(x)
         own = metric.g[place][place]
         bases = dict.fromkeys(b for e in below for b in _bases(e) if b.is_Add)
-        sums = [-b if sympy.cancel(own * b).is_negative else b for b in bases]
+        signs = metric.place or {}
+        sums = [-b if (own * b).xreplace(signs).is_negative else b for b in bases]
         for k, b in enumerate(sums):
             # modulo a prime 4 k + 3 the roots of b and -b are never both there
             if any(free_of(sympy.cancel(b / c), [x]) for c in sums[:k]):

@@ -14,6 +14,7 @@ Eisenhart, *Riemannian Geometry*, sections 8 and 27.
 
 from __future__ import annotations
 
+import random
 from collections.abc import Sequence
 from functools import cached_property
 from itertools import combinations, combinations_with_replacement
@@ -30,6 +31,7 @@ from lagcli.algebra.numeric import DIGITS, Evaluator
 HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 _SMALL = mpf(10) ** -15
 _FIRST = mpf(19) / 17  # of the parameters: no exponent with which a component is 0
+_PLACES = 40  # tried for one where the metric is positive definite
 _POINTS = (mpf(3) / 7, mpf(8) / 11)  # for the first symbol; the others follow at steps of 1/13
 
 
@@ -73,6 +75,21 @@ class Metric:
         g = sympy.Matrix([list(row) for row in self.g])
         above, below = g.adjugate(), g.det()
         return [[simplify(above[i, j] / below) for j in range(self.n)] for i in range(self.n)]
+
+    @cached_property
+    def place(self) -> dict[Symbol, sympy.Rational] | None:
+        """Values of all symbols at which it is positive definite; None where none was found."""
+        source, g = random.Random("place"), sympy.Matrix([list(row) for row in self.g])
+        symbols = sorted(g.free_symbols | {*self.q}, key=str)
+        for _ in range(_PLACES):
+            sizes = {s: sympy.Rational(source.randint(1, 60), 29) for s in symbols}
+            values = {s: x if s.is_nonnegative else source.choice((1, -1)) * x
+                      for s, x in sizes.items()}  # fmt: skip
+            there = g.xreplace(values)
+            minors = [there[:k, :k].det().evalf() for k in range(1, self.n + 1)]
+            if all(x.is_positive for x in minors):
+                return values
+        return None
 
     def first_kind(self, j: int, k: int, m: int) -> Expr:
         """[jk, m]."""
