@@ -146,12 +146,12 @@ def test_at_a_special_value_a_product_of_known_charges_is_not_new(offset):
             "m1*x1'^2/2 + m2*x2'^2/2 - k*(x1^2 + x2^2)/2 - c/(x2 - x1)",
             ("m2", "m1"), 4, "translation_cos translation_sin",
         ),
-        # in the frame of Larmor an isotropic oscillator in space: its 12 symmetries
+        # in the frame of Larmor an isotropic oscillator in space: 12 symmetries, three integrals
         (
             "{m: POS, O: POS, w: POS}",
             "[x, y, z]",
             "m*(x'^2 + y'^2 + z'^2)/2 + m*O*(x*y' - y*x')/2 - m*w^2*z^2/2",
-            ("w", "O/2"), 14, "conformal_cos conformal_sin",
+            ("w", "O/2"), 15, "conformal_cos conformal_sin",
         ),
     ],
 )  # fmt: skip
