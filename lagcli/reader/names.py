@@ -263,6 +263,9 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         return f"did you mean {name[:-1]}*t?"
     if re.fullmatch(r"_?\d+", name.removeprefix(closest(name, scope.usable(role)))):
         return UNDECLARED  # x0 beside x is another quantity
+    hint = hint or (
+        "" if rate or role.order < 0 else _renamed(name, known, " ".join(scope.energies.values()))
+    )
     if hint:
         return hint
     if name in {"v", "velocity", "speed", "d"} and role.order > 0 and coordinates and not of_drive:
@@ -284,6 +287,17 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     if base in scope.usable(role) and base != name and f"{base}1" not in scope.kinds:
         return f"{UNDECLARED}, or write {base}^2"
     return UNDECLARED + (", or its formula under 'definitions'" if role.definitions else "")
+
+
+def _renamed(letter: str, known: list[str], energies: str) -> str:
+    """`did you mean 'length'?` for l where no other word begins so; the others are Greek letters.
+
+    A length that stands in an energy is not L.
+    """
+    words = [each for each in known if len(each) >= 4 and each.isalpha() and each not in GREEK]
+    found = [each for each in words if each[0].casefold() == letter.casefold()]
+    is_other = found[:1] and found[0][0] != letter and re.search(rf"\b{found[0]}\b", energies)
+    return f"did you mean '{found[0]}'?" if len(found) == 1 and not is_other else ""
 
 
 def turning(scope: Scope, what: str) -> str:

@@ -47,6 +47,12 @@ _NO_ACCELERATION = "leave it out: a state has x and x'"
 _SIMULATION_ATTRIBUTES = ("until", "accuracy", "method")
 
 _RELATION = regex("[=<>≤≥]")
+#: The words and letters of an unknown, xmax as x and max.
+_PART = regex(r"[^\W_\d]+?(?=m(?:ax|in)(?![a-z]))|[^\W_\d]+'*|\d+")
+_EXTREME = regex(
+    "(?i:max|min|(?:max|min)im(?:um|al)|turn(?:ing)?|points?|top|end|final|f|eq|of|the|value|0"
+    "|largest|smallest|greatest|highest|lowest|height|distance|amplitude)"
+)
 #: An event for an end: `x = 0`, `y < 0`.
 _ENDS = regex(r"([^<>=≤≥]+)(?:[<>=]=?|≤|≥)([^<>=≤≥]+)")
 
@@ -276,6 +282,21 @@ def _rank(part: tuple[str, str]) -> int:
     return 2 if text.rstrip("'").isidentifier() else 1
 
 
+def _unknown(file: FileReader, node: DocumentNode) -> Name | None:
+    """The name behind `for`; a mistake with the x of `x_max`, `max(x)` and `the largest x`."""
+    before = len(file.diagnostics)
+    name = file.name(node, "'for'", _UNKNOWN)
+    words = _PART.findall(node.value) if isinstance(node, Scalar) else []
+    named = [each for each in words if each.rstrip("'") in file.scope.of_kind("coordinate")]
+    others = [each for each in words if each not in named]
+    meant = named or (file.scope.free if others else [])
+    if name is None and len(meant) == 1 and all(map(_EXTREME.fullmatch, others)):
+        del file.diagnostics[before:]
+        message = f"'{source_of(node)}' is no name of the file in 'for'"
+        file.error(message, node.span, f"write {meant[0]}")
+    return name
+
+
 def _where(
     file: FileReader, key: Scalar, where: DocumentNode, unknown: DocumentNode
 ) -> list[Question]:
@@ -285,7 +306,7 @@ def _where(
         message = f"the acceleration {unknown.value.strip()} cannot stand in 'for'"
         file.error(message, unknown.span, hint)
         return []
-    name = file.name(unknown, "'for'", _UNKNOWN)
+    name = _unknown(file, unknown)
     if name is None:
         return []
     if (
@@ -337,7 +358,7 @@ def _reaching(
 
 
 def _parameter(file: FileReader, node: DocumentNode) -> Name | None:
-    name = file.name(node, "'for'", _UNKNOWN)
+    name = _unknown(file, node)
     if name is not None and file.scope.kinds.get(name.name) != "parameter":
         message = f"'{name}' is not a parameter"
         file.error(message, node.span, "a condition for all times is solved for a parameter")

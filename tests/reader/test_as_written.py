@@ -72,6 +72,11 @@ HINTS = [
     *[(text(**TURNING, T=T, V=V), "or its formula under 'definitions'")
       for T, V in (("m*(x'^2 + theta'^2 + omega^2*sin(theta)^2)/2", "k*x"),
                    ("m*(x'^2 + omega^2*x^2)/2 + m*omega", "k*x*omega"))],
+    *[(text(find=f"{{turn: {{where: x' = 0, for: {unknown}}}}}"), "write x")
+      for unknown in ("x_max", "xmax", "max(x)", "maximum of x", "x_turn", "height", "x0")],
+    *[(text(parameters="{mass: 1, length: 2, kappa: 3, k: 1}", T="mass*x'^2/2", V=f"k*{name}*x"), hint)
+      for name, hint in (("l", "did you mean 'length'?"), ("L", "did you mean 'length'?"),
+                         ("m", "did you mean 'mass'?"), ("M", "or its formula under 'definitions'"))],
     (text(initial="{angle: 0.5}"), "known are x and velocities: x'"),
     (text(T="m*|x'|^2/2"), "write m*x'^2/2"),
     (text(T="m*|x' - k|²/2 + k*|x'|^3"), "write m*(x' - k)^2/2 + k*abs(x')^3"),
