@@ -8,7 +8,7 @@ from difflib import SequenceMatcher
 from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic
-from lagcli.reader.habits import KEYS
+from lagcli.reader.habits import KEYS, is_unit
 from lagcli.reader.misplaced import names_in
 from lagcli.reader.misshapen import pieces
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, entries_in, nodes_in
@@ -55,6 +55,7 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
         bare = written.rstrip("'")
         edit = Edit(start, end, better + written[len(bare) :] * ("'" not in better))
         is_name = named[2] and mistake.message.startswith("unknown name '")
+        is_name = is_name and not (len(bare) == 1 and is_unit(bare))  # the m of N/m
         return [[edit, *(_elsewhere(bare, edit, text.source.text) if is_name else ())]]
     if moved := _moved(mistake, end, text):
         return [moved]

@@ -258,4 +258,5 @@ def _with_rest(one: _Followed, number: int, state: _State) -> Diagnostic:
     hint = one.mistake.hint
     if not one.written or whole in {"", one.written} or not PROPOSED.fullmatch(hint):
         return one.mistake
-    return replace(one.mistake, hint=hint.replace(one.written, whole, 1))
+    name = f"'{one.written}'" if f"'{one.written}'?" in hint else one.written  # of a formula then
+    return replace(one.mistake, hint=hint.replace(name, whole, 1))
