@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from lagcli.expression import ZERO, Equation
 from lagcli.problem_data import Contact
 from lagcli.reader.file_reader import Required
-from lagcli.reader.habits import comparisons_in, key_meant, name_meant
+from lagcli.reader.habits import comparisons_in, is_angle, key_meant, name_meant
 from lagcli.reader.misshapen import is_sentence, source_of, texts_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
@@ -62,6 +62,12 @@ def declared(
             rule = f"write {better}"
         file.error(message, key.span, rule)
         return None
+    if isinstance(value, Scalar) and (law := _law_of_words(file, key.label, value.value, what)):
+        span = key.span if value.is_empty else value.span
+        law = f"{key.label}: {law}" if value.is_empty and what == "constraint" else law
+        file.error(f"the {what} '{key.label}' has no formula", span, f"write {law}")
+        file.scope.refused.append(f"lambda_{key.label}")
+        return None
     multiplier, place = f"lambda_{key.label}", key.span
     attributes = {known[0]: value}
     if isinstance(value, Mapping):
@@ -89,6 +95,32 @@ def declared(
                 multiplier, place = text.label, text.span
     file.declare(multiplier, kind, place)
     return Declared(key, multiplier, attributes)
+
+
+def _law_of_words(file: FileReader, name: str, text: str, what: str) -> str:
+    """`floor: {gap: y >= 0}` for `floor: true` and `ball: floor`, `x' = R*theta'` for rolling.
+
+    Nothing where the file has no such coordinates, or the text is a formula.
+    """
+    is_word = text.replace("_", "").isalpha() and len(text) > 3 and text not in file.scope.kinds
+    is_true = text.casefold() in {"", "true", "yes", "on"}
+    coordinates = [*file.scope.of_kind("coordinate")]
+    if what == "contact" and (is_true or is_word):
+        is_place = re.fullmatch("(?i:floor|ground|table|boden|sol|wall|ceiling)", name)
+        place = name if is_true or is_place else text
+        wall = re.search("wall|wand|side", place, re.IGNORECASE)
+        along = [x for x in (("x",) if wall else ("y", "z", "h")) if x in coordinates]
+        along = along or (coordinates if len(coordinates) == 1 else [])
+        above = re.search("ceil|top|roof|lid", place, re.IGNORECASE)
+        return "" if above or not along else f"{place}: {{gap: {along[0]} >= 0}}"
+    rolls = re.search(r"roll|slip|rutsch|gliss", f"{name} {text}", re.IGNORECASE)
+    angles = [x for x in coordinates if is_angle(x)]
+    lengths = [x for x in coordinates if x not in angles]
+    radii = [x for x in ("R", "r", "a", "b", "radius") if x in file.scope.of_kind("parameter")]
+    words = is_true or re.fullmatch(r"[^\W\d_]{2,}(?:[ _-][^\W\d_]{2,})*", text)
+    if not rolls or not words or (len(angles), len(lengths), len(radii)) != (1, 1, 1):
+        return ""
+    return f"{lengths[0]}' = {radii[0]}*{angles[0]}'"
 
 
 def _hint(file: FileReader, key: Scalar, value: Mapping, known: tuple[str, ...]) -> str:

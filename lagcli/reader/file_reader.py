@@ -367,7 +367,7 @@ class FileReader:
         number = in_digits(alone, names) if is_open else alone
         wrong = unit_in_formula(number, what, self.scope.kinds, role in _NUMERIC)
         if number != alone and not wrong:
-            wrong = "a number is written in digits", f"write {number}"
+            wrong = "a value is one number in digits", f"write {number}"
         if wrong:
             self.error(wrong[0], node.span, wrong[1])
             return UNREADABLE

@@ -27,7 +27,8 @@ _COUNT = regex(r"([\d.]+(?:[eE][-+]?\d+)?)\s*(?![eE]\d+$)([^\W\d]\w*)")
 _ANGLE = regex("deg(/.*|)|rpm")
 #: A quantity within a formula: the 9.81 m/s² of `m*9.81 m/s²*x`.
 _UNIT_WITHIN = regex(
-    r"([\d.]+)\s+([A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+|kg|[cmk]m|k?Hz|k?N|k?J|k?W|k?Pa)(?![\w(])"
+    r"([\d.]+)\s+((?:[A-Za-z]+\s)?[A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+"
+    r"|kg|[cmk]m|k?Hz|k?N|k?J|k?W|k?Pa)(?![\w(])"
 )
 #: The letter of a quantity by its unit.
 _LETTERS = {
@@ -43,6 +44,10 @@ _ABOUT = regex(
     r"(?i:[≈≃≅~∼=]+|(?:ca|circa|approx|env|aprox|etwa|rund|ungefähr|approximately|about|roughly"
     r"|around|environ|cirka)\b\.?(?!\s*$))\s*(?=[-+.\d]*\d|[a-z]{3})"
 )
+#: The 0.5 of `0.5 ± 0.01`, with whatever stands behind both.
+_ERROR = regex(
+    r"^\(?([-+]?\d+\.?\d*(?:[eE][-+]?\d+)?)\s*(?:±|\+/?[-−])\s*[\d.]+(?:[eE]-?\d+)?\s?%?\)?(?=\s|$)"
+)
 #: `10k` and `4.7M`.
 _WITH_PREFIX = regex(r"([-+]?\d+\.?\d*)\s?([kMG])")
 
@@ -50,11 +55,12 @@ _WITH_PREFIX = regex(r"([-+]?\d+\.?\d*)\s?([kMG])")
 def in_digits(text: str, names: Container[str] = ()) -> str:
     """`12` for `twelve`, `3/2` for `one and a half`, `0.25 m` for `a quarter of a m`.
 
-    Also `9.81` for `≈ 9,81`, `12.5` for `12½`, and `10000` for `10k` where k is none of the names.
+    Also `9.81` for `≈ 9,81`, `12.5` for `12½`, and `10000` for `10k` where k is none of the names,
+    and `0.5` for `0.5 ± 0.01`.
     """
     if (exact := _ABOUT.sub("", text, count=1) if _ABOUT.match(text) else text) != text:
         text = re.sub(r"^([-+]?\d+),(?=\d)(?!\d{3}$)", r"\1.", exact)
-    text = with_mixed_numbers(text)
+    text = _ERROR.sub(r"\1", with_mixed_numbers(text))
     if (short := _WITH_PREFIX.fullmatch(text)) and short[2] not in names:
         return f"{Fraction(short[1]) * 1000 ** (1 + 'kMG'.index(short[2]))}"
     if not _IN_WORDS.fullmatch(text):
@@ -137,15 +143,19 @@ def unit_in_formula(
     if unit and (is_number or is_unit(unit)):
         return unit_mistake(text, names, declared=declared)
     if (unit := unit_at_end(text)) and is_unit(unit):
-        number = text.removesuffix(unit).strip()
-        hint = f"leave out '{unit}': units stand where names are declared"
+        number = text.removesuffix(f"({unit})").removesuffix(unit).strip()
+        hint = f"write {number}: numbers are in the units of the file"
         hint = f"write {{value: {number}, unit: {unit}}}" if declared else hint
         return f"the unit '{unit}' cannot stand in {what}", hint
     within = _UNIT_WITHIN.search(text)
     if within and is_unit(within[2]):
-        name = _LETTERS.get(within[2], "g" if "/s" in within[2] else "a")
-        hint = f"write parameters: {{{name}: {{value: {within[1]}, unit: {within[2]}}}}}"
-        return f"the unit '{within[2]}' cannot stand in {what}", hint
+        unit, name = within[2], _LETTERS.get(within[2], "g" if "/s" in within[2] else "a")
+        hint = f"write parameters: {{{name}: {{value: {within[1]}, unit: {unit}}}}}"
+        if abs(_in_base_units(unit)[0] - 1) < 1e-9:
+            left = _UNIT_WITHIN.sub(lambda m: m[1] if is_unit(m[2]) else m[0], text)
+            left = re.sub(r"(?<!\w)\(([\d.]+)\)", r"\1", left)
+            hint = f"write {left}: numbers are in the units of the file"
+        return f"the unit '{unit}' cannot stand in {what}", hint
     if declared and is_unit(text):
         return f"the unit '{text}' is not a value", f"write {{unit: {text}}}"
     return None

@@ -452,13 +452,19 @@ def _is_used(key: Scalar, value: DocumentNode, around: Mapping) -> bool:
     return used is not None and is_formula is not None
 
 
+def _counted(advice: str, word: str, value: str) -> str:
+    """The advice with the number of samples of the file, which a rate is not."""
+    is_count = value.isdigit() and word not in {"fps", "interval"}
+    return advice.replace("VALUE", value if is_count else "100")
+
+
 def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
     """What to write instead of a key with its value; nothing where that is unclear."""
     section = what.removeprefix("the ").partition(" ")[0]
     if word in ASSUMPTIONS and word != "real" and "assume" in known:
         return "leave it out" if value.casefold() in _NOT else f"write assume: {word}"
     if advice := spellings("advice", section).get(letters(word)):
-        return advice.replace("{word}", word)
+        return _counted(advice.replace("{word}", word), word, value)
     return _advice_in_problem(word, value.strip()) if section == "problem" else ""
 
 
@@ -475,7 +481,7 @@ def _advice_in_problem(word: str, value: str) -> str:
     if key == "until":
         value = range_end(value) or value
     if len(word) > 1 and (advice := spellings("advice", "simulation").get(letters(word))):
-        return advice
+        return _counted(advice, word, value)
     if part == "expect" and value in _WISHES:
         return f"an option, not a key: lagcli solve FILE --show {key}"
     if part:

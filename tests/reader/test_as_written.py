@@ -12,6 +12,7 @@ PLANE = {"coordinates": "[x, y]", "T": "m*(x'^2 + y'^2)/2"}
 OF_TIME = {"V": "U(x, t)*W(t)"}
 ANGLE = {"coordinates": "[theta]", "T": "m*theta'^2/2", "V": "k*cos(theta)"}
 TURNING = {"coordinates": "[x, theta]"}
+ROLLING = {"coordinates": "[x, theta]", "T": "m*(x'^2 + R^2*theta'^2)/2", "parameters": "[m, k, R]"}
 UNITS = {"coordinates": "{x: {unit: m}}", "V": "m*g*x", "initial": "{x: 1}"}
 PAIR = {"observables": "{A_x: x*p_x, B: p_x}"}
 
@@ -77,6 +78,16 @@ HINTS = [
     *[(text(parameters="{mass: 1, length: 2, kappa: 3, k: 1}", T="mass*x'^2/2", V=f"k*{name}*x"), hint)
       for name, hint in (("l", "did you mean 'length'?"), ("L", "did you mean 'length'?"),
                          ("m", "did you mean 'mass'?"), ("M", "or its formula under 'definitions'"))],
+    *[(text(parameters=f"{{m: {value}, k: 2}}"), "write 0.5")
+      for value in ("0.5 ± 0.01", "0.5±0.01", "0.5 +/- 0.01", "(0.5 ± 0.01)", "0.5 ± 2%")],
+    (text(simulation="{until: 10, samples: 250}"), "lagcli simulate p.yaml --samples 250"),
+    *[(text(**ROLLING, constraints=f"{{rolling: {words}}}"), "write x' = R*theta'")
+      for words in ("true", "yes", "no slipping")],
+    (text(**ROLLING, constraints="{rolling: }"), "write rolling: x' = R*theta'"),
+    *[(text(**PLANE, contacts=f"{{{name}: {words}}}"), f"write {place}: {{gap: y >= 0}}")
+      for name, words, place in (("ball", "floor", "floor"), ("floor", "true", "floor"),
+                                 ("floor", "", "floor"), ("ball", "ground", "ground"))],
+    (text(**PLANE, contacts="{wall: true}"), "write wall: {gap: x >= 0}"),
     (text(initial="{angle: 0.5}"), "known are x and velocities: x'"),
     (text(T="m*|x'|^2/2"), "write m*x'^2/2"),
     (text(T="m*|x' - k|²/2 + k*|x'|^3"), "write m*(x' - k)^2/2 + k*abs(x')^3"),

@@ -661,8 +661,14 @@ def test_the_distance_of_two_bodies_is_written_by_its_components(bars, between):
     assert alone == f"write -k/sqrt({x2}^2 + {y2}^2)"
 
 
-@pytest.mark.parametrize("unit", ["N", "kN", "J", "kg", "Hz", "mm"])
-def test_a_quantity_within_a_formula_is_a_parameter(unit):
+@pytest.mark.parametrize("unit", ["N", "J", "kg", "Hz", "N/m", "N s/m", "m/s^2"])
+def test_a_quantity_within_a_formula_stays_without_its_unit(unit):
+    found = only_mistake(text(V=f"k*x - 5 {unit}*x", parameters="{k: 1, M: 1}", T="M*x'^2"))
+    assert found.hint == "write k*x - 5*x: numbers are in the units of the file"
+
+
+@pytest.mark.parametrize("unit", ["kN", "mm"])
+def test_a_quantity_that_would_be_converted_is_a_parameter(unit):
     hint = only_mistake(text(V=f"5 {unit} * x", parameters="{k: 1, M: 1}", T="M*x'^2")).hint
     assert re.fullmatch(rf"write parameters: {{\w: {{value: 5, unit: {unit}}}}}", hint)
 
