@@ -1,8 +1,8 @@
 """Elementary antiderivatives of the formulas that mechanics has, each verified.
 
 Derivatives of unspecified functions are integrated by parts until none is left; powers,
-and polynomials times exp, sin, cos, sinh, cosh of linear arguments, go term by term; the
-rest is left to SymPy's rules.
+and polynomials times exp, sin, cos, sinh, cosh of linear arguments, go term by term; of
+rational functions the rational part comes first; the rest is left to SymPy's rules.
 """
 
 from __future__ import annotations
@@ -185,16 +185,15 @@ def _of_elementary(factor: Expr, x: Symbol) -> Expr | None:
 
 
 def _of_whole(expression: Expr, x: Symbol) -> Expr | None:
-    """By rules, by partial fractions, or by rules for each term."""
-    found = _by_rules(expression, x)
-    if found is not None:
-        return found
-    found = _by_partial_fractions(expression, x)
-    terms = Add.make_args(sympy.expand(expression))
-    if found is not None or len(terms) == 1 or len(terms) > _MOST_TERMS:
-        return found
-    parts = [_by_rules(term, x) for term in terms]
-    return None if any(part is None for part in parts) else Add(*parts)
+    """By Hermite's reduction of a rational function, then by rules, or by rules for each term."""
+    rational, rest = _reduced(expression, x)
+    parts = [_term(rest, x) if rest != 0 else rest]
+    if parts == [None]:
+        parts = [_by_rules(rest, x)]
+    terms = Add.make_args(sympy.expand(rest))
+    if parts == [None] and 1 < len(terms) <= _MOST_TERMS:
+        parts = [_by_rules(term, x) for term in terms]
+    return None if any(part is None for part in parts) else Add(rational, *parts)
 
 
 def _by_rules(expression: Expr, x: Symbol) -> Expr | None:
@@ -216,16 +215,27 @@ def _by_rules(expression: Expr, x: Symbol) -> Expr | None:
     return result if known and not result.has(sympy.Integral) else None
 
 
-def _by_partial_fractions(expression: Expr, x: Symbol) -> Expr | None:
-    """Of a rational function that is too long for the rules, without logarithms."""
+def _reduced(expression: Expr, x: Symbol) -> tuple[Expr, Expr]:
+    """(R, h) with expression = R' + h; of a rational function h has simple poles.
+
+    Hermite: R is all of its antiderivative except the logarithms and arctangents, those of h.
+    """
+    from sympy.integrals.rationaltools import ratint_ratpart
+
+    def reduced() -> tuple[Expr, Expr]:
+        above, below = sympy.fraction(sympy.cancel(sympy.together(expression)))
+        whole, above = sympy.div(above, below, x)
+        rational, rest = ratint_ratpart(above, below, x)
+        return sympy.integrate(whole, x) + rational, sympy.apart(rest, x)
+
+    unchanged = sympy.S.Zero, expression
     if expression.atoms(AppliedUndef) or not expression.is_rational_function(x):
-        return None
+        return unchanged
     try:
-        whole = limited(lambda: sympy.apart(sympy.together(expression), x), _UNITS, _SECONDS)
+        rational, rest = limited(reduced, _UNITS, _SECONDS)
     except (NotImplementedError, sympy.PolynomialError, OutOfWork):
-        return None
-    parts = [_term(term, x) for term in Add.make_args(whole)]
-    return None if any(part is None for part in parts) else Add(*parts)
+        return unchanged
+    return unchanged if rational == 0 else (rational, rest)
 
 
 @contextmanager
