@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Collection, Mapping
+from fractions import Fraction
 from typing import TypeVar
 
 from lagcli.diagnostics import Diagnostic
@@ -10,12 +13,14 @@ from lagcli.evaluation import Constant, value_of
 from lagcli.expression import (
     ZERO,
     Diff,
+    Equation,
     Expression,
     Name,
     Negative,
     Power,
     Product,
     Quotient,
+    name_nodes,
     terms_of,
     walk,
 )
@@ -26,6 +31,8 @@ from lagcli.rewriting import expressions_in, rebuilt, substituted
 
 #: Beside the terms of a constraint, a residual that is rounding.
 _ROUNDED = 1e-9
+#: Of the time in a difference quotient.
+_STEP = Fraction(1, 10**4)
 
 Values = Mapping[str, Expression]
 Value = TypeVar("Value")
@@ -77,44 +84,123 @@ def numbers_of_parameters(problem: Problem) -> dict[str, float]:
 
 
 def off_constraints(problem: Problem) -> list[Diagnostic]:
-    """Warnings of the constraints that `initial`, with all that is in them, does not satisfy."""
-    formulas: dict[str, Expression] = {p.name: p.value for p in problem.parameters if p.value}
-    formulas |= {**problem.definitions, "t": ZERO}
-    formulas |= {str(name): value for name, value in problem.initial.items()}
+    """Warnings of what `initial`, with all that is in it, does not satisfy.
+
+    These are the constraints, those without velocities also by their derivative by the time, and
+    the gaps of contacts.
+    """
+    given: dict[str, Expression] = {p.name: p.value for p in problem.parameters if p.value}
+    given |= {**problem.definitions, "t": ZERO}
+    given |= {str(name): value for name, value in problem.initial.items()}
+    found = []
+    for one in problem.constraints:
+        message = f"the initial state does not satisfy the constraint '{one.name}'"
+        off = _residual(one.equation, given)
+        if off is not None and abs(off[0]) > _ROUNDED * off[1]:
+            difference = f"with the values of the file, left - right is {off[0]:.6g}"
+            found.append(_off(problem, message, one.equation, difference, given, off[0]))
+        elif off is not None and (rate := _rate(problem, one.equation, given)):
+            message = f"the initial velocities do not satisfy the constraint '{one.name}'"
+            difference = f"left - right changes at the rate {rate:.6g}"
+            found.append(_off(problem, message, one.equation, difference, given, rate))
+    for each in problem.contacts:
+        off = _residual(each.equation, given)
+        if off is not None and off[0] < -_ROUNDED * off[1]:
+            message = f"the gap of '{each.name}' is negative in the initial state: {off[0]:.6g}"
+            hint = "a gap is positive where the bodies are apart"
+            at = each.equation.span
+            line = problem.source.text.split("\n")[at.line - 1]
+            written = re.fullmatch(
+                r"(\w+) *- *(\w+) *>=? *(.+)", line[at.column - 1 : at.end_column - 1]
+            )
+            turned = Equation(Negative(each.equation.left), each.equation.right)
+            apart = _residual(turned, given)
+            if written and apart is not None and apart[0] >= 0:
+                hint = f"write {written[2]} - {written[1]} >= {written[3]}: {hint}"
+            found.append(Diagnostic(message, each.equation.span, hint, severity="warning"))
+    return found
+
+
+def _residual(equation: Equation, given: Values) -> tuple[float, float] | None:
+    """The left minus the right side, and the size of their terms; None where one has no value."""
     numbers: dict[str, Constant | None] = {}
 
     def put_in(node: Expression) -> Expression:
         if not isinstance(node, Name):
             return rebuilt(node, put_in)
         name = str(node)
-        if name in formulas and name not in numbers:
-            numbers[name] = value_of(put_in(formulas[name]))
+        if name in given and name not in numbers:
+            numbers[name] = value_of(put_in(given[name]))
         known = numbers.get(name)
         return node if known is None else number(known)
 
-    found = []
-    for one in problem.constraints:
-        try:
-            sides = [put_in(side) for side in (one.equation.left, one.equation.right)]
-            left, right = value_of(sides[0]), value_of(sides[1])
-            parts = [value_of(term) for side in sides for term in terms_of(side)]
-        except (ArithmeticError, ValueError):
+    try:
+        sides = [put_in(side) for side in (equation.left, equation.right)]
+        left, right = value_of(sides[0]), value_of(sides[1])
+        parts = [value_of(term) for side in sides for term in terms_of(side)]
+    except (ArithmeticError, ValueError):
+        return None
+    if left is None or right is None:
+        return None
+    return float(left) - float(right), sum(abs(float(each)) for each in parts if each is not None)
+
+
+def _rate(problem: Problem, equation: Equation, given: Values) -> float:
+    """The derivative of left - right by the time, 0 where it is rounding or not known.
+
+    It is a difference quotient along the velocities, which must all be given.
+    """
+    names = [one for side in (equation.left, equation.right) for one in name_nodes(side)]
+    moving = {one.name for one in names} & {one.name for one in problem.coordinates}
+    values = {x: value_of(given.get(x, ZERO)) for name in moving for x in (name, f"{name}'")}
+    is_known = all(x in given and value is not None for x, value in values.items())
+    if not is_known or any(one.primes or one.name in problem.definitions for one in names):
+        return 0.0
+    ends = []
+    for step in (_STEP, -_STEP):
+        state = {x: _exact(values[x]) + step * _exact(values[f"{x}'"]) for x in moving}
+        put = {x: number(value) for x, value in {**state, "t": step}.items()}
+        ends.append(_residual(equation, {**given, **put}))
+    if ends[0] is None or ends[1] is None:
+        return 0.0
+    rate = (ends[0][0] - ends[1][0]) / float(2 * _STEP)
+    size = sum(abs(float(_exact(values[f"{x}'"]))) for x in moving)
+    return rate if abs(rate) > 1e-4 * size else 0.0
+
+
+def _exact(value: Constant | None) -> Fraction:
+    return Fraction(value or 0)
+
+
+def _off(
+    problem: Problem,
+    message: str,
+    equation: Equation,
+    difference: str,
+    given: Values,
+    off: float,
+) -> Diagnostic:
+    """The warning at the last entry of `initial` that the difference is linear in."""
+    is_rate = "velocities" in message
+
+    def difference_at(name: str, value: Fraction) -> float:
+        changed = {**given, name: number(value)}
+        if is_rate:
+            return _rate(problem, equation, changed)
+        found = _residual(equation, changed)
+        return math.nan if found is None else found[0]
+
+    for entry, formula in reversed([*problem.initial.items()]):
+        name, before = str(entry), value_of(given[str(entry)])
+        if before is None or (is_rate and not entry.primes):
             continue
-        sizes = [abs(float(part)) for part in parts if part is not None]
-        if left is None or right is None:
-            continue
-        difference = float(left) - float(right)
-        if abs(difference) <= _ROUNDED * sum(sizes):
-            continue
-        found.append(
-            Diagnostic(
-                f"the initial state does not satisfy the constraint '{one.name}'",
-                one.equation.span,
-                f"with the values of the file, left - right is {difference:.6g}",
-                severity="warning",
-            )
-        )
-    return found
+        one, two = (difference_at(name, _exact(before) + step) for step in (1, 2))
+        slope = one - off
+        if abs(slope) > 1e-6 and abs(two - one - slope) < 1e-6 * abs(slope):
+            value = float(before) - off / slope
+            hint = f"{difference}: write {name}: {round(value, 6) + 0:g}, or leave it out"
+            return Diagnostic(message, formula.span, hint, severity="warning")
+    return Diagnostic(message, equation.span, difference, severity="warning")
 
 
 def _question(question: Question, values: Values) -> Question:

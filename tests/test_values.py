@@ -118,4 +118,46 @@ initial: {initial}
     assert problem is not None
     found = off_constraints(problem)
     assert len(found) == number
-    assert all(not each.is_error and each.span.line == 6 for each in found)
+    assert all(not each.is_error and each.span.line in {6, 7} for each in found)
+
+
+@pytest.mark.parametrize(
+    ("initial", "hint"),
+    [
+        ("{x: 1, y: 1}", "write y: 3, or leave it out"),
+        ("{x: 1, y: 3, x': 0, y': 1}", "write y': 0, or leave it out"),
+        ("{x: 1, y: 3, x': 2, y': -2}", ""),
+        ("{y: 1, x: 1}", "write x: 3, or leave it out"),
+        ("{x: 1, y: 3, y': 1}", ""),  # x' follows
+    ],
+)
+def test_the_entry_of_a_state_beside_a_constraint_is_named_with_its_value(initial, hint):
+    written = f"""coordinates: [x, y]
+parameters: {{l: 4}}
+L: (x'^2 + y'^2)/2 + x
+constraints: {{rope: x + y = l}}
+initial: {initial}
+"""
+    problem = read("file.yaml", written.encode()).problem
+    assert problem is not None
+    found = off_constraints(problem)
+    assert len(found) == bool(hint)
+    assert all(each.hint.endswith(hint) and each.span.line == 5 for each in found)
+
+
+@pytest.mark.parametrize(
+    ("gap", "hint"),
+    [("x - y >= d", "write y - x >= d"), ("y - x >= d", None), ("x - y + d >= 0", None),
+     ("x >= d", "a gap is positive")],
+)  # fmt: skip
+def test_a_negative_gap_of_the_initial_state_is_a_warning(gap, hint):
+    written = f"""coordinates: [x, y]
+parameters: {{d: 1.5}}
+L: (x'^2 + y'^2)/2
+contacts: {{buffer: {gap}}}
+initial: {{x: 0, y: {3 if "+" not in gap else 1}}}
+"""
+    problem = read("file.yaml", written.encode()).problem
+    assert problem is not None
+    found = off_constraints(problem)
+    assert [each.hint.startswith(hint) for each in found] == ([True] if hint else [])

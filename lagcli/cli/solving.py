@@ -104,7 +104,7 @@ def _read(name: str, data: bytes | OSError, request: Request, tally: Tally) -> P
     found = read(name, data, request)
     tally.said.append(report(found.source, found.diagnostics))
     tally.wrong = tally.wrong or found.problem is None
-    if found.problem is not None and found.problem.initial and found.problem.constraints:
+    if (x := found.problem) is not None and x.initial and (x.constraints or x.contacts):
         from lagcli.values import off_constraints
 
         tally.said.append(report(found.source, off_constraints(found.problem)))
