@@ -107,7 +107,7 @@ def _read(name: str, data: bytes | OSError, request: Request, tally: Tally) -> P
     if (x := found.problem) is not None and x.initial and (x.constraints or x.contacts):
         from lagcli.values import off_constraints
 
-        tally.said.append(report(found.source, off_constraints(found.problem)))
+        tally.said.append(report(found.source, off_constraints(x)))
     return found.problem
 
 
