@@ -13,7 +13,7 @@ from sympy import Expr, Symbol, cos, exp, sin, sqrt, tan
 from lagcli.algebra import shape, simplify, to_expression
 from lagcli.algebra.build import unspecified
 from lagcli.algebra.writing import Writer
-from lagcli.expression import Call, Power, operation_count, walk
+from lagcli.expression import Call, Power, Quotient, operation_count, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.reader import parse_text
 
@@ -279,4 +279,20 @@ def test_the_root_of_a_square_of_a_sine_is_its_modulus(function, power, below):
     assert not any(isinstance(e, Power) for each in inside for e in walk(each))
     for value in (0.7, -0.4):
         at = {alpha: value, m: 2, g: 3, r: 5, k: 7}
+        assert abs((expression - simplify(expression)).xreplace(at).evalf()) < 1e-12
+
+
+@pytest.mark.parametrize("split", [r**2 - 1, r**2 - k**2, r**2 - 4 * k**2])
+@pytest.mark.parametrize("other", [1 - x**2, x - y, 3 - cos(theta)])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_a_root_above_a_factor_of_its_own_has_no_fraction_inside(split, other, sign):
+    """sqrt((r² - 1) (1 - x²))/(r² - 1), not sqrt((r - 1) (1 - x²)/(r + 1))/(r - 1)."""
+    expression = sign * m * r * dx * sqrt(split * other) / split
+    written = shape(expression)
+    [inside] = [
+        e.arguments[0] for e in walk(written) if isinstance(e, Call) and e.function == "sqrt"
+    ]
+    assert not any(isinstance(e, Quotient) for e in walk(inside))
+    for below in (2.5, 3.5):
+        at = {r: below, k: 1.2, x: 0.7, y: 0.2, theta: 0.4, m: 2, dx: 5}
         assert abs((expression - simplify(expression)).xreplace(at).evalf()) < 1e-12

@@ -11,6 +11,7 @@ from lagcli.algebra.division import commonest_ratio
 from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.ring import Monomial, Poly, factorization
+from lagcli.algebra.roots import is_nonnegative
 from lagcli.algebra.shaping.atoms import Atoms, Exponent, Term, Terms, multiply
 from lagcli.algebra.shaping.expansions import LONG, Expansions
 from lagcli.algebra.shaping.factored import FactoredPolynomials, as_product
@@ -33,6 +34,8 @@ _TOGETHER = 1.35
 _TOGETHER_TERMS = 8
 #: How many times as long the velocities may be apart where a sum below cancels.
 _APART = 1.1
+#: Operations that sqrt((r² - k²) B)/(r² - k²) may have more than sqrt((r - k) B/(r + k))/(r - k).
+_OWN_ROOT = 2
 
 
 class Shaper:
@@ -89,6 +92,9 @@ class Shaper:
         apart = (*self._by_roots(element), *self._by_powers(element)) if divide else ()
         for candidate in (*self._spread(element, below), *apart):
             if candidate.score < best.score:
+                best = candidate
+        for candidate in self._over_own_root(element):
+            if candidate.cost <= best.cost + _OWN_ROOT:
                 best = candidate
         for candidate, shorter in self._divided(element) if divide else ():
             worth = shorter or candidate.cost < best.cost
@@ -258,6 +264,34 @@ class Shaper:
             *((a, e) for a, e in sorted(exponents.items()) if e), *sums
         ]  # fmt: skip
         return product(self.atoms, number, parts)
+
+    def _over_own_root(self, element: Element) -> Iterator[PlannedProduct]:
+        """sqrt(A B)/(a B) for sqrt(A/B)/a, where a is a factor of A."""
+        field, ring = self.field, self.field.ring
+        roots = [
+            g
+            for g, _ in next(ring.terms(element.numerator.term_content()))[0]
+            if field.generators[g].kind == "root" and field.generators[g].index == 2
+        ]
+        radicands = [ring.lift(field.generators[g].radicand) for g in roots]
+        shared = [radicand.gcd(element.denominator) for radicand in radicands]
+        if len(roots) < 2 or any(each.is_constant() for each in shared):
+            return
+        if sum(not is_nonnegative(field, each) for each in radicands) > 1:
+            return
+        rest, inside, common = element.numerator, ring.one, ring.one
+        for g, radicand, each in zip(roots, radicands, shared, strict=True):
+            rest, inside, common = rest / ring.generator(g), inside * radicand, common * each
+        if (inside / common).is_constant():
+            return  # 1/sqrt(A)
+        known, self.atoms.roots = self.atoms.roots, []
+        factors = [self.factored.of(common), self.factored.of(inside / common)]
+        trees = [(self.written(each), Fraction(1)) for each in factors]
+        above, below = self.factored.of(rest), self.factored.of(element.denominator, below=True)
+        self.atoms.roots = known
+        root = self.atoms.add(self.writer.product(Fraction(1), trees)), Fraction(1, 2)
+        plan = self._joined(above, below)
+        yield product(self.atoms, plan.coefficient, [root, *plan.parts])
 
     def _spread(
         self, element: Element, below: PlannedProduct
