@@ -30,6 +30,7 @@ from lagcli.expression import (
 from lagcli.reader.constants import rational_value
 from lagcli.reader.foreign.words import Vocabulary, momentum_meant, rate_meant
 from lagcli.reader.friction_slips import friction_slips
+from lagcli.reader.habits import is_angle
 from lagcli.reader.misshapen import FRICTION, as_rayleigh
 from lagcli.reader.names import derivative_order
 from lagcli.reader.plain_sign import plain_sign
@@ -60,6 +61,7 @@ def slips(problem: Problem) -> list[Diagnostic]:
     elif kinetic is not None and _sign(kinetic, problem.definitions, signs) == -1:
         hint = "a kinetic energy is positive, as in m*x'^2/2"
         found.append(_warning("T is negative", kinetic.span, hint))
+    found += [] if kinetic is None else _turned_terms(kinetic)
     if lost is not None and _sign(lost, problem.definitions, signs) == -1:
         hint = f"it drives the motion; {FRICTION}"
         found.append(_warning("the dissipation is negative", lost.span, hint))
@@ -78,6 +80,31 @@ def slips(problem: Problem) -> list[Diagnostic]:
             hint = "a root is sqrt(x), or x^(1/2) with parentheses"
             found.append(_warning("a power of 1 is the base itself", last.span, hint))
     return found
+
+
+def _turned_terms(kinetic: Expression) -> Iterator[Diagnostic]:
+    """A warning for r'^2 - r^2*phi'^2: in polar coordinates the squares are added.
+
+    Other coordinates may have a metric with both signs.
+    """
+    for node in walk(kinetic):
+        terms = node.terms if isinstance(node, Sum) else ()
+        radii = {x.name for x in map(_base_of_square, terms) if x is not None and x.primes == 1}
+        for term in terms:
+            inner = term.operand if isinstance(term, Negative) else ZERO
+            factors = inner.factors if isinstance(inner, Product) else ()
+            squares = [x for x in map(_base_of_square, factors) if x is not None]
+            is_length = any(x.name in radii and not x.primes for x in squares)
+            if is_length and any(is_angle(x.name) and x.primes == 1 for x in squares):
+                hint = "write '+' before it: in polar coordinates the squares are added"
+                yield _warning("a term of T is negative", term.span, hint)
+
+
+def _base_of_square(node: Expression) -> Name | None:
+    match node:
+        case Power(base=Name() as base, exponent=Number(value=power)) if power == 2:
+            return base
+    return None
 
 
 def _signs(problem: Problem, known: Mapping[str, Fraction]) -> dict[str, int]:

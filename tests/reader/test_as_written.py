@@ -136,3 +136,14 @@ def test_a_state_in_a_coordinate_is_that_of_the_file_where_it_is_put():
     mended = written.replace(", start: 0.05", "") + "initial: {x: 0.05}\n"
     assert only_mistake(written).hint.endswith("initial: {x: 0.05}")
     assert read_problem("p", mended.encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize(
+    ("T", "count"),
+    [("m*(x'^2 - x^2*theta'^2)/2", 1), ("k*x'^2 + m*(-x^2*theta'^2 + x'^2)/2", 1),
+     ("m*(x'^2 + x^2*theta'^2)/2", 0), ("m*(x'^2 - k^2*theta'^2)/2", 0),
+     ("m*(theta'^2 - theta^2*x'^2)/2", 0)],
+)  # fmt: skip
+def test_a_negative_square_in_polar_coordinates_is_a_warning(T, count):
+    found = mistakes_of(text(coordinates="[x, theta]", T=T))
+    assert [each.severity for each in found] == ["warning"] * count
