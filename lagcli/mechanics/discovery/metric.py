@@ -15,7 +15,7 @@ Eisenhart, *Riemannian Geometry*, sections 8 and 27.
 from __future__ import annotations
 
 import random
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import combinations, combinations_with_replacement
 
@@ -150,21 +150,23 @@ class Metric:
         """What vanishes with parameters at which the curvature is constant, by rational points.
 
         1 where there is none, and where the components there are no rational functions of them and
-        of exponentials and tangents.
+        of exponentials, sines and cosines.
         """
         planes = list(combinations(range(self.n), 2))
         pairs = list(combinations_with_replacement(planes, 2))
         sides = [(self.riemann(*a, *b), self._area(*a, *b)) for a, b in pairs]
         points = [{x: sympy.Rational(k, j) for j, x in enumerate(self.q, k)} for k in (2, 3, 5)]
-        values = [(R.xreplace(at), area.xreplace(at)) for at in points for R, area in sides]
+        values = [(_rational(R, at), _rational(area, at)) for at in points for R, area in sides]
         first = next(((R, area) for R, area in values if area != 0), None)
         found = sympy.S.Zero
         for R, area in values if first else ():
             assert first is not None
             relation = (R * first[1] - first[0] * area).rewrite(HYPERBOLIC, sympy.exp)
-            condition = sympy.numer(sympy.together(relation.rewrite(CIRCULAR, sympy.tan)))
-            functions = {f: sympy.Dummy() for f in condition.atoms(sympy.Function)}
-            if not condition.xreplace(functions).is_polynomial(*parameters):
+            condition = sympy.numer(sympy.together(relation))
+            functions = {f: sympy.Dummy() for f in condition.atoms(sympy.exp)}
+            if condition.atoms(sympy.Function) - functions.keys() or not condition.xreplace(
+                functions
+            ).is_polynomial(*parameters):
                 return sympy.S.One
             found = sympy.gcd(found, condition)
         return found
@@ -197,6 +199,19 @@ class Metric:
                        for r, a in zip(R, area, strict=True)):  # fmt: skip
                     return False
         return True
+
+
+def _rational(formula: Expr, at: Mapping[Symbol, Expr]) -> Expr:
+    """At a point, where cos(k x) + i sin(k x) = ((1 + i u)/(1 - i u))^k is rational as well."""
+    put_in: dict[Expr, Expr] = {}
+    for f in formula.atoms(*CIRCULAR):
+        k, x = f.args[0].as_coeff_Mul()
+        if x in at and k.is_Integer:
+            turned = (1 + sympy.I / (at[x] + 1)) ** (2 * abs(k))
+            c, s = (part / abs(turned) for part in turned.expand().as_real_imag())
+            s *= sympy.sign(k)
+            put_in[f] = dict(zip(CIRCULAR, (s, c, s / c, c / s, 1 / c, 1 / s), strict=True))[f.func]
+    return formula.xreplace(put_in).xreplace(at)
 
 
 def _point(symbols: Sequence[Symbol], q: Sequence[Symbol], start: mpf) -> dict[Symbol, mpf]:
