@@ -150,7 +150,7 @@ class Metric:
         """What vanishes with parameters at which the curvature is constant, by rational points.
 
         1 where there is none, and where the components there are no rational functions of them and
-        of exponentials, sines and cosines.
+        of exponentials and tangents.
         """
         planes = list(combinations(range(self.n), 2))
         pairs = list(combinations_with_replacement(planes, 2))
@@ -162,11 +162,9 @@ class Metric:
         for R, area in values if first else ():
             assert first is not None
             relation = (R * first[1] - first[0] * area).rewrite(HYPERBOLIC, sympy.exp)
-            condition = sympy.numer(sympy.together(relation))
-            functions = {f: sympy.Dummy() for f in condition.atoms(sympy.exp)}
-            if condition.atoms(sympy.Function) - functions.keys() or not condition.xreplace(
-                functions
-            ).is_polynomial(*parameters):
+            condition = sympy.numer(sympy.together(relation.rewrite(CIRCULAR, sympy.tan)))
+            functions = {f: sympy.Dummy() for f in condition.atoms(sympy.Function)}
+            if not condition.xreplace(functions).is_polynomial(*parameters):
                 return sympy.S.One
             found = sympy.gcd(found, condition)
         return found
