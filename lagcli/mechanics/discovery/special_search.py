@@ -184,15 +184,20 @@ def _holds(case: SpecialCase, choice: Sequence[Value]) -> bool:
 def _beyond_products(
     known: Sequence[Expr], new: Sequence[NoetherCharge], there: Discovery, allowed: Allowance
 ) -> tuple[NoetherCharge, ...]:
-    """Without those that follow from the others and products of two known ones; P² is not new.
+    """Without those that follow from the known ones and products of two of them; P² is not new.
 
     Products of what depends on the time stay: the integrals of commensurate modes are such.
     """
     if all(c in there.point_charges for c in new) or there.dynamics.constraints.equations:
         return tuple(new)
     lasting = [sympy.S.One, *(c for c in known if there.system.t not in c.free_symbols)]
-    beyond = new_charges([*known, *products_of_two(lasting)], new, there.dynamics, allowed)
-    return tuple(c for c in new if c in there.point_charges or c in beyond)
+    old = [*known, *products_of_two(lasting)]
+    beyond = new_charges(old, new, there.dynamics, allowed)
+    return tuple(
+        c for c in new
+        if c in there.point_charges or c in beyond
+        or new_charges(old, [c], there.dynamics, allowed)  # by itself, not with other new ones
+    )  # fmt: skip
 
 
 def _named_apart(
