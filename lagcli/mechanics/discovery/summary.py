@@ -6,9 +6,10 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
-from sympy import Expr
+from sympy import Expr, Tuple
 
 from lagcli.algebra import is_zero
+from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.brackets import ChargeBrackets, NoState, Structure
 from lagcli.mechanics.discovery.constrained import dimension_of_states, rank_on_surface
 from lagcli.mechanics.discovery.discovery import Discovery
@@ -213,4 +214,6 @@ def _nonholonomic(discovery: Discovery) -> Summary:
     charges = [c.charge for c in discovery.charges]
     independent = rank_on_surface(dynamics, charges)
     note = "velocity constraints leave no Poisson brackets to compare charges by"
-    return Summary(len(discovery.point_charges), None, independent, None, None, (note,))
+    v = discovery.system.qdot  # those of first degree with x phi' displace without velocities
+    points = sum(free_of(Tuple(*c.transformation.changes), v) for c in discovery.charges)
+    return Summary(points, None, independent, None, None, (note,))
