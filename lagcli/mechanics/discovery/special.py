@@ -74,11 +74,11 @@ def candidates(
         for parameter, value in found
         if not (value.free_symbols and value.could_extract_minus_sign())
         or (parameter, -value) not in found
-        or not _is_reflected(system, parameter)
+        or not is_reflected(system, parameter)
     ]
 
 
-def _is_reflected(system: System, parameter: Symbol) -> bool:
+def is_reflected(system: System, parameter: Symbol) -> bool:
     """Whether -p for p is the same system with some axes, or the time, turned round."""
     formulas = [system.L, *system.applied_forces]
     for time, *axes in product((1, -1), repeat=1 + len(system.q)):

@@ -30,6 +30,7 @@ from lagcli.mechanics.discovery.special import (
     candidates,
     damped_powers,
     exchanged,
+    is_reflected,
     linear_force,
     missing,
     new_charges,
@@ -134,6 +135,10 @@ def special_cases(
         limited_to(_SHARE, look)
     except (TooMuchWork, OutOfWork):
         discovery.words.append(_NOT_ALL)
+    listed = dict.fromkeys((case.parameter, case.value) for case in found)
+    for p, value in listed:
+        if value.free_symbols and (p, -value) not in listed and is_reflected(system, p):
+            discovery.words.append(f"of {p} and -{p}, which a reflection exchanges, one is named")
     if found and searched.degree > 2:  # the values come from the searches up to second degree
         discovery.words.append(_NOT_ALL)
     return tuple(found)
