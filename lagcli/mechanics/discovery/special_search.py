@@ -92,7 +92,7 @@ def special_cases(
             pairs += beside(value, _to_try(there.unconstrained or there, there, allowed)[0])
             discovery.words.extend({_NOT_ALL} & {*there.words})
         pairs += together
-        for value in again:
+        for value in (*again, *(v for v in at_one if v not in again)):
             pairs += beside(value, missing(system.parameters))
         pairs = list({frozenset(pair): pair for pair in pairs}.values())
         pairs.sort(key=lambda pair: len({*pair} & at_one.keys() - again.keys()))
