@@ -25,7 +25,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.notation.decimals import number
-from lagcli.problem_data import Parameter, Problem, Question, Rewrite
+from lagcli.problem_data import Contact, Parameter, Problem, Question, Rewrite
 from lagcli.record import replace
 from lagcli.rewriting import expressions_in, rebuilt, substituted
 
@@ -92,33 +92,37 @@ def off_constraints(problem: Problem) -> list[Diagnostic]:
     given: dict[str, Expression] = {p.name: p.value for p in problem.parameters if p.value}
     given |= {**problem.definitions, "t": ZERO}
     given |= {str(name): value for name, value in problem.initial.items()}
-    found = []
+    found: list[Diagnostic | None] = []
     for one in problem.constraints:
         message = f"the initial state does not satisfy the constraint '{one.name}'"
         off = _residual(one.equation, given)
         if off is not None and abs(off[0]) > _ROUNDED * off[1]:
             difference = f"with the values of the file, left - right is {off[0]:.6g}"
-            found.append(_off(problem, message, one.equation, difference, given, off[0]))
+            found.append(
+                _off(problem, message, one.equation, difference, given, off[0], rate=False)
+            )
         elif off is not None and (rate := _rate(problem, one.equation, given)):
             message = f"the initial velocities do not satisfy the constraint '{one.name}'"
             difference = f"left - right changes at the rate {rate:.6g}"
-            found.append(_off(problem, message, one.equation, difference, given, rate))
-    for each in problem.contacts:
-        off = _residual(each.equation, given)
-        if off is not None and off[0] < -_ROUNDED * off[1]:
-            message = f"the gap of '{each.name}' is negative in the initial state: {off[0]:.6g}"
-            hint = "a gap is positive where the bodies are apart"
-            at = each.equation.span
-            line = problem.source.text.split("\n")[at.line - 1]
-            written = re.fullmatch(
-                r"(\w+) *- *(\w+) *>=? *(.+)", line[at.column - 1 : at.end_column - 1]
-            )
-            turned = Equation(Negative(each.equation.left), each.equation.right)
-            apart = _residual(turned, given)
-            if written and apart is not None and apart[0] >= 0:
-                hint = f"write {written[2]} - {written[1]} >= {written[3]}: {hint}"
-            found.append(Diagnostic(message, each.equation.span, hint, severity="warning"))
-    return found
+            found.append(_off(problem, message, one.equation, difference, given, rate, rate=True))
+    found += (_apart(problem, each, given) for each in problem.contacts)
+    return [each for each in found if each is not None]
+
+
+def _apart(problem: Problem, contact: Contact, given: Values) -> Diagnostic | None:
+    """The warning of a negative gap, with the gap turned round where that one is not negative."""
+    off, at = _residual(contact.equation, given), contact.equation.span
+    if off is None or off[0] >= -_ROUNDED * off[1]:
+        return None
+    message = f"the gap of '{contact.name}' is negative in the initial state: {off[0]:.6g}"
+    hint = "a gap is positive where the bodies are apart"
+    line = problem.source.text.split("\n")[at.line - 1][at.column - 1 : at.end_column - 1]
+    written = re.fullmatch(r"(\w+) *- *(\w+) *>=? *(.+)", line)
+    turned = Equation(Negative(contact.equation.left), contact.equation.right)
+    apart = _residual(turned, given)
+    if written and apart is not None and apart[0] >= 0:
+        hint = f"write {written[2]} - {written[1]} >= {written[3]}: {hint}"
+    return Diagnostic(message, at, hint, severity="warning")
 
 
 def _residual(equation: Equation, given: Values) -> tuple[float, float] | None:
@@ -179,20 +183,21 @@ def _off(
     difference: str,
     given: Values,
     off: float,
+    *,
+    rate: bool,
 ) -> Diagnostic:
-    """The warning at the last entry of `initial` that the difference is linear in."""
-    is_rate = "velocities" in message
+    """The warning at the last entry of `initial` that the difference, or its rate, is linear in."""
 
     def difference_at(name: str, value: Fraction) -> float:
         changed = {**given, name: number(value)}
-        if is_rate:
+        if rate:
             return _rate(problem, equation, changed)
         found = _residual(equation, changed)
         return math.nan if found is None else found[0]
 
     for entry, formula in reversed([*problem.initial.items()]):
         name, before = str(entry), value_of(given[str(entry)])
-        if before is None or (is_rate and not entry.primes):
+        if before is None or (rate and not entry.primes):
             continue
         one, two = (difference_at(name, _exact(before) + step) for step in (1, 2))
         slope = one - off

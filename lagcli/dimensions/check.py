@@ -28,7 +28,6 @@ _QUOTED = 40
 _NAMES_IN_HINT = 5
 #: Of a half turn: the largest denominator of an angle in units of pi.
 _DEGREES = 180
-#: Wrong units that are looked for at once, and the sets of them that are tried.
 #: Letters for a quantity by its unit.
 _LETTERS = {
     "s": ["t_1", "tau"],
@@ -37,6 +36,7 @@ _LETTERS = {
     "1/m": ["k"],
     "N": ["F"],
 }
+#: Wrong units that are looked for at once, and the sets of them that are tried.
 _MOST_UNITS, _MOST_SETS = 3, 60
 
 

@@ -11,13 +11,7 @@ from lagcli.reader.by_coordinate import by_name, coordinate_meant, of_vectors
 from lagcli.reader.file_reader import Required
 from lagcli.reader.foreign.words import polar_speed
 from lagcli.reader.growth import growth
-from lagcli.reader.habits import (
-    KEYS,
-    colon_advice,
-    is_angle,
-    is_constant,
-    key_meant,
-)
+from lagcli.reader.habits import KEYS, colon_advice, is_angle, is_constant, key_meant
 from lagcli.reader.headings import forces_without_headings, without_headings
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.misshapen import as_list, named_formulas, source_of

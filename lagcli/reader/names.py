@@ -371,7 +371,7 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
 
 
 def _names_of(node: Call | PartialCall) -> list[str]:
-    """The arguments, with a letter for each that is no name."""
+    """The arguments, with a letter for each that is not a name."""
     return [str(x) if isinstance(x, Name) else "xyzuvw"[i % 6]
             for i, x in enumerate(node.arguments)]  # fmt: skip
 

@@ -292,7 +292,7 @@ def _unknown(file: FileReader, node: DocumentNode) -> Name | None:
     meant = named or (file.scope.free if others else [])
     if name is None and len(meant) == 1 and all(map(_EXTREME.fullmatch, others)):
         del file.diagnostics[before:]
-        message = f"'{source_of(node)}' is no name of the file in 'for'"
+        message = f"'{source_of(node)}' is not a name of the file in 'for'"
         file.error(message, node.span, f"write {meant[0]}")
     return name
 

@@ -23,6 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import product
+from math import prod
 
 import sympy
 from sympy import Expr, Symbol
@@ -141,9 +142,8 @@ def _of_all(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
     factors = [sorted(each, key=complexity) for each in factors]
     while True:
         plain = [[f for f in each if not _has_sums_below(f)] for each in factors]
-        tried = [*product(*factors), *product(joint[1:], *plain)]
-        if len(tried) <= _MOST:
-            return tried
+        if prod(map(len, factors)) + len(joint[1:]) * prod(map(len, plain)) <= _MOST:
+            return [*product(*factors), *product(joint[1:], *plain)]
         max(factors, key=len).pop()
 
 

@@ -229,7 +229,7 @@ class Setting:
         parts = sympy.Add.make_args(self.system.L)
         field = sympy.Add(*(part for part in parts if part.is_polynomial(*v)))
         square = -((self.system.L - field) ** 2)
-        if field.is_polynomial(*v) and sympy.Poly(field, *v).total_degree() > 1:
+        if sympy.Poly(field, *v).total_degree() > 1:
             return None
         if self.dynamics.constraints.equations or self.quadratic_mass or not self.canonical:
             return None
