@@ -385,3 +385,34 @@ def test_a_boundary_term_has_the_work_of_constraints_that_move(turning, seed):
     )
     assert "minus G" in told
     assert ("is the change of L plus the work of the constraints." in told) is turning
+
+
+# minus the potential, and the forces beside it
+PUSHED = {
+    "-k*x^2/2 - k*y^2/2": "",
+    "-k*x^2/2 + F*y": "",
+    "-k*x^2/2": "{x: -c*x'}",
+    "F*x - F*y": "",
+}
+
+
+@pytest.mark.parametrize("force", PUSHED)
+def test_of_a_ball_that_rolls_under_forces_those_of_its_centre_are_found(force):
+    """(I/R^2 + m) x'' = f(x, x'), (I/R^2 + m) y'' = g(y): two functions of the time for each.
+
+    Neimark, Fufaev, *Dynamics of Nonholonomic Systems*, chapter III, section 2.
+    """
+    text = f"""
+coordinates: [x, y, phi, theta, psi]
+parameters: {{m: {{assume: positive}}, R: {{assume: positive}}, I: {{assume: positive}},
+  k: {{assume: positive}}, c: {{assume: positive}}, F: {{assume: positive}}}}
+T: m*(x'^2 + y'^2)/2 + I*(theta'^2 + phi'^2 + psi'^2 + 2*phi'*psi'*cos(theta))/2
+V: -({force})
+forces: {PUSHED[force] or "{}"}
+constraints:
+  along_x: x' - R*(theta'*sin(phi) - psi'*sin(theta)*cos(phi)) = 0
+  along_y: y' + R*(theta'*cos(phi) + psi'*sin(theta)*sin(phi)) = 0
+"""
+    discovery = derive(text).discovery
+    assert summary(discovery).independent == 5
+    assert all(c.conserved is True and c.verified == "exact" for c in discovery.charges)

@@ -43,7 +43,8 @@ def search_on_surface(
     setting.words.append(_sentence(times))
     if search.timed:
         setting.words.append(
-            "along the displacements of constant momenta with functions of t as coefficients"
+            "along the displacements of constant momenta, and of the velocities of lengths "
+            "whose accelerations are free of angles, with functions of t as coefficients"
         )
     known = all_are_known(setting)
     if known:

@@ -34,7 +34,7 @@ class UnderConstraints:
     unsolved : int
         Integrals that are there, whose coefficients were not found.
     timed : bool
-        Whether displacements of constant momenta were given functions of the time as factors.
+        Whether displacements of constant momenta, or of x', were given functions of the time.
     """
 
     def __init__(
@@ -52,6 +52,7 @@ class UnderConstraints:
         self.timed = False
         self._same: list[Expr] = []
         self.fields = admissible_fields(self.dynamics, allowed)
+        self._of_lengths = self._by_lengths()
 
     def momenta(
         self, symmetries: Sequence[Transformation], known: Sequence[NoetherCharge]
@@ -118,28 +119,43 @@ class UnderConstraints:
         return found
 
     def _displacements(self, known: Sequence[NoetherCharge]) -> list[Vector]:
-        """Admissible ones with angles along which a momentum is constant.
+        """Admissible ones with angles along which a momentum is constant, or that of a length.
 
         A ball that rolls straight on has x - x' t, whose displacement is that of its momentum
         with the factor t: of the fields themselves it is a combination with angles and the time.
+        Under a spring its x' has no rate with angles, and x' cos(w t) + w x sin(w t) is constant.
         """
+        angles = set(self.kinds.angles)
+        moving = {self.system.t, *self.system.qdot}
+        constant = [tuple(c.transformation.changes) for c in known if c.transformation.time == 0]
+        found = []
+        for field in dict.fromkeys([*constant, *self._of_lengths]):
+            names = sympy.Tuple(*field).free_symbols
+            new = field not in self.fields and not names & moving and names & angles
+            if new and self._is_admissible(field):
+                found.append(field)
+        return found
+
+    def _is_admissible(self, field: Vector) -> bool:
         relations = self.dynamics.constraints.relations
         assert relations is not None
         equations = self.dynamics.constraints.equations
-        rows = [equations[k].row for k in self.dynamics.independent_constraints]
-        moving = {self.system.t, *self.system.qdot}
-        found = []
-        for charge in known:
-            transformation = charge.transformation
-            field = tuple(transformation.changes)
-            names = sympy.Tuple(*field).free_symbols
-            if transformation.time != 0 or names & moving or not names & set(self.kinds.angles):
-                continue
-            if field not in self.fields and all(
-                is_zero(relations.substitute(dot(row, field))) is True for row in rows
-            ):
-                found.append(field)
-        return found
+        rows = (equations[k].row for k in self.dynamics.independent_constraints)
+        return all(is_zero(relations.substitute(dot(row, field))) is True for row in rows)
+
+    def _by_lengths(self) -> dict[Vector, Expr]:
+        """Those whose momenta are the x' of lengths with x'' made of lengths alone."""
+        motion = self.dynamics.motion
+        if motion is None:
+            return {}
+        lengths = set(self.kinds.lengths)
+        velocities = dict(zip(self.system.q, self.system.qdot, strict=True))
+        others = {*self.kinds.angles, *(v for x, v in velocities.items() if x not in lengths)}
+        rates = dict(zip(self.system.q, motion.accelerations, strict=True))
+        closed = [velocities[x] for x in self.kinds.lengths if free_of(rates[x], others)]
+        moved = any(e.drift != 0 for e in self.dynamics.constraints.equations)
+        fields = {self._tangent(v): v for v in closed}  # p.e = v on A q' = 0
+        return {e: dot(e, self.dynamics.lagrange.momenta) for e in fields} if moved else fields
 
     def _timed_terms(self, number: int) -> list[IntegralTerm]:
         """Those of the first degree along the given number of displacements, timed."""
@@ -278,9 +294,10 @@ class UnderConstraints:
 
     def _charge(self, integral: Integral) -> NoetherCharge:
         """The charge of Dq = f_a e_a + g_ab (J_a e_b + J_b e_a), Dt = -c, S = -G."""
-        n = len(self.system.q)
+        n, momenta = len(self.system.q), self.dynamics.lagrange.momenta
         changes: list[Expr] = [sympy.S.Zero] * n
-        time = gauge = form = sympy.S.Zero
+        time = gauge = form = along = sympy.S.Zero
+        shorter = False
         for term, value in integral:
             c = value * term.function
             if term.velocities:
@@ -291,7 +308,10 @@ class UnderConstraints:
             elif term.fields == _ENERGY:
                 time -= c
             elif len(term.fields) == 1:
-                changes = self._moved(changes, c, self._along[term.fields[0]])
+                field = self._along[term.fields[0]]
+                changes = self._moved(changes, c, field)
+                along += c * self._of_lengths.get(field, dot(field, momenta))
+                shorter = shorter or field in self._of_lengths
             else:
                 a, b = term.fields
                 changes = self._moved(changes, c * self._J[a], self._along[b])
@@ -303,6 +323,11 @@ class UnderConstraints:
             charge = self.noether.charge("", "discovered", tangent, gauge + form)
             # p.eta = 2 Q on the surface, and Q is shorter as it was found
             return changed(charge, charge=simplify(form - gauge))
+        if shorter:
+            *changes, gauge, along = scaled((*changes, gauge, along), set(self.system.parameters))
+            still = Transformation(tuple(changes), sympy.S.Zero)
+            charge = self.noether.charge("", "discovered", still, gauge)
+            return changed(charge, charge=simplify(along - gauge))
         *changes, gauge, time = scaled((*changes, gauge, time), set(self.system.parameters))
         if time != 0 and not time.free_symbols & {self.system.t, *self.system.q}:
             # a moving energy: Q = h + ...
