@@ -1,6 +1,6 @@
 """What has a corner or a jump, by `abs` and `sign`, whose changes a motion stops at.
 
-    (u^2)^(k/2) = |u|^k = u^k, or u^k sign(u) for odd k
+    (u^2)^(k/2) = |u|^k = u^k, or u^k sign(u) for odd k: u/|u| = sign(u)
     atan2(y, x) = 2 sign(x) atan(y/(r + |x|)) + (1 - sign(x)) sign(y) pi/2,    r^2 = x^2 + y^2
     sqrt(a - a cos u) = sqrt(2 a) |sin(u/2)|,    sqrt(1 - sin^2 u) = |cos u|,    and so on
     asin(s) = 2 atan(s/(1 + sqrt(1 - s^2))),    1 - sin^2n u = cos^2 u (1 + ... + sin^(2n - 2) u)
@@ -34,6 +34,8 @@ def with_corners(graph: Graph, roots: Sequence[Node]) -> list[Node]:
 
 def _corner(graph: Graph, node: Node) -> Node:
     match node:
+        case Product() if (parts := _without_poles(graph, node)) is not None:
+            return _corner(graph, graph.monomial(parts))
         case Product(factors=factors) if any(e.denominator == 2 for _, e in factors):
             found = [_absolute(graph, *pair) for pair in factors]
             if all(part is None for part in found):
@@ -86,6 +88,31 @@ def _absolute(graph: Graph, base: Node, exponent: Fraction) -> list[tuple[Node, 
     for u, power in factors:
         found += _power(graph, u, power * exponent) if u in even else [(u, power * exponent)]
     return found
+
+
+def _without_poles(graph: Graph, node: Product) -> list[tuple[Node, Fraction]] | None:
+    """The factors with u^k sign(u) for |u|^k where u divides it, or it divides u; else None."""
+    factors = [*_leaves(node, Fraction(1))]
+    found, changed = [], False
+    for base, exponent in factors:
+        u = base.arguments[0] if isinstance(base, Call) and base.function == "abs" else None
+        own = {each for each, _ in _leaves(split(u)[1], exponent)} if u else {}
+        is_pole = any(each in own and power * exponent < 0 for each, power in factors)
+        if u and is_pole and exponent.denominator == 1:
+            found += _power(graph, u, exponent)
+            changed = True
+        else:
+            found.append((base, exponent))
+    return found if changed else None
+
+
+def _leaves(node: Node, exponent: Fraction) -> Iterator[tuple[Node, Fraction]]:
+    """The factors of a product and of the products in it."""
+    if isinstance(node, Product) and exponent.denominator == 1:  # (u^2)^(1/2) is not u
+        for base, power in node.factors:
+            yield from _leaves(base, power * exponent)
+    else:
+        yield node, exponent
 
 
 def _power(graph: Graph, u: Node, exponent: Fraction) -> list[tuple[Node, Fraction]]:

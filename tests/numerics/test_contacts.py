@@ -375,6 +375,35 @@ initial: {{x': {v}}}
         assert result.steps < 5_000
 
 
+@pytest.mark.parametrize(
+    "law",
+    [
+        "-mu*x'/abs(x')",
+        "-mu*x'*abs(x')^(-1)",
+        "-mu*abs(x')/x'",
+        "-mu*x'/sqrt(x'^2)",
+        "-2*mu*x'/speed",
+        "-mu*x'^3/abs(x')^3",
+        "-mu*(x' - 0)/abs(-x')",
+        "-mu*tanh(x'/abs(x'))/tanh(1)",
+    ],
+)
+def test_a_direction_is_a_sign_however_it_is_written(law):
+    """It stops after v/mu on v^2/(2 mu), and stays there."""
+    text = f"""
+coordinates: [x]
+parameters: {{mu: 0.3}}
+definitions: {{speed: abs(2*x')}}
+T: x'^2/2
+forces: {{x: "{law}"}}
+initial: {{x': 2}}
+"""
+    result = simulated(text, 10, show="x,x'")
+    assert happened(result) == [("x'", "sticks")]
+    assert result.events[0].t == pytest.approx(2 / 0.3, abs=1e-9)
+    assert result.rows[-1][1:] == pytest.approx((2 / 0.3, 0), abs=1e-9)
+
+
 def test_a_block_on_a_belt_sticks_until_the_spring_pulls():
     """It moves with the belt up to x = mu/k and slips there."""
     text = """
