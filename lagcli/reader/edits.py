@@ -5,15 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from difflib import SequenceMatcher
+from itertools import takewhile
 from typing import NamedTuple
 
-from lagcli.diagnostics import Diagnostic
+from lagcli.diagnostics import Diagnostic, Source
 from lagcli.reader.habits import KEYS, is_unit
 from lagcli.reader.misplaced import names_in
 from lagcli.reader.misshapen import pieces
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, entries_in, nodes_in
 from lagcli.reader.regex import regex
 from lagcli.reader.text import SourceText
+from lagcli.record import replace
 
 #: The text that a hint proposes; what follows a colon may be the reason.
 PROPOSED = regex(
@@ -28,6 +30,10 @@ _RENAMED = regex(
 _NOT_TO_TYPE = regex(r" under '|without '-'|, as in |^it is one sum|left = right$")
 NO_NAME = regex(r"'(.*)' is not a name")
 _SECTION = regex(r"(\w+): (.*)", re.DOTALL)
+#: An entry of a map.
+_ENTRY = regex(r"\s*[^\W\d]\w*'*: \S")
+#: What stands before a place of the line of an entry.
+_LINE = regex(r"\s*(?:[^\s:{\[][^:{\[]*:\s+)?")
 _BLANKS = "  "
 #: What a comma has cut off a value in braces.
 _CUT = regex(r"(?:\s*,\s*[^,{}\[\]:\n]+)+(?=\s*[,}])")
@@ -255,3 +261,18 @@ def entry_at(root: DocumentNode, start: int, end: int) -> tuple[Scalar, Document
         if key.start <= start <= end <= max(key.end, value.end):
             found = (key, value)
     return found
+
+
+def on_lines(mistake: Diagnostic, source: Source) -> Diagnostic:
+    """`write a: 1, and on a line of its own b: 2` for `write a: 1, b: 2` where one has a line."""
+    proposed, span = PROPOSED.fullmatch(mistake.hint), mistake.span
+    whole = (proposed[1] or proposed[2]) if proposed else ""
+    parts = pieces(whole, ",;")
+    entries = [each.strip() for each in takewhile(_ENTRY.match, parts)]
+    before = source.text.split("\n")[span.line - 1][: span.column - 1] if entries[1:] else "{"
+    if not _LINE.fullmatch(before):
+        return mistake
+    rest = whole[len("".join(parts[: len(entries)])) + len(entries) - 1 :]
+    lines = "lines of their own" if entries[2:] else "a line of its own"
+    written = f"{entries[0]}, and on {lines} {' and '.join(entries[1:])}{rest}"
+    return replace(mistake, hint=mistake.hint.removesuffix(whole) + written)

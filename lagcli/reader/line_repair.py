@@ -389,7 +389,7 @@ def _with_line(
         if proposed is None or entry is None:
             break
         key = entry["key"].lstrip()
-        own = proposed[1].partition("; ")[0] if proposed[1].startswith(key) else proposed[1]
+        own = proposed[1].partition("; ")[0]
         only = re.match(r"\{(\w+: )[^,]*\}$", entry["value"])  # {S: {for: m}}
         own = f"{{{own}}}" if only and own.startswith(only[1]) else own
         line = entry["key"] + own.removeprefix(key)

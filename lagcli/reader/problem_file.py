@@ -113,7 +113,10 @@ def read_problem(source_name: str, data: bytes) -> ProblemReading:
 
     wrong, texts = without_foreign_lines(source.text)
     if not wrong:
-        return reading
+        from lagcli.reader.edits import on_lines
+
+        found = tuple(on_lines(each, source) for each in reading.diagnostics)
+        return replace(reading, diagnostics=found)
     others = (_read_lines(replace(source, text=text)).diagnostics for text in texts)
     errors = ([each for each in found if each.is_error] for found in others)
     both = (*wrong, *min(errors, key=len))

@@ -105,10 +105,14 @@ def one_for_shapes(
     if not found[1:]:
         return tuple(diagnostics)
     listed = ", ".join(name for _, name in found[:-1])
-    texts = [(name, each.hint.removeprefix("write ")) for each, name in found]
-    wholes = [f"{name}: {x if x[:1] in '[{' else f'{{{x}}}'}" for name, x in texts]
+    wholes = [each.hint.removeprefix("write ") for each, _ in found]
+    wholes = [each if each[:1] in "[{" else f"{{{each}}}" for each in wholes]
+    first, *others = (f"write {each}" for each in wholes)
+    lines = [
+        f"in line {each.span.line} {x}" for (each, _), x in zip(found[1:], others, strict=True)
+    ]
     message = f"{listed} and {found[-1][1]} must be lists or maps"
-    whole = replace(found[0][0], message=message, hint=f"write {'; '.join(wholes)}")
+    whole = replace(found[0][0], message=message, hint="; ".join([first, *lines]))
     gone = [each for each, _ in found[1:]]
     kept = (whole if each is found[0][0] else each for each in diagnostics)
     return tuple(each for each in kept if all(each is not other for other in gone))

@@ -124,7 +124,9 @@ constraints:
 )
 def test_the_square_of_a_speed_is_two_constraints_along_the_heading(square, heading, along):
     [found] = read_problem("p.yaml", ROLLING.format(square, heading).encode()).diagnostics
-    given = re.search(r": c_1: x' = (.*), c_2: y' = (.*)$", found.hint).groups()
+    given = re.search(
+        r": c_1: x' = (.*), and on a line of its own c_2: y' = (.*)$", found.hint
+    ).groups()
     python = [each.replace("phi'", "w") for each in given]
     names = {"R": 2, "w": 3, "theta": 0.4, "cos": math.cos, "sin": math.sin}
     for formula, size in zip(python, along(0.4), strict=True):

@@ -174,3 +174,30 @@ def test_an_index_in_braces_belongs_to_the_name(letter, value):
     written = f"coordinates: [x]\nparameters:\n  {letter}_{{1}}: {value}\nT: x'^2/2\n"
     [only] = read_problem("p.yaml", written.encode()).diagnostics
     assert only.hint == f"write {letter}_1"
+
+
+SEVERAL = [
+    ("constraints", "roll: x' = k and theta' = m", "T: x'^2 + theta'^2\n"),
+    ("contacts", "walls: 0 <= x <= k", "T: x'^2 + theta'^2\n"),
+    ("contacts", "walls: {gap: 0 <= x <= k, restitution: 1}", "T: x'^2 + theta'^2\n"),
+    ("definitions", "v: [x', k*theta']", "T: v_x^2 + v_y^2\n"),
+    ("parameters", "R: [3, 4]", "T: R_1*x'^2 + R_2*theta'^2\n"),
+]
+
+
+@pytest.mark.parametrize(("section", "entry", "energy"), SEVERAL)
+def test_several_entries_for_one_are_lines_of_a_block_and_entries_of_braces(section, entry, energy):
+    begin = f"coordinates: [x, theta]\n{energy}"
+    begin += "" if section == "parameters" else "parameters: {m: 1, k: 2}\n"
+
+    def errors(written):
+        return read_problem("p.yaml", f"{begin}{section}:{written}".encode()).diagnostics
+
+    def proposed(written):
+        [only] = errors(written)
+        return re.sub(r"^.*(?:name|components): |^write |; several.*", "", only.hint)
+
+    lines = re.split(", and on a line of its own ", proposed(f"\n  {entry}\n"))
+    assert len(lines) == 2
+    assert not errors("".join(f"\n  {each}" for each in lines))
+    assert not errors(f" {{{proposed(f' {{{entry}}}')}}}")

@@ -515,7 +515,7 @@ OTHERS = [
     (text(coordinates="[x_i]", T="m*x_i'^2", V="k*(x_{i+1} - x_i)^2"), "every name in full"),
     (text(T="KineticEnergy(m, x')"), "or write its formula"),
     (text(parameters="[m, k, μ]", V="µ*x"), "with the letter Greek small letter mu"),
-    (text(constraints="\n  two: x = k, x = m"), "own name: two_1: x = k, two_2: x = m"),
+    (text(constraints="\n  two: x = k, x = m"), "two_1: x = k, and on a line of its own two_2: x = m"),
     (text(symmetries="{turn: {dx: 1}}"), "write x, whose change it is"),
     (text(functions="{U: [sqrt(x^2)]}", V="U(x)"), "write r, and U(sqrt(x^2)) where it is used"),
     (text(definitions="\n  - y: k*x", T="m*y'^2/2"), "leave out the '-' before each key"),
@@ -539,7 +539,9 @@ def test_what_is_written_in_words_or_by_other_rules(written, hint):
 def test_a_name_with_several_values_is_several_names(seed):
     draw = random.Random(seed)
     values = [str(draw.randrange(1, 9)) for _ in range(draw.randrange(2, 5))]
-    written = ", ".join(f"m_{place}: {value}" for place, value in enumerate(values, start=1))
+    first, *rest = (f"m_{place}: {value}" for place, value in enumerate(values, start=1))
+    lines = "lines of their own" if rest[1:] else "a line of its own"
+    written = f"{first}, and on {lines} {' and '.join(rest)}"
     by_place = ", ".join(f"{place}: {value}" for place, value in enumerate(values, start=1))
     for given in (f"[{', '.join(values)}]", f"{{{by_place}}}"):
         found, *used = mistakes_of(

@@ -20,7 +20,7 @@ REST = "T: m*x'^2/2\nV: k*x^2/2\n"
 def test_a_mistake_that_another_hides_is_found():
     found = hints("coordinates: x(t)\nparameters: m = 1 kg, k = 2 N/m\nT: m xdot^2/2\nV: k x²/2\n")
     assert found == [
-        "write coordinates: [x]; parameters: {m: {value: 1, unit: kg}, k: {value: 2, unit: N/m}}",
+        "write [x]; in line 2 write {m: {value: 1, unit: kg}, k: {value: 2, unit: N/m}}",
         "did you mean m*x'^2/2?",
         "did you mean k*x^2/2?",
     ]
