@@ -124,11 +124,32 @@ def _term(term: Expr, x: Symbol) -> Expr | None:
         if power == -1:
             return constant * sympy.log(x if x.is_positive else sympy.Abs(x))
         return constant * x ** (power + 1) / (power + 1)
+    u = sympy.Dummy("u", real=True)
+    of_log = Mul(*others).xreplace({sympy.log(x): u})
+    if u in of_log.free_symbols and free_of(
+        of_log, [x]
+    ):  # the integral of exp((n + 1) u) f(u) by u
+        found = antiderivative(sympy.exp(sympy.expand((power + 1) * u)) * of_log, u, rules=False)
+        return None if found is None else constant * _at_log(found, u, x)
     if not (power.is_Integer and power >= 0):
         return None
-    wave = _summed(Mul(*others)) if _are_waves(others, x) else Mul(*others)
+    powers = [f for f in others if isinstance(f, sympy.exp)]
+    waves = [f for f in others if f not in powers]
+    wave = Mul(*others)
+    if _are_waves(waves, x):
+        growth = sympy.exp(Add(*(f.args[0] for f in powers)))
+        wave = Add(*(growth * f for f in Add.make_args(_summed(Mul(*waves)))))
     parts = [_by_parts(constant, int(power), factor, x) for factor in Add.make_args(wave)]
     return None if any(part is None for part in parts) else Add(*parts)
+
+
+def _at_log(f: Expr, u: Symbol, x: Symbol) -> Expr:
+    """With u = log(x), and exp(c u) as x^c."""
+    f = f.replace(
+        lambda e: isinstance(e, sympy.exp) and free_of(e.args[0].diff(u), [u]),
+        lambda e: x ** e.args[0].diff(u) * sympy.exp(e.args[0].xreplace({u: sympy.S.Zero})),
+    )
+    return f.xreplace({u: sympy.log(x)})
 
 
 def _are_waves(factors: list[Expr], x: Symbol) -> bool:
@@ -146,10 +167,10 @@ def _by_parts(constant: Expr, power: int, factor: Expr, x: Symbol) -> Expr | Non
     """Integral of x^n f(a x + b): repeated integration of f, tabular by parts."""
     total, polynomial, integral, sign = sympy.S.Zero, x**power, factor, 1
     while polynomial != 0:
-        step = _of_elementary(integral, x)
-        if step is None:
+        steps = [_of_elementary(term, x) for term in Add.make_args(integral)]
+        if any(step is None for step in steps):
             return None
-        integral = step
+        integral = Add(*steps)
         total += sign * polynomial * integral
         polynomial, sign = polynomial.diff(x), -sign
     return constant * total
@@ -166,11 +187,13 @@ _INTEGRALS: dict[type[Expr], Callable[[Expr], Expr]] = {
 
 
 def _of_elementary(factor: Expr, x: Symbol) -> Expr | None:
-    """Of exp, sin, cos, sinh, cosh or a root of an argument linear in x, with a constant."""
+    """Of exp, sin, cos, sinh, cosh, a root of an argument linear in x, or exp times a wave."""
     constant, function = factor.as_independent(x, as_Add=False)
     if function == 1:
         return factor * x
     base, exponent = function.as_base_exp()
+    if function.is_Mul and len(function.args) == 2:
+        return _of_growing_wave(constant, function, x)
     if exponent.is_Rational and exponent not in (-1, 1):
         argument, integral = base, base ** (exponent + 1) / (exponent + 1)
     elif (rule := _INTEGRALS.get(function.func)) is not None:
@@ -182,6 +205,18 @@ def _of_elementary(factor: Expr, x: Symbol) -> Expr | None:
     if slope == 0 or not free_of(slope, [x]):
         return None
     return constant * integral / slope
+
+
+def _of_growing_wave(constant: Expr, function: Expr, x: Symbol) -> Expr | None:
+    """Of exp(a x) f, f'' = -b^2 f: exp(a x) (a f - f')/(a^2 + b^2), as a sum."""
+    growth, f = sorted(function.args, key=lambda e: not isinstance(e, sympy.exp))
+    if not (isinstance(growth, sympy.exp) and isinstance(f, sympy.sin | sympy.cos)):
+        return None
+    a, b = growth.args[0].diff(x), f.args[0].diff(x)
+    if not free_of(a, [x]) or not free_of(b, [x]):
+        return None
+    constant *= growth / (a**2 + b**2)
+    return constant * a * f - constant * f.diff(x)
 
 
 def _of_whole(expression: Expr, x: Symbol) -> Expr | None:

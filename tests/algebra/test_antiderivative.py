@@ -38,3 +38,27 @@ def test_beside_a_rational_function_there_may_be_an_arctangent_or_logarithms():
         assert found is not None
         assert sympy.simplify((found - R - rest).diff(x)) == 0
         assert type(found.atoms(sympy.Function).pop()) in (sympy.atan, sympy.log)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_powers_times_waves_of_the_logarithm_have_one(seed: int):
+    """By u = log(t): of exp((n + 1) u) u^j cos(b u), with n a parameter or a number."""
+    draw = random.Random(seed)
+    t, s, b = sympy.Symbol("t", real=True), *sympy.symbols("s b", positive=True)
+    power = draw.choice([s, s / 2, sympy.Rational(draw.randint(-5, 5), 2), -s - 1])
+    wave = draw.choice([sympy.cos, sympy.sin])(draw.choice([b, 2, b / 2]) * sympy.log(t))
+    f = t**power * sympy.log(t) ** draw.randint(0, 2) * wave
+    F = antiderivative(f, t)
+    assert F is not None
+    at = {t: sympy.Rational(13, 7), s: sympy.Rational(5, 3), b: sympy.Rational(8, 5)}
+    assert abs((F.diff(t) - f).xreplace(at).evalf(30)) < 1e-20
+
+
+@pytest.mark.parametrize("degree", range(3))
+def test_a_wave_that_grows_has_one(degree: int):
+    t, a, b = sympy.Symbol("t", real=True), *sympy.symbols("a b", positive=True)
+    f = t**degree * sympy.exp(-a * t) * sympy.sin(b * t)
+    F = antiderivative(f, t)
+    assert F is not None
+    at = {t: sympy.Rational(13, 7), a: sympy.Rational(5, 3), b: sympy.Rational(8, 5)}
+    assert abs((F.diff(t) - f).xreplace(at).evalf(30)) < 1e-20

@@ -58,7 +58,7 @@ def gauge_of(
     change = simplify(change)
     timed = any(not free_of(f, [t]) for f in change.atoms(*_OF_TIME))
     found = None if timed else boundary_term(change, system)
-    if found is None and not any(euler_operator(change, system)):
+    if found is None and all(is_zero(e) is True for e in euler_operator(change, system)):
         return boundary_integral(change, system)
     return found
 

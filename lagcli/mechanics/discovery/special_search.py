@@ -133,7 +133,7 @@ def special_cases(
 
     try:
         limited_to(_SHARE, look)
-    except (TooMuchWork, OutOfWork):
+    except (NoPoint, TooMuchWork, OutOfWork):
         discovery.words.append(_NOT_ALL)
     listed = dict.fromkeys((case.parameter, case.value) for case in found)
     for p, value in listed:

@@ -8,14 +8,13 @@ Two equations of a charge in a field B(t) and a central force are one in axes th
 
 Of one other equation, with mu = exp of the integral of p, x = y/sqrt(mu) and y'' + I y = 0,
 I = q - p'/2 - p^2/4.  Where I is constant, or K/Q^2 with Q of second degree in t, the solutions Y
-are elementary; one is where I = -(r' + r^2) with a polynomial r.  A translation then is Y/sqrt(mu),
-and the stretching of time a product of two Y (Lane-Emden of index 1, growing masses).
+are elementary; others are found by Kovacic's algorithm.  A translation then is Y/sqrt(mu), and the
+stretching of time a product of two Y (Lane-Emden of index 1, growing masses).
 
 References
 ----------
 Kamke, *Differentialgleichungen*, vol. I, part A, section 25.1 (normal form).
 Leach, J. Math. Phys. 18 (1977) 1608 (symmetries of the time-dependent oscillator).
-Kovacic, J. Symb. Comp. 2 (1986) 3 (exp of an integral).
 """
 
 from __future__ import annotations
@@ -30,10 +29,10 @@ from sympy.simplify.fu import TR8
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of
+from lagcli.mechanics.discovery.kovacic import elementary_solutions, positive
 from lagcli.mechanics.discovery.spectrum import Exponent, differences, exponents, frequency_of
 
 _MOST_OPERATIONS = 200  # measured: at most 25
-_LARGEST_ORDER = 3
 
 
 def of_changing_coefficients(
@@ -95,7 +94,7 @@ def of_euler(
         below = sympy.denom(changing[0]) if changing else sympy.S.One
         below = sympy.factor_list(below, t)[1] if below.is_polynomial(t) else []
         if len(below) == 1 and sympy.degree(below[0][0], t) == 1 and tau == t:
-            tau = _positive(below[0][0], t)
+            tau = positive(below[0][0], t)
         linear.append(dot(factors, [*q, *v]) if changing else sympy.S.Zero)
     slope = tau.diff(t)
     stretch = {rate: slope * rate / tau for rate in v}
@@ -184,17 +183,9 @@ def _of_equation(
     if integral is None or not Y:
         return sympy.S.One, [], p
     logs = integral.atoms(sympy.log)
-    integral = integral.xreplace({f: sympy.log(_positive(f.args[0], t)) for f in logs})
+    integral = integral.xreplace({f: sympy.log(positive(f.args[0], t)) for f in logs})
     root = simplify(sympy.exp(sympy.expand(integral / 2)))
     return root, Y, p
-
-
-def _positive(u: Expr, t: Symbol) -> Expr:
-    """u or -u, one of which is in question where a mass m - b t is: positive at t = 0 if known."""
-    first = u.subs(t, 0)
-    return (
-        -u if first.is_negative or (not first.is_positive and u.could_extract_minus_sign()) else u
-    )
 
 
 def _changes_by(acceleration: Expr, others: set[Symbol], moving: set[Symbol], t: Symbol) -> bool:
@@ -221,61 +212,23 @@ def _elementary(I: Expr, t: Symbol, p: Expr) -> list[Expr]:  # noqa: E741
                 return [sympy.cosh(inside), sympy.sinh(inside)]
             return [sympy.exp(inside), sympy.exp(-inside)]
         return [sympy.sin(frequency_of(I) * t), sympy.cos(frequency_of(I) * t)]
-    terms = simplify(I * t**2).as_poly(t)
-    if terms is not None and terms.degree() == 2 and terms.nth(1) == 0:
-        return _of_bessel(terms.nth(2), -terms.nth(0), t, p)
     Q = simplify(sympy.sqrt(sympy.factor(1 / I))).replace(sympy.Abs, lambda e: e)
     _, Q = Q.as_independent(t, as_Add=False)
     if Q.is_polynomial(t) and sympy.degree(Q, t) == 2:
-        return _of_square(simplify(I * Q**2), Q, t)
-    return _of_polynomial(-I, t)
-
-
-def _of_polynomial(P: Expr, t: Symbol) -> list[Expr]:
-    """exp of the integral of r, where P = r' + r^2; the other solution is not elementary."""
-    terms = sympy.Poly(P, t) if P.is_polynomial(t) else None
-    if terms is None or terms.degree() % 2 or not terms.LC().is_positive:
-        return []
-    half = terms.degree() // 2
-    for lead in (sympy.sqrt(terms.LC()), -sympy.sqrt(terms.LC())):
-        r = lead * t**half
-        for k in reversed(range(half)):
-            r += sympy.Poly(P - r**2, t).nth(half + k) / (2 * lead) * t**k
-        if simplify(r.diff(t) + r**2 - P) == 0:
-            return [sympy.exp(sympy.Poly(r, t).integrate().as_expr())]
-    return []
-
-
-def _of_bessel(k: Expr, L: Expr, t: Symbol, p: Expr) -> list[Expr]:
-    """sqrt(t) J of order l + 1/2 for I = k - l (l + 1)/t^2: Y_l = l Y/t - Y' of that of l - 1.
-
-    Abramowitz, Stegun, *Handbook of Mathematical Functions*, 10.1.22.
-    """
-    order = (sympy.sqrt(1 + 4 * L) - 1) / 2
-    if not (order.is_Integer and 0 < order <= _LARGEST_ORDER):
-        return []
-    Y = _elementary(k, t, p)
-    for each in range(1, int(order) + 1):
-        Y = [sympy.expand(each * y / t - y.diff(t)) for y in Y]
-    return Y
+        found = _of_square(simplify(I * Q**2), Q, t)
+        if found:
+            return found
+    return elementary_solutions(I, t)
 
 
 def _of_square(K: Expr, Q: Expr, t: Symbol) -> list[Expr]:
     """sqrt(Q) sin, cos of s theta, theta' = 1/Q, s^2 = K + D/4, for I = K/Q^2, D = 4 a c - b^2.
 
-    For s = 0 they are sqrt(Q) and sqrt(Q) theta.  For D = 0, Q = a (t - t0)^2, theta is -2/Q', and
-    sqrt(Q) a multiple of Q'.
+    For s = 0 they are sqrt(Q) and sqrt(Q) theta.
     """
     a, b, c = sympy.Poly(Q, t).all_coeffs()
     D = simplify(4 * a * c - b**2)
     square = simplify(K + D / 4)
-    if D == 0:
-        linear = sympy.factor(Q.diff(t))
-        if square.is_nonpositive:
-            inside = 2 * frequency_of(-square) / linear
-            return [linear * sympy.exp(inside), linear * sympy.exp(-inside)]
-        inside = 2 * frequency_of(square) / linear
-        return [linear * sympy.sin(inside), linear * sympy.cos(inside)]
     if not (D.is_positive and square.is_nonnegative):
         return []
     root = sympy.sqrt(D)
