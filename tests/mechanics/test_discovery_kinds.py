@@ -260,3 +260,29 @@ def test_beside_a_value_that_is_found_another_term_may_be_missing(L, at, number)
     named = {case.parameter.name, *(p.name for p, _ in case.given)}
     assert named in ({*at.split()}, {"a" if p == "b" else p for p in at.split()})
     assert case.number == number
+
+
+@pytest.mark.parametrize(
+    ("T", "moment"),
+    [
+        ("A*(s'^2 + f'^2*sin(s)^2)/2 + C*(y' + f'*cos(s))^2/2", "C*(y' + f'*cos(s))"),
+        ("m*s'^2/2 + (C + m*s^2)*y'^2/2", "(C + m*s^2)*y'"),
+        ("m*(s'^2 + f'^2)/2 + C*(1 + s^2 + f^4)*(y' + s*f')^2/2", "C*(1 + s^2 + f^4)*(y' + s*f')"),
+    ],
+    ids=["top", "on a turntable", "in a gauge field"],
+)
+@pytest.mark.parametrize("drag", ["c", "c*t^2"])
+def test_a_momentum_decays_under_a_force_in_proportion_to_it(T, moment, drag):
+    """p' = -a(t) p: p exp(integral of a) is constant, whatever the other equations are."""
+    names = [x for x in "sfy" if f"{x}'" in T]
+    derivation = derive(
+        f"{{coordinates: [{', '.join(names)}], "
+        f"parameters: {{A: {POS}, C: {POS}, c: {POS}, m: {POS}, k: {POS}}}, "
+        f'T: "{T}", V: k*cos(s), forces: {{y: "-({drag})*({moment})"}}}}'
+    )
+    system = derivation.system
+    p = derivation.dynamics.lagrange.momenta[-1]
+    [c] = (x for x in system.parameters if x.name == "c")
+    expected = p * sympy.exp(c * (system.t if drag == "c" else system.t**3 / 3))
+    found = [x.charge / expected for x in derivation.discovery.charges]
+    assert any(sympy.simplify(ratio).is_number for ratio in found)

@@ -9,6 +9,7 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.row_rank import rank
@@ -171,7 +172,24 @@ class Setting:
         if self.isometries is not None and self.isometries.flat:
             return self.isometries.times
         given = self._of_exponential or self.accelerations
-        return time_functions(self.equations, given, potential=self.canonical)
+        times = time_functions(self.equations, given, potential=self.canonical)
+        translations = dict.fromkeys([*times.translations, *self._of_momenta])
+        return replace(times, translations=tuple(translations))
+
+    @property
+    def _of_momenta(self) -> list[Expr]:
+        """exp(-integral of a) where p' = a(t) p, as of a top with a drag about its axis."""
+        system, lagrange = self.system, self.dynamics.lagrange
+        pushes = zip(lagrange.lagrangian_forces, system.applied_forces, strict=True)
+        found = []
+        for p, push in zip(lagrange.momenta, (a + b for a, b in pushes), strict=True):
+            if self.canonical or p == 0 or not push.free_symbols & set(system.qdot):
+                continue
+            rate = simplify(push / p)
+            if free_of(rate, (*system.q, *system.qdot)):
+                integral = antiderivative(rate, system.t)
+                found += [] if integral is None else [simplify(sympy.exp(-integral))]
+        return found
 
     @property
     def _of_exponential(self) -> tuple[Expr] | None:
