@@ -1,4 +1,4 @@
-"""Names that a formula explains by itself, as in `m*g*h with h = l - l*cos(phi)`."""
+"""Names with formulas: `m*g*h with h = l - l*cos(phi)`, and `f(s): k*s^2` with its calls."""
 
 from __future__ import annotations
 
@@ -61,3 +61,22 @@ def of_clause(node: Scalar, scope: Scope) -> Diagnostic | None:
     gone = node.value.strip()[found.end("formula") :].strip()
     hint = ", and ".join([*hints, f"leave out '{gone}'"])
     return Diagnostic("a formula does not explain its names", node.span, hint)
+
+
+def written_out(text: str, name: str, arguments: str, formula: str) -> str:
+    """`in line 4 write V: (k*(x - 1)^2)` for the `V: f(x - 1)` of a text; nothing without a call.
+
+    The formula of `f(s)` has its arguments in other letters than the coordinates.
+    """
+    letters = re.split(r"\s*,\s*", arguments)
+
+    def one(found: re.Match[str]) -> str:
+        given = dict(zip(letters, (x.strip() for x in found[1].split(",")), strict=False))
+        grouped = {x: y if re.fullmatch(r"\w+'*", y) else f"({y})" for x, y in given.items()}
+        inner = re.sub(r"[^\W\d]\w*", lambda m: grouped.get(m[0], m[0]), formula)
+        return f"({inner})"
+
+    call = re.compile(rf"(?<!\w){re.escape(name)}\(([^()]*)\)(?!\s*:\s)")
+    lines = ((number, line, call.sub(one, line))
+             for number, line in enumerate(text.split("\n"), start=1))  # fmt: skip
+    return "; ".join(f"in line {n} write {new.strip()}" for n, old, new in lines if new != old)

@@ -134,7 +134,8 @@ def declare_definitions(file: FileReader, node: DocumentNode) -> list[tuple[Scal
         if len(several := named_formulas(node)) > 1:
             hint = f"write {{{', '.join(map(': '.join, several.items()))}}}"
         file.scope.refused += [line.partition("=")[0].strip() for line in written]
-    if found := without_headings(node, ()):
+    vectors = [key for key, value in getattr(node, "entries", ()) if isinstance(value, Sequence)]
+    if (found := without_headings(node, ("x", "y", "z"))) and found[0] not in vectors:
         file.error(f"'{found[0].label}' in definitions is not a formula", found[0].span, found[1])
         file.scope.refused.append("")
         return []

@@ -75,6 +75,11 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
         r"\1",
         re.sub(r", without \w+, also .*|; and so on", "", proposed[1] or proposed[2]),
     )
+    if proposed[2] and (entry := entry_at(root, start, end)):  # entries in the place of one
+        inner = (
+            whole if entry[0].in_flow else _in_lines(whole, text.position(entry[0].start)[1] - 1)
+        )
+        return [[Edit(entry[0].start, _end(entry[1], text.source.text), inner)]]
     parts = dict.fromkeys((whole, *_without_reason(whole)))
     found = [edits for part in parts for edits in _placed(part, start, end, text, root)]
     written = text.source.text
@@ -265,14 +270,22 @@ def entry_at(root: DocumentNode, start: int, end: int) -> tuple[Scalar, Document
 
 def on_lines(mistake: Diagnostic, source: Source) -> Diagnostic:
     """`write a: 1, and on a line of its own b: 2` for `write a: 1, b: 2` where one has a line."""
-    proposed, span = PROPOSED.fullmatch(mistake.hint), mistake.span
+    span, before = mistake.span, "{"
+    if span.line > 0:
+        before = source.text.split("\n")[span.line - 1][: span.column - 1]
+    if not _LINE.fullmatch(before):
+        return mistake
+    sentences = re.split(r"(; in line \d+ )", mistake.hint)
+    return replace(mistake, hint="".join(map(_on_lines, sentences)))
+
+
+def _on_lines(hint: str) -> str:
+    proposed = PROPOSED.fullmatch(hint)
     whole = (proposed[1] or proposed[2]) if proposed else ""
     parts = pieces(whole, ",;")
     entries = [each.strip() for each in takewhile(_ENTRY.match, parts)]
-    before = source.text.split("\n")[span.line - 1][: span.column - 1] if entries[1:] else "{"
-    if not _LINE.fullmatch(before):
-        return mistake
+    if not entries[1:]:
+        return hint
     rest = whole[len("".join(parts[: len(entries)])) + len(entries) - 1 :]
     lines = "lines of their own" if entries[2:] else "a line of its own"
-    written = f"{entries[0]}, and on {lines} {' and '.join(entries[1:])}{rest}"
-    return replace(mistake, hint=mistake.hint.removesuffix(whole) + written)
+    return f"{hint[: -len(whole)]}{entries[0]}, and on {lines} {' and '.join(entries[1:])}{rest}"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from lagcli.diagnostics import Diagnostic
+from lagcli.expression import FUNCTIONS
 from lagcli.reader.expressions import formula_or_none
 from lagcli.reader.friction_meant import friction_meant
 from lagcli.reader.habits import (
@@ -23,6 +24,8 @@ from lagcli.reader.regex import regex
 from lagcli.reader.text import also_in_lines
 from lagcli.record import replace
 
+#: `U(r)`.
+CALLED = regex(r"(\w+)\(\s*([^\W\d][\w, ]*?)\s*\)")
 _ENERGIES = frozenset("TVLH")
 _RELATION = regex("[=<>]")
 #: What the entries of a section have that are not recognized by its emptiness.
@@ -86,10 +89,11 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
         if moved and isinstance(node, Mapping):
             node = replace(node, entries=[entry for entry in inner if entry not in moved])
         entries += [(key, node), *moved]
-    moved_root, formulas = _with_definitions(
-        replace(root, entries=entries), mentions, {*coordinates}
-    )
-    return moved_root, mistakes + formulas
+    whole = replace(root, entries=entries)
+    for section in ("parameters", "functions"):
+        whole, formulas = _with_definitions(whole, section, {*coordinates})
+        mistakes += formulas
+    return whole, mistakes
 
 
 def _with_sections(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
@@ -148,36 +152,65 @@ def _is_of(
 
 
 def _with_definitions(
-    root: Mapping, mentions: re.Pattern[str], coordinates: set[str]
+    root: Mapping, section: str, coordinates: set[str]
 ) -> tuple[Mapping, list[Diagnostic]]:
-    """The problem with parameters that are formulas of coordinates as definitions; one mistake."""
+    """The problem with formulas among its parameters or functions as definitions; one mistake."""
     sections = {key.label: node for key, node in root.entries}
-    parameters, definitions = sections.get("parameters"), sections.get("definitions")
-    found = []
-    for key, node in getattr(parameters, "entries", ()):
-        inner = {each.label: value for each, value in getattr(node, "entries", ())}
-        value = inner.get("value", node)
-        text = value.value if isinstance(value, Scalar) and key.label.isidentifier() else ""
-        has_unit = unit_behind(text.replace("*", " ", 1))  # 9.81*m/s^2
-        is_formula = mentions.search(text) and re.search(r"[-+*/^(']", text) and not has_unit
-        if is_formula and key.label not in coordinates and formula_or_none(text) is not None:
-            found.append((key, value))
+    node, definitions = sections.get(section), sections.get("definitions")
+    known = {*coordinates, "t", *names_in(sections.get("parameters"))}
+    found = [
+        entry for each in getattr(node, "entries", ())
+        if (entry := _formula_of(*each, section, coordinates, known))
+    ]  # fmt: skip
     given = definitions.entries if isinstance(definitions, Mapping) else []
-    if not (found and isinstance(parameters, Mapping)) or (definitions is not None and not given):
+    if not (found and isinstance(node, Mapping)) or (definitions is not None and not given):
         return root, []
     keys = [key for key, _ in found]
-    named = ", ".join(f"{key.label}: {value.value}" for key, value in found)
-    listed = f"{', '.join(key.label for key in keys)} {'are' if keys[1:] else 'is'}"
-    message = f"{listed} no parameter{'s' * bool(keys[1:])}: a coordinate changes with time"
+    named = ", ".join(f"{key.label}: {source_of(value)}" for key, value in found)
+    listed = f"{', '.join(key.label for key in keys)} {'are' if keys[1:] else 'is'} not"
+    what = "it changes with time" if section == "parameters" else "it has a formula"
+    message = f"{listed} a {section[:-1]}: {what}"
+    if keys[1:]:
+        message = f"{listed} {section}: {what.replace('it ', 'they ').replace('s ', ' ', 1)}"
     uses_given = {*re.findall(r"\w+", named)} & {key.label for key, _ in given}
-    hint = f"{'end' if uses_given else 'begin'} them with {named}" if given else f"{{{named}}}"
-    hint = f"formulas stand under definitions: {hint}"
-    rest = replace(parameters, entries=[each for each in parameters.entries if each[0] not in keys])
-    others = [each for each in root.entries if each[1] not in (parameters, definitions)]
-    key = next(key for key, node in root.entries if node is parameters)
-    formulas = replace(parameters, entries=[*given, *found] if uses_given else [*found, *given])
+    gone = f"leave {'them' if keys[1:] else 'it'} out, and"
+    hint = f"{gone} {'end' if uses_given else 'begin'} definitions with {named}"
+    if not given:
+        is_all = len(keys) == len(node.entries)
+        place = f"in place of {section}" if is_all else f"{gone} on a line of its own"
+        hint = f"{place} write definitions: {{{named}}}"
+    starts = {key.start for key in keys}
+    rest = replace(node, entries=[each for each in node.entries if each[0].start not in starts])
+    others = [each for each in root.entries if each[1] not in (node, definitions)]
+    key = next(key for key, value in root.entries if value is node)
+    formulas = replace(node, entries=[*given, *found] if uses_given else [*found, *given])
     entries = [*others, (key, rest), (replace(key, value="definitions"), formulas)]
     return replace(root, entries=entries), [Diagnostic(message, keys[0].span, hint)]
+
+
+def _formula_of(
+    key: Scalar, node: DocumentNode, section: str, coordinates: set[str], known: set[str]
+) -> tuple[Scalar, DocumentNode] | None:
+    """The name of a parameter or function with its formula; None where it has none.
+
+    A formula of a parameter has coordinates or the time, that of `U(r)` no others than `r`.
+    """
+    inner = {each.label: value for each, value in getattr(node, "entries", ())}
+    value = inner.get("value", node) if section == "parameters" else node
+    text = value.value if isinstance(value, Scalar) else ""
+    names = {*re.findall(r"[^\W\d]\w*", text)}
+    if not re.search(r"[-+*/^(']", text) or formula_or_none(text) is None:
+        return None
+    if section == "functions":
+        called = CALLED.fullmatch(key.label)
+        is_open = called and not {*re.split(r"\s*,\s*", called[2])} <= known
+        name = called[1] if called else key.label
+        listed = re.fullmatch(r"(\w*)\(\s*[\w, ]+?\s*\)", text)  # U: U(r)
+        is_list = listed is not None and listed[1] not in FUNCTIONS
+        return None if is_open or is_list else (replace(key, value=name), value)
+    has_unit = unit_behind(text.replace("*", " ", 1))  # 9.81*m/s^2
+    is_name = key.label.isidentifier() and key.label not in coordinates
+    return (key, value) if is_name and names & {*coordinates, "t"} and not has_unit else None
 
 
 def names_in(node: DocumentNode | None) -> list[str]:

@@ -42,7 +42,7 @@ RANGE = regex(
     r"(-?[\d.]*\d)\s*[\])]?\s*"
 )
 #: `x = l*sin(a)`, several of them.
-_ASSIGNED_PARTS = regex(r"(\w+)\s*=\s*(.*?)(?=[\s,;]+\w+\s*=|\s*$)")
+_ASSIGNED_PARTS = regex(r"(\w+)(?:\([\w, ]*\))?\s*=\s*(.*?)(?=[\s,;]+\w+\s*=|\s*$)")
 _EQUATION = regex(r"\s*(?:\w+\.)?(?:Eq|Equality|Equal)\s*[(\[](.*)[)\]]\s*")
 #: A velocity, or a difference of some.
 _LINEAR = regex(r"\w+'|\(\s*-?\w+'(?:\s*[-+]\s*\w+')*\s*\)")
@@ -169,9 +169,10 @@ def one_sum(node: DocumentNode, what: str) -> str:
         return f"write {whole}" if "sign(" in whole else CASE
     if what.startswith("the value of") and written:
         return f"write {written[0]}; {swept(what.split(chr(39))[1], node)}"
-    if what.startswith("the definition of") and isinstance(node, Sequence) and written:
+    if what.startswith("the definition of") and written and {*inner} <= {"x", "y", "z"}:
         name = what.split("'")[1]
-        parts = (f"{name}_{axis}: {each}" for axis, each in zip("xyz", written, strict=False))
+        pairs_ = zip(inner or "xyz", written, strict=False)
+        parts = (f"{name}_{axis}: {each}" for axis, each in pairs_)
         return f"a vector is written by its components: {', '.join(parts)}"
     if what.startswith("the constraint") and isinstance(node, Sequence) and written[1:]:
         name = what.split("'")[1]

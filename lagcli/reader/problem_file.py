@@ -49,6 +49,7 @@ from lagcli.reader.symmetries import read_symmetries
 from lagcli.reader.text import Mistake, SourceText, decode
 from lagcli.reader.undeclared import (
     one_for_alike,
+    one_for_cause,
     one_for_habit,
     one_for_shapes,
     one_for_undeclared,
@@ -162,7 +163,7 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
             lambda text: _composed(text, alone=True),
             lambda each: any(first <= each.span.line <= last for first, last in lines),
         )
-    by_place = one_for_alike(sorted(mistakes, key=lambda each: each.span))
+    by_place = one_for_alike(one_for_cause(sorted(mistakes, key=lambda each: each.span)))
     parameters = (source.text[v.start : v.end] for key, v in meant if key == "parameters")
     declared = one_for_undeclared(by_place, next(parameters, ""))
     sections = [(key.span.line, key.label) for key, _ in entries]

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypedDict, cast
 from lagcli.expression import FUNCTIONS
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
+from lagcli.reader.clauses import written_out
 from lagcli.reader.constants import value_cycle
 from lagcli.reader.habits import (
     advised,
@@ -18,6 +19,7 @@ from lagcli.reader.habits import (
 )
 from lagcli.reader.headings import without_headings
 from lagcli.reader.listed_names import as_names
+from lagcli.reader.misplaced import CALLED
 from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, named_formulas, source_of, swept
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
 from lagcli.reader.number_units import in_digits, in_unit, wrong_unit
@@ -54,7 +56,6 @@ _NUMBER_WITH_WORDS = regex(
 _WORDS = regex(r"[^\W\d_]{4,}(?: [^\W\d_]+)*")
 #: `G M` and `G*M` before a value, the name GM.
 _PRODUCT = regex(r"^[^\W\d](?:[ *][^\W\d])+(?=\s*[=:])")
-_CALLED = regex(r"(\w+)\(\s*([^\W\d][\w, ]*?)\s*\)")
 _FORMULA = "a formula, without arguments, stands under definitions"
 _OF_TIME = regex(r"(\w+)\(t\)")
 _ONE_NAME = regex(r"write (\w+)(?:, without .*)?")
@@ -225,7 +226,7 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
     if not isinstance(node, Mapping):
         file.scope.refused.append("")
     items = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
-    called = [found.groups() for each in items for found in _CALLED.finditer(each)]
+    called = [found.groups() for each in items for found in CALLED.finditer(each)]
     first = next(iter(file.scope.of_kind("coordinate")), "r")
     alone = [(each, first) for each in items if each.isidentifier()]
     named = ", ".join(map("{0[0]}: [{0[1]}]".format, called or alone or [("U", "r")]))
@@ -233,7 +234,7 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
     if formulas := named_formulas(node):
         hint = f"{_FORMULA}: write definitions: {{{', '.join(map(': '.join, formulas.items()))}}}"
     for key, value in file.entries(node, "functions", hint):
-        call = _CALLED.fullmatch(key.label)
+        call = CALLED.fullmatch(key.label)
         name = call[1] if call else key.label
         if not file.declare(name, "function", key.span):
             continue
@@ -243,9 +244,12 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
             if within and within[1] not in FUNCTIONS:  # U: U(r)
                 given = within[2]
             hint = f"write {name}: [{call[2]}]" if call else f"write [{given}]"
-            if not re.fullmatch(r"(?!\d)[\w\s,]*", given):
-                whole = f"write definitions: {{{name}: {given}}}"
-                hint = f"{_FORMULA}: {whole}"
+            is_list = re.fullmatch(r"(?!\d)[\w\s,]*", given)
+            if given not in {"", call[2]} if call else not is_list:
+                hint = f"{_FORMULA}: write definitions: {{{name}: {given}}}"
+                lines = written_out(file.text, name, call[2], given) if call else ""
+                gone = "functions" if len(getattr(node, "entries", ())) == 1 else "it"
+                hint = f"write its formula out, and leave {gone} out: {lines}" if lines else hint
             file.error(f"{what} must be a list", (key if call else value).span, hint)
             names = call[2] if call else "" if hint.startswith(_FORMULA) else given
             file.scope.arguments[name] = re.split(r"\s*,\s*", names)

@@ -42,6 +42,9 @@ _OTHER_KEY = regex(
     rf"unknown keys? (?P<key>'.*') in (?P<place>[^:]*): (?P<hint>{_THE_KEY})(?P<entry>\w+)"
 )
 _NAME = regex(r"unknown name '(\w+)' in (.*)")
+#: Of a name that is declared in a wrong way, and what follows from it.
+_CAUSE = regex(r"the (?:definition|arguments) of '(\w+)'|([\w, ]+) (?:is|are) not (?:a )?function")
+_USE = regex(r"unknown name '(\w+)' in |(\w+) is a definition, not a function")
 
 
 def _once_by_name(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
@@ -57,6 +60,28 @@ def _once_by_name(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
         if found is None or found[1] not in unknown:
             kept.append(each)
     return kept
+
+
+def one_for_cause(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """The mistakes, with one for a name that is declared in a wrong way and where it is used."""
+    causes = {
+        name: each
+        for each in diagnostics
+        if (found := _CAUSE.match(each.message))
+        for name in (found[1] or found[2]).split(", ")
+    }
+    uses = [
+        (causes[name], each)
+        for each in diagnostics
+        if (found := _USE.match(each.message)) and (name := found[1] or found[2]) in causes
+    ]
+    lines: dict[int, dict[str, None]] = {}
+    for cause, each in uses:
+        advice = re.sub(r"^.*?: (?=write )", "", each.hint)
+        told = {f"; in line {each.span.line} {advice}": None} if advice[:6] == "write " else {}
+        lines.setdefault(id(cause), {}).update(told)
+    kept = [each for each in diagnostics if all(each is not use for _, use in uses)]
+    return tuple(replace(x, hint=x.hint + "".join(lines.get(id(x), ()))) for x in kept)
 
 
 def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
@@ -157,7 +182,7 @@ def _has_same_cause(one: Diagnostic, other: Diagnostic) -> bool:
     unquoted, others = (_QUOTED.sub("''", each.message) for each in (one, other))
     if one.related or other.related or unquoted != others:
         return False
-    words, rest = one.hint.split(), other.hint.split()
+    words, rest = (each.hint.partition("; in line")[0].split() for each in (one, other))
     same = sum(map(str.__eq__, words, rest))
     return words[0] == rest[0] and (words[0] == "write" or 2 * same >= len(words) == len(rest))
 

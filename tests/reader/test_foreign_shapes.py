@@ -415,7 +415,7 @@ ANSWERS = [
     (text(points="{P: {position: 'x \\hat{r}', mass: m}}"), "[r*cos(phi), r*sin(phi)]"),
     (text(simulation="{times: [0, 1, 5]}"), "the key is until; a motion begins at t = 0: write 5"),
     (text(observables="{A: x*x' + x'^2}"), "has momenta p_x, no velocities"),
-    (text(functions="{U(x): k*x^2}", V="U"), "under definitions: write definitions: {U: k*x^2}"),
+    (text(functions="{U(x): k*x^2}", V="U"), "write definitions: {U: k*x^2}"),
     (text(find="{a: what is the largest x?}"), "{where: x' = 0, for: x}"),
     (text(coordinates="{x: {mass: m}}"), "a constant stands under parameters"),
     (text(parameters="{m: {real: True}, k: 2}"), "every quantity is real"),

@@ -102,9 +102,18 @@ def test_a_section_given_twice_hides_no_name_and_is_one_mistake(second, meant):
 @pytest.mark.parametrize(
     ("formulas", "definitions", "meant"),
     [
-        ("X: x + m, Y: x*m", "", "{X: x + m, Y: x*m}"),
-        ("X: x' + m", "{Y: X*m}", "begin them with X: x' + m"),
-        ("X: {value: Y + x}", "{Y: x*m}", "end them with X: Y + x"),
+        (
+            "X: x + m, Y: x*m",
+            "",
+            "them out, and on a line of its own write definitions: {X: x + m, Y: x*m}",
+        ),
+        ("X: x' + m", "{Y: X*m}", "it out, and begin definitions with X: x' + m"),
+        ("X: {value: Y + x}", "{Y: x*m}", "it out, and end definitions with X: Y + x"),
+        (
+            "X: m*cos(t), Y: 2",
+            "",
+            "it out, and on a line of its own write definitions: {X: m*cos(t)}",
+        ),
     ],
 )
 def test_formulas_of_coordinates_among_the_parameters_are_one_mistake(formulas, definitions, meant):
@@ -113,7 +122,7 @@ def test_formulas_of_coordinates_among_the_parameters_are_one_mistake(formulas, 
         f"coordinates: [x]\nparameters: {{m: 1, {formulas}}}\n{defined}"
         "T: m*X'^2/2\nV: m*Y^2/2\n".replace("X'", "x'" if "x'" in formulas else "X'")
     )
-    assert told == [f"formulas stand under definitions: {meant}"]
+    assert told == [f"leave {meant}"]
 
 
 @pytest.mark.parametrize(
@@ -179,6 +188,47 @@ def test_a_vector_hides_no_other_one():
     told = found(
         "coordinates: [x, y]\ndefinitions:\n  A: [-y, x]\n  v: [x', y']\nL: v^2/2 + dot(v, A)\n"
     )
-    assert told[0].hint.endswith(
-        "in line 4 a vector is written by its components: v_x: x', v_y: y'"
+    assert [each.hint for each in told] == [
+        "a vector is written by its components: A_x: -y, and on a line of its own A_y: x; in line 4 "
+        "a vector is written by its components: v_x: x', and on a line of its own v_y: y'; "
+        "in line 5 write (x'^2 + y'^2)/2 + (x'*A_x + y'*A_y)"
+    ]
+
+
+@pytest.mark.parametrize("form", ["[{}]", "({})", "{{x: x', y: y'}}"])
+@pytest.mark.parametrize(("energy", "meant"), [("m*v^2/2", "m*(x'^2 + y'^2)/2"), ("m*x'^2", "")])
+def test_a_vector_is_one_mistake_with_the_energy_of_its_square(form, energy, meant):
+    vector = form.format("x', y'")
+    [hint] = hints(
+        f"coordinates: [x, y]\nparameters: [m]\ndefinitions:\n  v: {vector}\nL: {energy} + m*y'\n"
     )
+    lines, _, law = hint.partition("; in line 5 write ")
+    assert lines == (
+        "a vector is written by its components: v_x: x', and on a line of its own v_y: y'"
+    )
+    assert law == (f"{meant} + m*y'" if meant else "")
+
+
+FUNCTIONS = [
+    ("U(x): k*x^2", "", "in place of functions write definitions: {U: k*x^2}; in line 6 write U"),
+    ("U(x, t): k*x", "", "in place of functions write definitions: {U: k*x}; in line 6 write U"),
+    ("U: k*x^2", "", "in place of functions write definitions: {U: k*x^2}; in line 6 write U"),
+    (
+        "U(x): k*x^2",
+        "\n  W: [x]",
+        "leave it out, and on a line of its own write definitions: {U: k*x^2}; in line 7 write U",
+    ),
+    (
+        "U(s): k*s^2",
+        "",
+        "write its formula out, and leave functions out: in line 6 write V: (k*x^2)",
+    ),
+]
+
+
+@pytest.mark.parametrize(("entry", "others", "meant"), FUNCTIONS)
+def test_a_function_with_a_formula_is_one_mistake(entry, others, meant):
+    call = "U(x, t)" if ", t" in entry else "U(x)"
+    begin = "coordinates: [x]\nparameters: [m, k]\n"
+    energies = f"T: m*x'^2/2\nV: {call}\n"
+    assert hints(f"{begin}functions:\n  {entry}{others}\n{energies}") == [meant]
