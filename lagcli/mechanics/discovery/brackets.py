@@ -119,6 +119,7 @@ class ChargeBrackets:
         system = self.dynamics.system
         source = random.Random("lagcli brackets")
         bad = 0
+        place: State = {}
         while bad < _TRIES:
             self.allowed.check()
             with mpmath.workdps(DIGITS):
@@ -131,6 +132,8 @@ class ChargeBrackets:
                     scale = mpf(1) / 3 if x in system.qdot else mpf(width)
                     size = scale * source.randint(2000, 13000) / 10007
                     state[x] = with_assumed_sign(source, x, size, 0.6)
+                for x in place if bad else ():  # close to one at which roots are real
+                    state[x] = (state[x] + 15 * place[x]) / 16
                 state[system.t] = mpf(source.randint(1000, 9000)) / 10007
                 if not self.dynamics.states.placed(state):
                     bad += 1
@@ -141,6 +144,7 @@ class ChargeBrackets:
                     if bad % _PATIENCE == 0:
                         self._samples.clear()
                     continue
+            place = place or {x: state[x] for x in system.q}
             yield sample
 
     def _sample(self, state: State) -> Sample | None:
