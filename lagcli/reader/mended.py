@@ -211,7 +211,8 @@ def _count_after(state: _State, edit: Edit) -> int:
 
 
 def _is_undeclared(mistake: Diagnostic) -> bool:
-    return UNDECLARED in mistake.hint or COORDINATE in mistake.hint
+    is_open = UNDECLARED in mistake.hint or COORDINATE in mistake.hint
+    return is_open or mistake.message.startswith("the multiplier '")
 
 
 def mended(

@@ -89,11 +89,11 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
         if moved and isinstance(node, Mapping):
             node = replace(node, entries=[entry for entry in inner if entry not in moved])
         entries += [(key, node), *moved]
-    whole = replace(root, entries=entries)
+    root = replace(root, entries=entries)
     for section in ("parameters", "functions"):
-        whole, formulas = _with_definitions(whole, section, {*coordinates})
+        root, formulas = _with_definitions(root, section, {*coordinates})
         mistakes += formulas
-    return whole, mistakes
+    return root, mistakes
 
 
 def _with_sections(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
@@ -159,8 +159,8 @@ def _with_definitions(
     node, definitions = sections.get(section), sections.get("definitions")
     known = {*coordinates, "t", *names_in(sections.get("parameters"))}
     found = [
-        entry for each in getattr(node, "entries", ())
-        if (entry := _formula_of(*each, section, coordinates, known))
+        entry for key, value in getattr(node, "entries", ())
+        if (entry := _formula_of(key, value, section, coordinates, known))
     ]  # fmt: skip
     given = definitions.entries if isinstance(definitions, Mapping) else []
     if not (found and isinstance(node, Mapping)) or (definitions is not None and not given):

@@ -42,7 +42,7 @@ from lagcli.reader.quantities import (
 )
 from lagcli.reader.questions import read_find, read_initial, read_simulation
 from lagcli.reader.regex import regex
-from lagcli.reader.restrictions import declare_constraints, read_constraints
+from lagcli.reader.restrictions import check_multipliers, declare_constraints, read_constraints
 from lagcli.reader.scenery import read_scenery
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
 from lagcli.reader.symmetries import read_symmetries
@@ -257,6 +257,9 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
     contacts = declare_contacts(file, section("contacts"), names)
     check_momenta(file)
     check_energies(file, given)
+    check_multipliers(
+        file, [v for k, (_, v) in given.items() if k in "TVL" and isinstance(v, Scalar)]
+    )
 
     parameters_read = read_parameters(file, parameters)
     definitions_read = read_definitions(file, definitions)

@@ -6,7 +6,8 @@ import re
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from lagcli.expression import ZERO, Name, name_nodes
+from lagcli.diagnostics import Source
+from lagcli.expression import ZERO, Name, Negative, Sum, name_nodes
 from lagcli.problem_data import Constraint, pushing_sign
 from lagcli.reader.contacts import (
     RESTITUTION,
@@ -15,6 +16,7 @@ from lagcli.reader.contacts import (
     declared,
     read_restitution,
 )
+from lagcli.reader.expressions import formula_or_none
 from lagcli.reader.habits import comparisons_in
 from lagcli.reader.misshapen import as_equation, is_sentence, pieces, source_of, texts_of
 from lagcli.reader.names import derivative_order
@@ -22,6 +24,7 @@ from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import QUESTION, STATE
 from lagcli.reader.suggest import did_you_mean
+from lagcli.reader.text import SourceText
 from lagcli.reader.velocity_quotients import multiplied_out, without_squares
 
 if TYPE_CHECKING:
@@ -32,6 +35,13 @@ if TYPE_CHECKING:
 _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION,
                           "acts_as")  # fmt: skip
 _FRICTION = regex("fric|drag|reib|frott|attrit|roz|brems|wrijv|тре", re.IGNORECASE)
+_MULTIPLIER = r"(?:lambda|lam|Lambda|mu|λ|Λ|μ)_?\d?"
+_LAW = r"\((?P<{}>(?:[^()]|\([^()]*\))*)\)"
+#: A term with a multiplier, `+ lambda*(x - l)`.
+_WITH_MULTIPLIER = regex(
+    rf"(?:^\s*|\s*[-+]\s*)(?:[\d./]+\s*\*\s*)?(?:(?P<name>{_MULTIPLIER})\s*\*?\s*{_LAW.format('law')}"
+    rf"|{_LAW.format('before')}\s*\*\s*(?P<behind>{_MULTIPLIER}))(?:\s*/\s*\d+)?(?=\s*(?:[-+]|$))"
+)
 _ON_LOSS = ("stop", "release")
 _OF_CONTACT = ("multiplier", RESTITUTION)
 _INEQUALITY = regex(r"(?<!-)[<>]|[≤≥]")
@@ -73,6 +83,46 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     entries = [entry for entry in entries if not _is_refused(file, *entry)]
     found = (declared(file, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
     return [one for one in found if one is not None]
+
+
+def check_multipliers(file: FileReader, energies: list[Scalar]) -> None:
+    """An energy has no `lambda*(x^2 + y^2 - l^2)`: its equation is a constraint."""
+    coordinates = {*file.scope.of_kind("coordinate")}
+    for node in energies:
+        laws = []
+        for found in _WITH_MULTIPLIER.finditer(node.value):
+            name, law = found["name"] or found["behind"], found["law"] or found["before"]
+            is_law = coordinates & {*re.findall(r"\w+", law)} and name not in file.scope.kinds
+            laws += [(found, name, equation)] if is_law and (equation := _equated(law)) else []
+        if not laws:
+            continue
+        rest = node.value
+        for found, name, _ in reversed(laws):
+            rest = rest[: found.start()] + rest[found.end() :]
+            file.scope.kinds[name] = "parameter"  # which is no other mistake
+        named = ", ".join(f"c{place}: {law}" for place, (*_, law) in enumerate(laws, start=1))
+        whole = f"on a line of its own constraints: {{{named}}}"
+        whole = f"in constraints {named}" if "constraints" in file.sections else whole
+        message = f"the multiplier '{laws[0][1]}' of a constraint stands in an energy"
+        rest = re.sub(r"^\s*\+\s*", "", rest).strip()
+        term = laws[0][0]
+        place = node.excerpt().span(term.end() - len(term[0].lstrip(" +-")), term.end())
+        file.error(message, place, f"write {rest or 'the energy'}, and {whole}")
+
+
+def _equated(law: str) -> str:
+    """`x^2 + y^2 = l^2` for `x^2 + y^2 - l^2`; nothing for what is no sum."""
+    formula = formula_or_none(law)
+    if not isinstance(formula, Sum):
+        return ""
+    text = SourceText.of(Source("", law))
+    sides: tuple[list[str], list[str]] = ([], [])
+    for term in formula.terms:
+        is_negative = isinstance(term, Negative)
+        inner = term.operand if isinstance(term, Negative) else term
+        sides[is_negative].append(law[slice(*text.offsets(inner.span))])
+    left, right = (" + ".join(each) or "0" for each in sides)
+    return f"{left} = {right}"
 
 
 def _is_refused(file: FileReader, key: Scalar, value: DocumentNode) -> bool:

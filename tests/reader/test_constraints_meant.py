@@ -1,6 +1,7 @@
 """What stands under constraints and is none, or none yet: the hint has what is meant."""
 
 import math
+import random
 import re
 
 import pytest
@@ -133,3 +134,29 @@ def test_the_square_of_a_speed_is_two_constraints_along_the_heading(square, head
         assert math.isclose(eval(formula, {}, names), 6 * size)
     right = ROLLING.format(f"{given[0]} - x'", heading) + f"  d: y' = {given[1]}\n"
     assert read_problem("p.yaml", right.encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_multiplier_in_an_energy_is_a_constraint(seed):
+    draw = random.Random(seed)
+    name = draw.choice(["lambda", "lam", "λ", "mu", "lambda_1", "Lambda"])
+    left, right = draw.choice([("x^2 + y^2", "l^2"), ("y", "x*tan(a)"), ("x'", "l*a*y'")])
+    sign = draw.choice("+-")
+    law = f"({left} - {right})"
+    term = draw.choice([f"{name}*{law}", f"{law}*{name}", f"{name}*{law}/2", f"2*{name}*{law}"])
+    begin = "coordinates: [x, y]\nparameters: [m, g, l, a]\n"
+    L, others = draw.choice([
+        ("L: m*(x'^2 + y'^2)/2 - m*g*y", ""), ("V: m*g*y", "T: m*(x'^2 + y'^2)/2\n"),
+    ])  # fmt: skip
+    [found] = read_problem("p.yaml", f"{begin}{others}{L} {sign} {term}\n".encode()).diagnostics
+    meant = found.hint.removeprefix("write ").split(", and on a line of its own ")
+    assert meant == [L[3:], f"constraints: {{c1: {left} = {right}}}"]
+    right = f"{begin}{others}{L[:3]}{meant[0]}\n{meant[1]}\n"
+    assert read_problem("p.yaml", right.encode()).problem
+
+
+@pytest.mark.parametrize("term", ["mu*x^2", "lambda*x^4/4", "lambda*(x^2 - l^2)^2", "mu/(x - l)"])
+def test_a_coupling_is_no_multiplier(term):
+    begin = "coordinates: [x]\nparameters: [m, l]\n"
+    [found] = read_problem("p.yaml", f"{begin}L: m*x'^2/2 - {term}\n".encode()).diagnostics
+    assert found.message.startswith("unknown name")

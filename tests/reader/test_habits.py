@@ -548,7 +548,10 @@ HABITS = [
     (text(simulation="{until: 10, step_size: 0.01}"), "write accuracy: 1e-9"),
     (text(parameters="{m: {assume: pos}, k: 2}"), "write positive"),
     (text(forces="{x: k*dirac(t)}"), "a velocity under initial"),
-    (text(T="m*x'^2/2 + lambda*(x - 1)"), "a constraint stands under 'constraints'"),
+    (
+        text(T="m*x'^2/2 + lambda*(x - 1)"),
+        "m*x'^2/2, and on a line of its own constraints: {c1: x = 1}",
+    ),
     ("coordinates: [x]\nParameters: [m]\nT: m*x'^2/2\n", "the key is parameters"),
     (text(V='f"{k}*x^2/2"'), "write k*x^2/2"),
     ("from sympy import *\nimport numpy as np\n" + text(), "leave it out"),

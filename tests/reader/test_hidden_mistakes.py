@@ -188,11 +188,13 @@ def test_a_vector_hides_no_other_one():
     told = found(
         "coordinates: [x, y]\ndefinitions:\n  A: [-y, x]\n  v: [x', y']\nL: v^2/2 + dot(v, A)\n"
     )
-    assert [each.hint for each in told] == [
-        "a vector is written by its components: A_x: -y, and on a line of its own A_y: x; in line 4 "
-        "a vector is written by its components: v_x: x', and on a line of its own v_y: y'; "
+    vectors = "a vector is written by its components:"
+    [hint] = [each.hint for each in told]
+    assert hint == (
+        f"{vectors} A_x: -y, and on a line of its own A_y: x; "
+        f"in line 4 {vectors} v_x: x', and on a line of its own v_y: y'; "
         "in line 5 write (x'^2 + y'^2)/2 + (x'*A_x + y'*A_y)"
-    ]
+    )
 
 
 @pytest.mark.parametrize("form", ["[{}]", "({})", "{{x: x', y: y'}}"])
