@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 from lagcli.problem_data import Point, Problem
 from lagcli.reader.bodies_meant import NO_ROTATION, of_bodies
 from lagcli.reader.by_coordinate import by_name, coordinate_meant, of_vectors
+from lagcli.reader.expressions import formula_or_none
 from lagcli.reader.file_reader import Required
 from lagcli.reader.foreign.words import polar_speed
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import KEYS, colon_advice, is_angle, is_constant, key_meant
 from lagcli.reader.headings import forces_without_headings, without_headings
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
+from lagcli.reader.misplaced import names_in
 from lagcli.reader.misshapen import as_list, named_formulas, source_of
 from lagcli.reader.names import depends_on_time, derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
@@ -38,6 +40,7 @@ _GRADIENT = regex(
     r"\s*-\s*(?:grad|gradient|nabla|∇|\\nabla)\s*(?:\((?P<whole>.*)\)|\s+(?P<name>\w+)|(?<=∇)\w+)\s*"
 )
 _POINT_ATTRIBUTES = ("position", "mass", "force")
+_RADII = frozenset("r rho R radius distance ρ".split())
 
 
 def check_energies(file: FileReader, entries: dict[str, tuple[Scalar, DocumentNode]]) -> None:
@@ -217,10 +220,16 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
             file.error(f"{what} must be a map, not a text", value.span, hint)
             file.scope.refused.append("points")
             break
-        rest_of = _without_axes(value)
-        whole = f"position: [{_by_axes(value)}]"
-        whole = f"{key.label}: {{{whole}, {rest_of}}}" if rest_of else whole
+        by_axes, labels = _by_axes(value), {*names_in(value)}
+        usual = ["r*cos(phi)", "r*sin(phi)"] if "polar" in labels else ["x", "y"]
+        whole = f"position: [{', '.join(by_axes or usual)}]"
+        if by_axes and (rest_of := _without_axes(value)):
+            whole = f"{key.label}: {{{whole}, {rest_of}}}"
         required = Required("position", key.span, f"write {whole}")
+        if by_axes and labels & _RADII and "position" not in labels:  # r is not the position
+            file.error(f"{what} has no position", key.span, required.hint)
+            file.scope.refused.append("points")
+            continue
         axes = value.items if isinstance(value, Sequence) else ()
         is_bare = all(isinstance(axis, Scalar) and "=" not in axis.value for axis in axes)
         found = {}
@@ -264,21 +273,28 @@ def _mass_of(file: FileReader, name: str) -> str:
     return (*own, *(x for x in masses if not x[1:]), *masses, "m")[0]
 
 
-def _by_axes(node: DocumentNode) -> str:
-    """`x, 0` for `{x: x, y: 0, mass: m}`."""
-    entries = node.entries if isinstance(node, Mapping) else []
-    axes = [value for key, value in entries if key.label.casefold() in {"x", "y", "z"}]
-    written = [value.value for value in axes if isinstance(value, Scalar)]
-    if "polar" in {key.label for key, _ in entries}:
-        return "r*cos(phi), r*sin(phi)"
-    return ", ".join(written) or "x, y"
+def _by_axes(node: DocumentNode, length: int = 0) -> list[str]:
+    """The Cartesian components in `{x: x, y: 0, mass: m}` and `{r: r, phi: phi, mass: m}`."""
+    given = {key.label: source_of(value) for key, value in getattr(node, "entries", ())}
+    radii = [re.sub(r"^(.*\S\s*[-+].*)$", r"(\1)", v) for k, v in given.items() if k in _RADII]
+    angles = {key: value for key, value in given.items() if is_angle(key)}
+    tilt = next((key for key in angles if key in {"theta", "θ"}), "")
+    if len(radii) == 1 and len(angles) in {1, 2}:
+        sine = f"*sin({angles.pop(tilt)})" if angles.keys() > {tilt} else ""
+        [turn] = angles.values()
+        height = [radii[0] + sine.replace("sin", "cos")] if sine else []
+        height = height or [each for key, each in given.items() if key == "z"]
+        return [f"{radii[0]}{sine}*cos({turn})", f"{radii[0]}{sine}*sin({turn})", *height]
+    axes = {key.casefold(): each for key, each in given.items() if key.casefold() in {*"xyz"}}
+    size = length or max(("xyz".index(axis) + 1 for axis in axes), default=0)
+    return [axes.get(axis, "0") for axis in "xyz"[:size]] if axes else []
 
 
 def _without_axes(node: DocumentNode) -> str:
     """`mass: m` for `{x: x, y: 0, m: m}`."""
     entries = node.entries if isinstance(node, Mapping) else []
-    given = [(key_meant(key.label, _POINT_ATTRIBUTES), value) for key, value in entries
-             if {each.label for each, _ in entries} & {*"xyz"}]  # fmt: skip
+    others = ((key, value) for key, value in entries if key.label not in _RADII)
+    given = [(key_meant(key.label, _POINT_ATTRIBUTES), value) for key, value in others]
     return ", ".join(f"{meant}: {source_of(value)}" for meant, value in given if meant)
 
 
@@ -310,15 +326,14 @@ def read_components(
             return []
         if length > 1 and "," not in node.value:
             axes = ", ".join(["0"] * (length - 1) + [node.value.strip()])
-            hint = f"one component for each of the position's, as in [{axes}]"
+            hint = "one component for each of the position's"
+            hint += f", as in [{axes}]" * (formula_or_none(node.value) is not None)
     elif isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
         parts = [key.label for key, _ in node.entries] or ["x", "y"]
         apart = "" if parts[1:] else with_commas(parts[0], [*file.scope.of_kind("coordinate")])
         hint = apart or _listed(parts)
-    elif isinstance(node, Mapping) and {key.label for key, _ in node.entries} <= {*"xyz"}:
-        given = {key.label: source_of(value) for key, value in node.entries}
-        size = length or max(("xyz".index(axis) + 1 for axis in given), default=2)
-        hint = _listed([given.get(axis, "0") for axis in "xyz"[:size]])
+    elif isinstance(node, Mapping) and (axes_ := _by_axes(node, length)):
+        hint = _listed(axes_)
     elif isinstance(node, Sequence):
         texts = [each.value for each in node.items if isinstance(each, Scalar)]
         if len(texts) == len(node.items) and (written := of_listed(texts, known)):

@@ -124,11 +124,36 @@ def test_components_with_unit_vectors_are_one_mistake():
 @pytest.mark.parametrize(
     ("force", "hint"),
     [("-m*g", "as in [0, -m*g]"), ("{y: -m*g}", "write [0, -m*g]"), ("-m*g*j", "write [0, -m*g]"),
-     ("m*g*(1, -1)", "write [m*g*1, -m*g*1]")],
+     ("m*g*(1, -1)", "write [m*g*1, -m*g*1]"), ("m*g down", "write [0, -m*g]"),
+     ("-m*g downwards", "write [0, -m*g]"), ("m*g (nach unten)", "write [0, -m*g]"),
+     ("vertically up m*g", "write [0, m*g]"), ("m*g + l to the left", "write [-(m*g + l), 0]"),
+     ("l to the right", "write [l, 0]"), ("m*g north", "for each of the position's")],
 )  # fmt: skip
 def test_a_force_on_a_point_has_the_components_of_its_position(force, hint):
     points = f"\n  bob:\n    mass: m\n    position: [l*theta, 0]\n    force: {force}"
     assert only_mistake(text(**PENDULUM, points=points)).hint.endswith(hint)
+
+
+@pytest.mark.parametrize(
+    ("place", "meant"),
+    [
+        ("r: l, theta: theta", "[l*cos(theta), l*sin(theta)]"),
+        ("radius: l + g, angle: theta", "[(l + g)*cos(theta), (l + g)*sin(theta)]"),
+        ("rho: l, phi: theta, z: g", "[l*cos(theta), l*sin(theta), g]"),
+        (
+            "r: l, theta: g, phi: theta",
+            "[l*sin(g)*cos(theta), l*sin(g)*sin(theta), l*cos(g)]",
+        ),
+        ("x: l*theta, z: g", "[l*theta, 0, g]"),
+    ],
+)
+@pytest.mark.parametrize("mass", ["mass", "m"])
+def test_a_place_by_its_coordinates_is_one_mistake(place, meant, mass):
+    points = f"\n  bob: {{{place}, {mass}: m}}"
+    hint = only_mistake(text(**PENDULUM, points=points)).hint
+    assert hint == f"write bob: {{position: {meant}, mass: m}}"
+    within = f"\n  bob: {{position: {{{place}}}, mass: m}}"
+    assert only_mistake(text(**PENDULUM, points=within)).hint == f"write {meant}"
 
 
 @pytest.mark.parametrize("seed", range(8))

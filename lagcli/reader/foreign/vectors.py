@@ -32,6 +32,35 @@ _IN_WORDS = regex(
     r"(?P<rest>[^,]+?)\s+(?:in|along|to)\s+(?:the\s+)?(?:direction\s+(?:of\s+)?)?(?P<axis>[xyz])"
     r"(?:[- ]?(?:direction|axis))?"
 )
+#: `m*g down`, `F (nach links)`: along the first axis, or the last one, with its sign.
+_DIRECTIONS = {
+    "down(?:wards?)?|unten|abwärts|bas|abajo": (-1, "-"),
+    "up(?:wards?)?|oben|aufwärts|haut|arriba": (-1, ""),
+    "left(?:wards?)?|links|gauche|izquierda": (0, "-"),
+    "right(?:wards?)?|rechts|droite|derecha": (0, ""),
+}
+_DIRECTION = (
+    r"(?:(?:directed|pointing|acting|straight|vertically|horizontally|to\s+the|nach"
+    r"|vers\s+l[ea]|à|hacia|a\s+la)\s+)*(?:{})"
+)
+
+
+def _directed(text: str, known: Container[str], length: int) -> list[str]:
+    """`0` and `-m*g` for `m*g down` in a plane; empty for other texts."""
+    for words, (axis, sign) in _DIRECTIONS.items():
+        named = _DIRECTION.format(words)
+        found = re.fullmatch(
+            rf"(?P<law>.*?[^\s,(])[\s,]+\(?{named}\)?|{named}\s+(?P<behind>.+)", text
+        )
+        law = (found["law"] or found["behind"]) if found else ""
+        told = re.findall(r"[^\W\d]+", text.replace(law, "")) if law else []
+        if law and not any(word in known for word in told):
+            law = law.lstrip("-− ")
+            law = f"({law})" if sign and re.search(r"\S\s*[-+]", law) else law
+            axes = ["0"] * (length or 2)
+            axes[axis] = sign + law
+            return axes
+    return []
 
 
 def components(text: str, known: Container[str], length: int = 0) -> list[str]:
@@ -55,6 +84,8 @@ def components(text: str, known: Container[str], length: int = 0) -> list[str]:
     if told := _IN_WORDS.fullmatch(text):
         axis = _AXES[told["axis"]]
         return [told["rest"] if k == axis else "0" for k in range(max(length, axis + 1, 2))]
+    if directed := _directed(text, known, length):
+        return directed
     if made := _MADE.fullmatch(text):
         inside = next(each for each in made.groups() if each is not None)
         listed = re.sub(r"^[\[(](.*)[\])]$", r"\1", inside.strip())
