@@ -220,13 +220,14 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
             file.error(f"{what} must be a map, not a text", value.span, hint)
             file.scope.refused.append("points")
             break
-        by_axes, labels = _by_axes(value), {*names_in(value)}
+        labels = {*names_in(value)}
+        by_axes = [] if "position" in labels else _by_axes(value)
         usual = ["r*cos(phi)", "r*sin(phi)"] if "polar" in labels else ["x", "y"]
         whole = f"position: [{', '.join(by_axes or usual)}]"
         if by_axes and (rest_of := _without_axes(value)):
             whole = f"{key.label}: {{{whole}, {rest_of}}}"
         required = Required("position", key.span, f"write {whole}")
-        if by_axes and labels & _RADII and "position" not in labels:  # r is not the position
+        if by_axes and labels & _RADII:  # r is not the position
             file.error(f"{what} has no position", key.span, required.hint)
             file.scope.refused.append("points")
             continue

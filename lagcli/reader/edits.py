@@ -198,7 +198,9 @@ def _moved(mistake: Diagnostic, end: int, text: SourceText) -> list[Edit]:
     """The edits of hints on blanks and hyphens at the beginnings of lines."""
     written, hint, line = text.source.text, mistake.hint, mistake.span.line
     begin = text.line_starts[line - 1]
-    if mistake.message.endswith("', but not in it") and hint.startswith("begin the line with blan"):
+    if mistake.message.endswith("', but not in it") and re.match(
+        r"begin .* (?:more )?blanks", hint
+    ):
         lines = [line, *map(int, re.findall(r"\d+", hint))]
         return [Edit(at, at, _BLANKS) for at in (text.line_starts[each - 1] for each in lines)]
     if hint in {"begin the line with blanks", "begin the line with more blanks"}:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import FUNCTIONS
@@ -24,13 +25,23 @@ from lagcli.reader.regex import regex
 from lagcli.reader.text import also_in_lines
 from lagcli.record import replace
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
 #: `U(r)`.
 CALLED = regex(r"(\w+)\(\s*([^\W\d][\w, ]*?)\s*\)")
 _ENERGIES = frozenset("TVLH")
 _RELATION = regex("[=<>]")
 #: What the entries of a section have that are not recognized by its emptiness.
-_ATTRIBUTES = {"coordinates": {"unit", "symbol", "description", "assume"}}
-_ATTRIBUTES["parameters"] = {*_ATTRIBUTES["coordinates"], "value", "integer"}
+_SHARED = ("unit", "symbol", "description", "assume")
+_ATTRIBUTES = {
+    "coordinates": {*_SHARED},
+    "parameters": {*_SHARED, "value", "integer"},
+    "points": {"position", "mass", "force"},
+    "constraints": {"equation", "multiplier", "holds_while", "on_loss", "restitution", "acts_as"},
+    "contacts": {"gap", "restitution", "multiplier"},
+}
+Entry = tuple[Scalar, DocumentNode]
 #: Sections whose entries are called by names of the user's, never by these keys.
 _SECTIONS = frozenset(
     "coordinates parameters points constraints contacts forces symmetries initial find".split()
@@ -97,37 +108,58 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
 
 
 def _with_sections(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
-    """The problem with entries that begin where their section does inside of it, as a mistake."""
-    entries: list[tuple[Scalar, DocumentNode]] = []
-    moved: dict[str, list[tuple[Scalar, DocumentNode]]] = {}
-    for key, value in root.entries:
+    """The problem with entries that begin where their section or name does inside of it."""
+    root, mistakes = _gathered(root, _is_of, "begin the line with blanks")
+    entries = []
+    for section, node in root.entries:
+        attributes = _ATTRIBUTES.get(section.label, set())
+        if attributes and isinstance(node, Mapping):
+
+            def is_attribute(
+                _: Entry, entry: Entry, *, is_open: bool, known: set[str] = attributes
+            ) -> bool:
+                return is_open and entry[0].label in known and not entry[0].in_flow
+
+            node, found = _gathered(node, is_attribute, "begin the line with more blanks")
+            mistakes += found
+        entries.append((section, node))
+    return replace(root, entries=entries), mistakes
+
+
+def _gathered(
+    whole: Mapping, belongs: Callable[..., bool], hint: str
+) -> tuple[Mapping, list[Diagnostic]]:
+    """The map with entries inside of the one above that they belong to, as mistakes."""
+    entries: list[Entry] = []
+    moved: dict[str, list[Entry]] = {}
+    for key, value in whole.entries:
         head, node = entries[-1] if entries else (key, key)
         inner = node.entries if isinstance(node, Mapping) else []
         is_open = node.is_empty or head.label in moved
-        if entries and head.label in MAPS and _is_of(head, node, key, value, is_open=is_open):
+        if entries and belongs((head, node), (key, value), is_open=is_open):
             moved.setdefault(head.label, []).append((key, value))
             start = node.start if inner else key.start
             entries[-1] = (head, Mapping(key.text, start, value.end, [*inner, (key, value)]))
         else:
             entries.append((key, value))
     mistakes = []
-    for section, found in moved.items():
-        text = root.text.source.text
+    for above, found in moved.items():
+        text = whole.text.source.text
         ends = (k.end if v.is_empty else v.start + len(text[v.start : v.end].rstrip())
                 for k, v in found)  # fmt: skip
         lines = [x for (key, _), end in zip(found, ends, strict=True)
-                 for x in range(key.span.line, root.text.position(end)[0] + 1)]  # fmt: skip
+                 for x in range(key.span.line, whole.text.position(end)[0] + 1)]  # fmt: skip
         names = ", ".join(f"'{key.label}'" for key, _ in found)
-        message = f"{names} stand{'s' * (not found[1:])} below '{section}', but not in it"
-        hint = f"begin the line with blanks{also_in_lines(lines[1:])}"
-        mistakes.append(Diagnostic(message, found[0][0].span, hint))
-    return (replace(root, entries=entries) if moved else root), mistakes
+        message = f"{names} stand{'s' * (not found[1:])} below '{above}', but not in it"
+        mistakes.append(Diagnostic(message, found[0][0].span, hint + also_in_lines(lines[1:])))
+    return (replace(whole, entries=entries) if moved else whole), mistakes
 
 
-def _is_of(
-    head: Scalar, node: DocumentNode, key: Scalar, value: DocumentNode, *, is_open: bool
-) -> bool:
+def _is_of(above: Entry, entry: Entry, *, is_open: bool) -> bool:
     """Whether an entry belongs to the section above it, which is empty or has others like it."""
+    (head, node), (key, value) = above, entry
+    if head.label not in MAPS:
+        return False
     word, text = key.label, key.text.source.text
     written = value.value if isinstance(value, Scalar) else ""
     if key.in_flow or not (is_open or (isinstance(node, Mapping) and text[node.start] != "{")):
@@ -208,9 +240,10 @@ def _formula_of(
         listed = re.fullmatch(r"(\w*)\(\s*[\w, ]+?\s*\)", text)  # U: U(r)
         is_list = listed is not None and listed[1] not in FUNCTIONS
         return None if is_open or is_list else (replace(key, value=name), value)
-    has_unit = unit_behind(text.replace("*", " ", 1))  # 9.81*m/s^2
     is_name = key.label.isidentifier() and key.label not in coordinates
-    return (key, value) if is_name and names & {*coordinates, "t"} and not has_unit else None
+    if not is_name or not names & {*coordinates, "t"}:
+        return None
+    return None if unit_behind(text.replace("*", " ", 1)) else (key, value)  # 9.81*m/s^2
 
 
 def names_in(node: DocumentNode | None) -> list[str]:

@@ -23,6 +23,7 @@ from lagcli.reader.dynamics import (
 )
 from lagcli.reader.expectations import ExpectReader
 from lagcli.reader.file_reader import FileReader
+from lagcli.reader.functions import read_functions
 from lagcli.reader.habits import KEYS, colon_advice, key_meant
 from lagcli.reader.misfits import dimension_mistakes
 from lagcli.reader.misplaced import lifted
@@ -37,7 +38,6 @@ from lagcli.reader.phase_space import (
 from lagcli.reader.quantities import (
     declare_parameters,
     read_coordinates,
-    read_functions,
     read_parameters,
 )
 from lagcli.reader.questions import read_find, read_initial, read_simulation

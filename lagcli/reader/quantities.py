@@ -1,4 +1,4 @@
-"""The sections `coordinates`, `parameters` and `functions`: what has a name."""
+"""The sections `coordinates` and `parameters`: what has a name."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, TypedDict, cast
 from lagcli.expression import FUNCTIONS
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
-from lagcli.reader.clauses import written_out
 from lagcli.reader.constants import value_cycle
 from lagcli.reader.habits import (
     advised,
@@ -19,8 +18,7 @@ from lagcli.reader.habits import (
 )
 from lagcli.reader.headings import without_headings
 from lagcli.reader.listed_names import as_names
-from lagcli.reader.misplaced import CALLED
-from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, named_formulas, source_of, swept
+from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, source_of, swept
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
 from lagcli.reader.number_units import in_digits, in_unit, wrong_unit
 from lagcli.reader.regex import regex
@@ -56,7 +54,6 @@ _NUMBER_WITH_WORDS = regex(
 _WORDS = regex(r"[^\W\d_]{4,}(?: [^\W\d_]+)*")
 #: `G M` and `G*M` before a value, the name GM.
 _PRODUCT = regex(r"^[^\W\d](?:[ *][^\W\d])+(?=\s*[=:])")
-_FORMULA = "a formula, without arguments, stands under definitions"
 _OF_TIME = regex(r"(\w+)\(t\)")
 _ONE_NAME = regex(r"write (\w+)(?:, without .*)?")
 _ASSUMED = ("assume", "value")
@@ -220,58 +217,6 @@ def is_described(text: str, known: Collection[str]) -> bool:
     return len(longest) > 3 and longest.islower() and longest not in FUNCTIONS and not is_name
 
 
-def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str, ...]]:
-    """The functions left unspecified; the names of their arguments only document."""
-    functions = {}
-    if not isinstance(node, Mapping):
-        file.scope.refused.append("")
-    items = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
-    called = [found.groups() for each in items for found in CALLED.finditer(each)]
-    first = next(iter(file.scope.of_kind("coordinate")), "r")
-    alone = [(each, first) for each in items if each.isidentifier()]
-    named = ", ".join(map("{0[0]}: [{0[1]}]".format, called or alone or [("U", "r")]))
-    hint = f"write {{{named}}}"
-    if formulas := named_formulas(node):
-        hint = f"{_FORMULA}: write definitions: {{{', '.join(map(': '.join, formulas.items()))}}}"
-    for key, value in file.entries(node, "functions", hint):
-        call = CALLED.fullmatch(key.label)
-        name = call[1] if call else key.label
-        if not file.declare(name, "function", key.span):
-            continue
-        what, given = f"the arguments of '{name}'", getattr(value, "value", "")
-        if call or given:
-            within = re.fullmatch(r"(\w*)\(\s*([\w, ]+?)\s*\)", given)
-            if within and within[1] not in FUNCTIONS:  # U: U(r)
-                given = within[2]
-            hint = f"write {name}: [{call[2]}]" if call else f"write [{given}]"
-            is_list = re.fullmatch(r"(?!\d)[\w\s,]*", given)
-            if given not in {"", call[2]} if call else not is_list:
-                hint = f"{_FORMULA}: write definitions: {{{name}: {given}}}"
-                lines = written_out(file.text, name, call[2], given) if call else ""
-                gone = "functions" if len(getattr(node, "entries", ())) == 1 else "it"
-                hint = f"write its formula out, and leave {gone} out: {lines}" if lines else hint
-            file.error(f"{what} must be a list", (key if call else value).span, hint)
-            names = call[2] if call else "" if hint.startswith(_FORMULA) else given
-            file.scope.arguments[name] = re.split(r"\s*,\s*", names)
-            continue
-        arguments = [file.scalar(item, f"an argument of '{key.label}'")
-                     for item in file.items(value, what)]  # fmt: skip
-        for argument in arguments:
-            wrong = argument and name_mistake(argument.label)
-            if argument and wrong and argument.label != "t":
-                is_formula = re.search(r"[-+*/^(]", argument.label)
-                within = re.fullmatch(rf"{key.label}\(([\w, ]+)\)", argument.label)
-                hint = f"write r, and {key.label}({argument.label}) where it is used"
-                hint = f"write {within[1]}" if within else hint
-                file.error(wrong[0], argument.span, hint if is_formula else wrong[1])
-        if not arguments and isinstance(value, Sequence):
-            file.error(f"'{key.label}' has no argument", value.span, "declare a parameter")
-        functions[key.label] = tuple(argument.label for argument in arguments if argument)
-        if arguments:
-            file.scope.arguments[key.label] = [*functions[key.label]]
-    return functions
-
-
 def _declared(
     file: FileReader, node: DocumentNode, section: str, kind_: Kind
 ) -> Iterator[tuple[Scalar, DocumentNode | None]]:
@@ -303,9 +248,8 @@ def _declared(
         file.scope.refused.append("")
         return
     if isinstance(node, Mapping):
-        entries = _within(
-            file, file.of_section(file.entries(node, section), section, attributes), attributes
-        )
+        own = file.of_section(file.entries(node, section), section, attributes)
+        entries = _without_attributes(file, own)
     elif isinstance(node, Sequence):
         names = [file.scalar(item, "a name") for item in node.items]
         entries = [(name, None) for name in names if name is not None]
@@ -346,21 +290,35 @@ def _declared(
             yield key, value
 
 
-def _within(
-    file: FileReader, entries: list[tuple[Scalar, DocumentNode]], attributes: tuple[str, ...]
+def _without_attributes(
+    file: FileReader, entries: list[tuple[Scalar, DocumentNode]]
 ) -> list[tuple[Scalar, DocumentNode | None]]:
-    """The entries; a mistake where the attributes of a name begin their lines as it does."""
+    """The entries; a mistake where `unit: kg` stands beside `m: 2`, and not in it."""
     kept: list[tuple[Scalar, DocumentNode | None]] = []
-    above, reported = "", False
+    loose: dict[int, list[tuple[Scalar, str]]] = {}
     for key, value in entries:
-        if above and key.label in attributes and not key.in_flow:
-            if not reported:
-                message = f"'{key.label}' stands below '{above}', but not in it"
-                file.error(message, key.span, "begin the line with more blanks")
-            reported = True
-            continue
-        above = key.label if value.is_empty else ""
-        kept.append((key, value))
+        written = source_of(value) if key.label in _COORDINATE_ATTRIBUTES else ""
+        is_attribute = written and (
+            isinstance(value, Mapping) or written in ASSUMPTIONS
+            if key.label == "assume"
+            else unit_behind(f"1 {written}") == written
+            if key.label == "unit"
+            else not is_constant("x", written)
+        )
+        if is_attribute:
+            own = entries_of(value) or f"{key.label}: {written}"
+            loose.setdefault(len(kept), []).append((key, own))
+        else:
+            kept.append((key, value))
+    for place, parts in loose.items():
+        name, node = (kept[place - 1][0].label, kept[place - 1][1]) if place else ("name", None)
+        given = entries_of(node) or (
+            f"value: {source_of(node)}" if isinstance(node, Scalar) else ""
+        )
+        inner = ", ".join(filter(None, (given, *(x for _, x in parts if x not in given))))
+        file.scope.refused += [] if place else [""]
+        message = f"'{parts[0][0].label}' is an attribute, not a name"
+        file.error(message, parts[0][0].span, f"write all as {name}: {{{inner}}}")
     return kept
 
 

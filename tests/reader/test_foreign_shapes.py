@@ -401,12 +401,6 @@ def test_a_change_without_its_small_parameter(parameter):
     assert messages(declared) == []
 
 
-def test_attributes_that_begin_where_their_name_begins_are_one_mistake():
-    found = only_mistake(text(parameters="\n  m:\n  value: 1\n  unit: kg\n  k: 2"))
-    assert (found.span.line, found.span.column) == (4, 3)
-    assert found.hint == "begin the line with more blanks"
-
-
 @pytest.mark.parametrize("seed", range(6))
 def test_coordinates_with_numbers_have_their_state_under_initial(seed):
     draw = random.Random(seed)

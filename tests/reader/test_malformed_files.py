@@ -345,3 +345,56 @@ def test_tabs_beside_blanks_are_one_mistake(entries):
     written = f"coordinates: [x]\nparameters:\n{entries}\nT: m*x'^2/2\n"
     [only] = read_problem("p.yaml", written.encode()).diagnostics
     assert only.message == "a tab cannot indent"
+
+
+NAMED = [
+    ("parameters", "m", ["unit: kg", "assume: positive"]),
+    ("parameters", "m", ["value: 2", "description: the mass"]),
+    ("coordinates", "x", ["unit: m", "symbol: X"]),
+    ("points", "bob", ["position: [x, 0]", "mass: m"]),
+    ("constraints", "rod", ["equation: x = m", "multiplier: N"]),
+    ("contacts", "floor", ["gap: x >= 0", "restitution: 1"]),
+]
+
+
+@pytest.mark.parametrize(("section", "name", "attributes"), NAMED)
+@pytest.mark.parametrize("count", [1, 2])
+def test_attributes_that_begin_where_their_name_does_are_one_mistake(
+    section, name, attributes, count
+):
+    begin = {"coordinates": "coordinates: [x]\n", "parameters": "parameters: [m]\n"}
+    begin.pop(section, None)
+    begin["T"] = "" if section == "points" else "T: m*x'^2/2\n"
+    head = f"{''.join(begin.values())}{section}:\n  {name}:\n"
+    line = head.count("\n") + 1
+    given = attributes[:count]
+    wrong = head + "".join(f"  {each}\n" for each in given)
+    right = head + "".join(f"    {each}\n" for each in given)
+    found = read_problem("p.yaml", wrong.encode()).diagnostics
+    hints = [each.hint for each in found if each.message.endswith("not in it")]
+    also = f", also in line {line + 1}" * (count > 1)
+    assert hints == [f"begin the line with more blanks{also}"]
+    assert len(found) == 1 + len(read_problem("p.yaml", right.encode()).diagnostics)
+
+
+@pytest.mark.parametrize("brace", ["\n  {}\n  {}\n  {}", " {{{}, {}, {}}}"])
+@pytest.mark.parametrize(
+    ("name", "attributes", "whole"),
+    [
+        ("m: 2", ("unit: kg", "assume: positive"), "m: {value: 2, unit: kg, assume: positive}"),
+        ("m: {value: 2}", ("unit: kg", "symbol: M"), "m: {value: 2, unit: kg, symbol: M}"),
+        (
+            "m: 2",
+            ("assume: {assume: positive}", "unit: g"),
+            "m: {value: 2, assume: positive, unit: g}",
+        ),
+    ],
+)
+def test_attributes_beside_a_name_that_has_a_value_are_one_mistake(brace, name, attributes, whole):
+    def read(parameters):
+        written = f"coordinates: [x]\nparameters:{parameters}\nT: m*x'^2/2\n"
+        return read_problem("p.yaml", written.encode())
+
+    [found] = read(brace.format(name, *attributes)).diagnostics
+    assert found.hint == f"write all as {whole}"
+    assert read(f" {{{whole}}}").checked()
