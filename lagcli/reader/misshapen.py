@@ -44,6 +44,7 @@ RANGE = regex(
 #: `x = l*sin(a)`, several of them.
 _ASSIGNED_PARTS = regex(r"(\w+)(?:\([\w, ]*\))?\s*=\s*(.*?)(?=[\s,;]+\w+\s*=|\s*$)")
 _EQUATION = regex(r"\s*(?:\w+\.)?(?:Eq|Equality|Equal)\s*[(\[](.*)[)\]]\s*")
+_RELATION = regex(r"([^\s=<>≤≥:,{[][^=<>≤≥:,{[]*?)\s*[=<>≤≥]+\s*([^=<>≤≥:,\]}]*[^\s=<>≤≥:,\]}])")
 #: A velocity, or a difference of some.
 _LINEAR = regex(r"\w+'|\(\s*-?\w+'(?:\s*[-+]\s*\w+')*\s*\)")
 #: At least two words.
@@ -181,6 +182,14 @@ def one_sum(node: DocumentNode, what: str) -> str:
     if what == "'until'" and written:
         return f"a motion begins at t = 0: write {written[-1].split()[-1]}"
     return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""
+
+
+def difference(text: str) -> str:
+    """`y - 1` for `y = 1`, `y` for `{landing: y <= 0}`; nothing without a relation."""
+    found = _RELATION.search(text)
+    left, right = found.groups() if found else ("", "0")
+    right = f"({right})" if re.search(r"[-+]", right) else right
+    return left if right == "0" else f"{left} - {right}"
 
 
 def range_end(written: str) -> str:

@@ -8,8 +8,19 @@ from __future__ import annotations
 import re
 
 from lagcli.diagnostics import Source
-from lagcli.expression import Expression, Name, Number, Power, Product, Quotient, Sum, name_nodes
-from lagcli.reader.expressions import read_expression
+from lagcli.expression import (
+    ZERO,
+    Expression,
+    Name,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    name_nodes,
+    terms_of,
+)
+from lagcli.reader.expressions import formula_or_none, read_expression
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
@@ -79,14 +90,19 @@ def with_velocities(text: str) -> str:
     return changed if changed != text else ""
 
 
-def rate_of(name: str, hamiltonian: str) -> str:
-    """`p_phi/(m*r^2)` for the velocity of phi where H has p_phi^2/(2*m*r^2) alone; else nothing."""
-    squares = [each for each in _SQUARE.finditer(hamiltonian) if each["name"] == name]
+def rate_of(name: str, text: str) -> str:
+    """`p_phi/(m*r^2)` for the velocity of phi; nothing where the file does not say it plainly."""
+    energies: dict[str, str] = dict(re.findall(r"^([HTL]):\s*(\S.*?)\s*$", text, re.MULTILINE))
+    squares = [each for each in _SQUARE.finditer(energies.get("H", "")) if each["name"] == name]
     divisors = squares[0]["below"].split("*") if squares else []
-    if len(re.findall(rf"(?<!\w)p_{name}(?!\w)", hamiltonian)) != 1 or "2" not in divisors[:-1]:
-        return ""
-    divisors.remove("2")
-    return f"p_{name}/" + (f"({'*'.join(divisors)})" if divisors[1:] else divisors[0])
+    if "2" in divisors[:-1] and len(re.findall(rf"(?<!\w)p_{name}(?!\w)", energies["H"])) == 1:
+        divisors.remove("2")
+        return f"p_{name}/" + (f"({'*'.join(divisors)})" if divisors[1:] else divisors[0])
+    law = energies.get("T") or energies.get("L", "")
+    source = SourceText.of(Source("", law))
+    moving = [each for each in terms_of(formula_or_none(law) or ZERO) if _has_velocity(each)]
+    found = with_momenta(f"{name}'", Sum(tuple(moving)), source)
+    return re.sub(r"^\((.*)\)$", r"\1", found)
 
 
 def _inertia(factors: _Factors) -> str:

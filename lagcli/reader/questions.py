@@ -24,6 +24,7 @@ from lagcli.reader.misshapen import (
     FOUND,
     WITHOUT_HYPHENS,
     as_map,
+    difference,
     entries_of,
     range_end,
     source_of,
@@ -131,9 +132,10 @@ def _state_name(
         if momentum := momentum_meant(letters, coordinates):
             from lagcli.reader.momenta_meant import rate_of
 
-            value_ = rate_of(momentum, file.scope.energies.get("H", ""))
+            law = rate_of(momentum, file.text)
             hint = f"a state has velocities, not momenta: give {momentum}'"
-            hint += f", which is {value_}" if value_ else ""
+            rule = "it is ∂H/∂p_{0}" if "H" in file.sections else "its momentum is ∂L/∂{0}'"
+            hint += f" = {law}" if law else f": {rule.format(momentum)}"
         if part := key_meant(key.label, _SIMULATION_ATTRIBUTES):
             inner = f"{part}: {source_of(value)}"
             hint = f"an end of the run stands under simulation: write simulation: {{{inner}}}"
@@ -395,21 +397,15 @@ def read_simulation(file: FileReader, node: DocumentNode) -> SimulationDefaults:
     return SimulationDefaults(until=until, accuracy=accuracy, method=method)
 
 
-def _gap(left: str, right: str) -> str:
-    """What is 0 where both sides are equal."""
-    left, right = left.strip(), right.strip()
-    if right == "0":
-        return left
-    return f"{left} - ({right})" if re.search(r"[-+]", right) else f"{left} - {right}"
-
-
 def _number(file: FileReader, node: DocumentNode, what: str) -> Expression:
     if what == "'until'" and isinstance(node, Scalar) and (end := range_end(node.value)):
         hint = f"a motion begins at t = 0: write {end}"
         file.error("'until' is one time, no range", node.span, hint)
         return ZERO
     if what == "'until'" and isinstance(node, Scalar) and (ends := _ENDS.fullmatch(node.value)):
-        stop = f'write a time; lagcli simulate FILE --stop-when "{_gap(*ends.groups())}" ends there'
+        stop = (
+            f'write a time; lagcli simulate FILE --stop-when "{difference(node.value)}" ends there'
+        )
         only = ends[1].strip() in {"t", "time"}
         file.error("'until' is a time", node.span, f"write {ends[2].strip()}" if only else stop)
         return ZERO

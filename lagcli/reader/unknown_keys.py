@@ -29,6 +29,7 @@ from lagcli.reader.misshapen import (
     ALREADY_FOUND,
     FOUND,
     RANGE,
+    difference,
     entries_of,
     key_by_shape,
     range_end,
@@ -138,6 +139,8 @@ def unknown_key(
         if "until: …" in hint:
             given_there = range_end(given_there) or given_there
         hint = hint.replace(": …}", f": {given_there}}}")
+    if gap := difference(source_of(value)):
+        hint = hint.replace('--stop-when "x - 1"', f'--stop-when "{gap}"')
     if hint.startswith("did you mean"):
         meant = meant or closest(word, names, _NEAR)
     known = f"known are {', '.join(names)}" if names != KEYS else _MANUAL
@@ -188,7 +191,8 @@ def _meant_of_problem(
         return None, f"the equations of motion are derived: write {energies}" if energies else hint
     if whole := _of_each(word, value, around):
         return None, f"each name has its own: write {whole}"
-    if written and (state := _state_meant(key, written, around)):
+    is_state = written and "stop-when" not in hint
+    if is_state and (state := _state_meant(key, written, around)):
         return None, state
     if written and (force := _force_meant(word, written, around)):
         return None, f"forces stand by coordinate: write forces: {{{force}}}"
@@ -475,7 +479,7 @@ def _advice_in_problem(word: str, value: str) -> str:
     key = meanings("keys").get(spelled, spelled if spelled in meanings("parts") else word)
     part = meanings("parts").get(key)
     if key == "until" and re.search("[=<>≤≥]", value):
-        return f'an event is an option: lagcli simulate FILE --stop-when "{value}"'
+        return f'an event is an option: lagcli simulate FILE --stop-when "{difference(value)}"'
     if part == "expect" and key in FOUND and re.search(r"=", value):
         return ALREADY_FOUND
     if key == "until":

@@ -73,3 +73,27 @@ def test_a_momentum_is_no_coordinate(coordinates, energy, momenta):
     found = read_problem("p.yaml", text.encode()).diagnostics
     left_out = [each for each in found if each.hint.startswith("leave it out: ")]
     assert [each.message.split("'")[1] for each in left_out] == momenta
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("energy", ["T: {}\nV: k*r", "L: {} - k*r"])
+def test_a_momentum_in_a_state_is_told_its_velocity(seed, energy):
+    """The formula in the hint undoes p = ∂T/∂q', by numbers."""
+    draw = random.Random(seed)
+    inertia = draw.choice(["m*r^2", "m*k", "J", "2*m"])
+    half = draw.choice(["{}*phi'^2/2", "1/2*{}*phi'^2", "0.5*{}*phi'^2"]).format(inertia)
+    written = energy.format(f"m*r'^2/2 + {half}")
+    [found] = read_problem(
+        "p.yaml",
+        f"coordinates: [r, phi]\nparameters: [m, k, J]\n{written}\ninitial: {{p_phi: 1}}\n".encode(),
+    ).diagnostics
+    rate = found.hint.partition(" = ")[2].replace("^", "**")
+    names = {"m": 2.0, "k": 3.0, "J": 5.0, "r": 0.7, "p_phi": 11.0}
+    speed = eval(rate, {}, names)
+    assert speed * eval(inertia.replace("^", "**"), {}, names) == pytest.approx(11)
+
+
+def test_a_momentum_of_a_mixed_energy_is_another_number():
+    written = "coordinates: [x, y]\nT: x'^2 + y'^2 + x'*y'\ninitial: {p_x: 1}\n"
+    [found] = read_problem("p.yaml", written.encode()).diagnostics
+    assert found.hint.endswith("give x': its momentum is ∂L/∂x'")
