@@ -138,7 +138,13 @@ def _of_warped(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
 
 def _of_all(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
     """Of the shortest functions of each coordinate, as many as may be tried."""
-    factors, joint = [_of_coordinate(x, metric, K) for x in metric.q], _joint(metric)
+    factors, joint = (
+        [
+            [sympy.S.One, *_along(x, metric, K)] if metric.is_cyclic(x) else functions_of(x, metric)
+            for x in metric.q
+        ],
+        _joint(metric),
+    )
     factors = [sorted(each, key=complexity) for each in factors]
     while True:
         plain = [[f for f in each if not _has_sums_below(f)] for each in factors]
@@ -147,10 +153,9 @@ def _of_all(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
         max(factors, key=len).pop()
 
 
-def _of_coordinate(x: Symbol, metric: Metric, K: Expr) -> list[Expr]:
+def functions_of(x: Symbol, metric: Metric) -> list[Expr]:
+    """Those of one coordinate that the metric suggests."""
     one = sympy.S.One
-    if metric.is_cyclic(x):
-        return [one, *_along(x, metric, K)]
     parts = _parts(metric)
     alone = [e for e in parts if e.free_symbols & set(metric.q) == {x}]
     found: dict[Expr, None] = {one: None}
@@ -201,9 +206,17 @@ def _profile(x: Symbol, metric: Metric) -> Iterator[Expr]:
         return
     A = own[metric.q.index(x)]
     for B in (part for part in own if x in part.free_symbols and part != A):
-        f = _root(B)
-        for function in (f, simplify(f.diff(x) / _root(A))):
+        f = _real_beside(_root(B), A)
+        for function in (f, simplify(f.diff(x) / _real_beside(_root(A), A))):
             yield function.as_independent(x, as_Add=False)[1]
+
+
+def _real_beside(root: Expr, A: Expr) -> Expr:
+    """With sqrt(b) or sqrt(-b), whichever is real where A is positive, as 1/(1 - r^2) in space."""
+    powers = (p for p in root.atoms(sympy.Pow) if abs(p.exp) == sympy.S.Half and p.base.is_Add)
+    return root.xreplace(
+        {p: (-p.base) ** p.exp for p in powers if sympy.cancel(A * p.base).is_negative}
+    )
 
 
 def _degree(entries: Sequence[Expr], x: Symbol) -> int:

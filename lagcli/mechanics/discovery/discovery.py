@@ -200,6 +200,10 @@ class Discovery(Setting):
             unknowns = quadratic_unknowns(range(len(slots)), self.spacetime.terms)
             words = "point transformations that are isometries of space and time"
             return Search(equations, slots, unknowns, allowed), words
+        if self.killing is not None:
+            return self.killing.search(equations, times, allowed), self.killing.words + _timed(
+                times
+            )
         spaces = affine(kinds)
         if kinds.powers:
             times = replace(times, others=(*times.others, self.system.t**3))

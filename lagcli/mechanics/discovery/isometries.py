@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from itertools import combinations
+from itertools import chain, combinations
 
 import sympy
 from sympy import Expr, Symbol
@@ -38,7 +38,7 @@ from lagcli.mechanics.discovery.search import Search, SlotUnknown
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 
 _MOST_COORDINATES = 6  # two bodies in space; coupled ones in spherical coordinates are not finished
-_MOST_TOGETHER = 3  # measured: at most 3
+_MOST_TOGETHER = 4
 
 Vector = tuple[Expr, ...]
 
@@ -153,22 +153,7 @@ class Isometries:
     def beyond(self, kinds: Kinds) -> bool:
         """Whether they are there, and not all combinations of the functions of `affine`."""
         fields = [*self.fields, *([self.dilation] if self.functions and self.flat else [])]
-        return bool(self.functions) and not self._within(
-            [x for field in fields for x in field], affine(kinds)
-        )
-
-    def _within(self, values: Sequence[Expr], known: Sequence[Expr]) -> bool:
-        """Whether each is a combination of the known functions with constant coefficients."""
-        q = self.equations.q
-        terms = [term for x in dict.fromkeys(values) for term in bare_terms(x, q)]
-        new = [x for x in dict.fromkeys(terms) if x not in {*known, sympy.S.Zero}]
-        if not new:
-            return True
-        try:
-            found = Relation([[x] for x in (*known, *new)], q, self.allowed).independent()
-        except (NoPoint, ZeroDivisionError):
-            return False
-        return all(k < len(known) for k in found)
+        return bool(self.functions) and are_beyond(fields, kinds, self.equations.q, self.allowed)
 
     @property
     def words(self) -> str:
@@ -235,6 +220,22 @@ class Isometries:
             for T in (times.translations if k in shifts else times.others)
         ]
         return Search(self.equations, slots, ordered(unknowns), allowed)
+
+
+def are_beyond(
+    fields: Sequence[Vector], kinds: Kinds, q: Sequence[Symbol], allowed: Allowance
+) -> bool:
+    """Whether not all components are combinations of the functions of `affine`."""
+    known = affine(kinds)
+    terms = [term for x in dict.fromkeys(chain(*fields)) for term in bare_terms(x, q)]
+    new = [x for x in dict.fromkeys(terms) if x not in {*known, sympy.S.Zero}]
+    if not new:
+        return False
+    try:
+        found = Relation([[x] for x in (*known, *new)], q, allowed).independent()
+    except (NoPoint, ZeroDivisionError):
+        return True
+    return any(k >= len(known) for k in found)
 
 
 def _time_apart(equations: SlotEquations) -> tuple[Expr, tuple[tuple[Expr, ...], ...]]:

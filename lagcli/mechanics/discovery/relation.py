@@ -63,10 +63,13 @@ class Relation:
         return kernel_modulo(self.rows((width + 8) * components), width)[1]
 
     def beyond(
-        self, values: Sequence[Sequence[Expr]], known: Sequence[Sequence[Expr]] = ()
+        self,
+        values: Sequence[Sequence[Expr]],
+        known: Sequence[Sequence[Expr]] = (),
+        components: int = 0,
     ) -> list[dict[int, Expr]]:
         """Those that make combinations of `values` beyond the known functions and earlier ones."""
-        kernel = self.kernel(len(self.vectors[0]))[::-1]
+        kernel = self.kernel(components or len(self.vectors[0]))[::-1]
         count = (len(known) + len(kernel) + 8) * len(values[0])  # components may be dependent
         table = self.tree.rows([*known, *values], count)
         found = map(self.exact, independent(table, len(known), kernel))

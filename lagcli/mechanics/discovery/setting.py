@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from functools import cached_property
 
 import mpmath
@@ -16,10 +17,13 @@ from lagcli.algebra.row_rank import rank
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, time_functions
 from lagcli.mechanics.discovery.cartesian import cartesian
 from lagcli.mechanics.discovery.centre import centre_of
-from lagcli.mechanics.discovery.isometries import Isometries
+from lagcli.mechanics.discovery.isometries import Isometries, are_beyond
+from lagcli.mechanics.discovery.killing_fields import KillingFields
 from lagcli.mechanics.discovery.kinds import Kinds, kinds
-from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.discovery.listing import Listing
+from lagcli.mechanics.discovery.metric import Metric
+from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.noether import Noether, NoetherCharge
 from lagcli.mechanics.states import Contradiction
@@ -219,6 +223,21 @@ class Setting:
                 kind, what = "flat", "Cartesian coordinates"
             self.without_isometries = f"the kinetic energy is {kind}, but no {what} were found"
         return found if found.functions else None
+
+    @cached_property
+    def killing(self) -> KillingFields | None:
+        """All isometries of a kinetic energy of another curvature, where `affine` has not all."""
+        if self.isometries is not None or not (self.canonical and self.quadratic_mass):
+            return None
+        if self.dynamics.constraints.equations or not KillingFields.apply(self.equations):
+            return None
+        q, allowed = self.equations.q, self.allowed.part(0.45)
+        with suppress(NoPoint, TooMuchWork, ZeroDivisionError):
+            found = KillingFields(Metric(q, self.equations.mass), allowed)
+            whole = len(found.fields) == found.number
+            if whole and are_beyond(found.fields, self.coordinate_kinds, q, allowed):
+                return found
+        return None
 
     @property
     def flat(self) -> Isometries | None:
