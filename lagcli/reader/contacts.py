@@ -112,7 +112,9 @@ def _law_of_words(file: FileReader, name: str, text: str, what: str) -> str:
         along = [x for x in (("x",) if wall else ("y", "z", "h")) if x in coordinates]
         along = along or (coordinates if len(coordinates) == 1 else [])
         above = re.search("ceil|top|roof|lid", place, re.IGNORECASE)
-        return "" if above or not along else f"{place}: {{gap: {along[0]} >= 0}}"
+        heights = [x for x in "hHLlabd" if x in file.scope.of_kind("parameter")]
+        edge = f"<= {(*heights, '…')[0]}" if above else ">= 0"
+        return f"{place}: {{gap: {along[0]} {edge}}}" if along else ""
     rolls = re.search(r"roll|slip|rutsch|gliss", f"{name} {text}", re.IGNORECASE)
     angles = [x for x in coordinates if is_angle(x)]
     lengths = [x for x in coordinates if x not in angles]

@@ -58,6 +58,9 @@ _WITH_UNIT = regex(
     r"(?P<unit>(?:[kmcµunp]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa|F|H|Wb|Ω|ohm)"
     r"|rad|deg|rpm|min|h|mol)(?:[ \^*/·⋅²³].*)?)"
 )
+#: Symbols of units with their powers, strung together: `ms-2`, `kg m2 s-2`.
+_SYMBOL = regex(r"(kg|mol|rad|Pa|Hz|[mgsNJWKAVC])(-?)(\d?)")
+_STRUNG = regex(rf"(?=.*[A-Za-z]-\d)(?:(?:{_SYMBOL.pattern})[ ·.]?)+")
 #: A value that is left open.
 _OPEN = regex(
     r"(?i:[?¿…_.*–—-]+|none|any|arbitrary|const|constant|free|given|null|open|symbolic|tb[ad]|true"
@@ -169,6 +172,7 @@ def colon_advice(line: str) -> str:
             return f"write parameters: {{{found[1]}: {{value: {number}, unit: {unit}}}}}"
         value = re.sub(r"^\{([^:{}]*)\}$", r"[\1]", found[2].strip(" ;"))
         value = re.sub(r"^T\s*[-−]\s*V\s*=\s*", "", value)
+        value = re.sub(r"\s*[;,]\s*([TVLH])\s*:?=\s*", r"; \1: ", value)  # T = a; V = b
         named = re.match(r"([^\W\d]+)\s*[:=]?\s*(.+)", value)  # kinetic energy m*x'^2/2
         if named and (key := key_meant(f"{found[1]} {named[1]}", KEYS)):
             return f"write {key}: {named[2]}"
@@ -247,7 +251,11 @@ def _named_unit(text: str) -> tuple[str, str] | None:
 
 
 def spoken_unit(text: str) -> str:
-    """`kg*m/s^2` for `Kilogramm Meter pro Sekunde quadrat`; other words as they are."""
+    """`kg*m/s^2` for `Kilogramm Meter pro Sekunde quadrat` and `kgms-2`; others as they are."""
+    if _STRUNG.fullmatch(text):
+        parts = [f"{'*/'[sign == '-']}{name}{f'^{power}' if power not in {'', '1'} else ''}"
+                 for name, sign, power in _SYMBOL.findall(text)]  # fmt: skip
+        return re.sub(r"^/", "1/", "".join(parts).lstrip("*"))
     table = meanings("units")
     words = re.sub(
         r"[^\W\d_²³]+", lambda m: table.get(m[0].casefold(), m[0]), " ".join(text.split())

@@ -44,9 +44,10 @@ _ABOUT = regex(
     r"(?i:[≈≃≅~∼=]+|(?:ca|circa|approx|env|aprox|etwa|rund|ungefähr|approximately|about|roughly"
     r"|around|environ|cirka)\b\.?(?!\s*$))\s*(?=[-+.\d]*\d|[a-z]{3})"
 )
-#: The 0.5 of `0.5 ± 0.01`, with whatever stands behind both.
+#: The 0.5 of `0.5 ± 0.01` and `0.50(1)`, with whatever stands behind both.
 _ERROR = regex(
     r"^\(?([-+]?\d+\.?\d*(?:[eE][-+]?\d+)?)\s*(?:±|\+/?[-−])\s*[\d.]+(?:[eE]-?\d+)?\s?%?\)?(?=\s|$)"
+    r"|^([-+]?\d+\.\d+)\(\d{1,3}\)(?=\s|$)"
 )
 #: `10k` and `4.7M`.
 _WITH_PREFIX = regex(r"([-+]?\d+\.?\d*)\s?([kMG])")
@@ -56,11 +57,11 @@ def in_digits(text: str, names: Container[str] = ()) -> str:
     """`12` for `twelve`, `3/2` for `one and a half`, `0.25 m` for `a quarter of a m`.
 
     Also `9.81` for `≈ 9,81`, `12.5` for `12½`, and `10000` for `10k` where k is none of the names,
-    and `0.5` for `0.5 ± 0.01`.
+    and `0.5` for `0.5 ± 0.01` and `0.50(1)`.
     """
     if (exact := _ABOUT.sub("", text, count=1) if _ABOUT.match(text) else text) != text:
         text = re.sub(r"^([-+]?\d+),(?=\d)(?!\d{3}$)", r"\1.", exact)
-    text = _ERROR.sub(r"\1", with_mixed_numbers(text))
+    text = _ERROR.sub(r"\1\2", with_mixed_numbers(text))
     if (short := _WITH_PREFIX.fullmatch(text)) and short[2] not in names:
         return f"{Fraction(short[1]) * 1000 ** (1 + 'kMG'.index(short[2]))}"
     if not _IN_WORDS.fullmatch(text):
@@ -139,7 +140,11 @@ def unit_in_formula(
         return not (words and all(known)) and unit_behind(f"1 {text}") == text != ""
 
     text = re.sub(r"^[\[(]\s*([^\W\d][^\])]*?)\s*[\])]\s*([-\d.]+)$", r"\2 \1", text)  # [kg] 1
-    unit, declared = unit_behind(text), what.startswith("the value of")
+    declared = what.startswith("the value of")
+    product = re.sub(r"^([-+]?[\d.]+(?:[eE][-+]?\d+)?)\s*\*\s*(?=[^\W\d])", r"\1 ", text)
+    if declared and product != text and is_unit(unit_behind(product)):  # 500*N
+        text = product
+    unit = unit_behind(text)
     if unit and (is_number or is_unit(unit)):
         return unit_mistake(text, names, declared=declared)
     if (unit := unit_at_end(text)) and is_unit(unit):
@@ -224,12 +229,14 @@ def wrong_unit(text: Scalar, value: DocumentNode | None) -> Diagnostic | None:
         read_unit(text.value)
     except UnitMistake as wrong:
         spoken = spoken_unit(text.value)
-        hint = f"write {spoken}" if is_unit(spoken) else wrong.hint
+        is_spoken = is_unit(spoken)
+        hint = f"write {spoken}" if is_spoken else wrong.hint
         hint = "write 1" if text.value.casefold() in habits()["nothing"] else hint
         number = value.value.strip() if isinstance(value, Scalar) else ""
         if value is None or _NUMBER.fullmatch(number):
             hint = in_radians(number, spoken) or hint
-        return Diagnostic(wrong.message, text.excerpt().span(wrong.start, wrong.end), hint)
+        part = text.excerpt().span(wrong.start, wrong.end)
+        return Diagnostic(wrong.message, text.span if is_spoken else part, hint)
     return None
 
 

@@ -481,6 +481,14 @@ HABITS = [
         "coordinates: [x]\nT: x'^2/2  V: x^2/2\n",
         "write T: x'^2/2, and on a line of its own V: x^2/2",
     ),
+    (
+        "coordinates: [x]\nT = x'^2/2; V = x^2/2\n",
+        "write T: x'^2/2, and on a line of its own V: x^2/2",
+    ),
+    (
+        text(coordinates="[y]", T="m*y'^2", V=None, contacts="{ceiling: true}"),
+        "write ceiling: {gap: y <= …}",
+    ),
     ("title: Pendulum: simple\n" + text(), 'write title: "Pendulum: simple"'),
     ("```yaml\n" + text() + "```\n", "leave out '```yaml'"),
     (text(V="none"), "write 0"),

@@ -78,7 +78,7 @@ HINTS = [
     (text(parameters="\n  m: [1, kg]\n  k: 2"), "write {value: 1, unit: kg}"),
     (text(parameters="\n  m: 1 [kg]\n  k: 2"), "write {value: 1, unit: kg}"),
     (text(parameters="\n  m: 1 (kg)\n  k: 2"), "write {value: 1, unit: kg}"),
-    (text(parameters="{m: 1, k: {value: 2, unit: kg s-2}}"), "'^': ^-2"),
+    (text(parameters="{m: 1, k: {value: 2, unit: kg s-2}}"), "write kg/s^2"),
     (text(parameters="symbols('m k')"), "write [m, k]"),
     (text(coordinates="[x = dynamicsymbols('x')]"), "write x"),
     (text(coordinates="[x[1], x[2]]"), "write coordinates: [x_1, x_2]"),
