@@ -416,3 +416,31 @@ constraints:
     discovery = derive(text).discovery
     assert summary(discovery).independent == 5
     assert all(c.conserved is True and c.verified == "exact" for c in discovery.charges)
+
+
+def test_suslovs_free_body_turns_uniformly_in_space_and_in_itself():
+    """omega is constant on both sets of axes, with |omega|^2 in common.
+
+    Suslov, *Theoretical Mechanics* (1946), section 53; Bloch, section 8.6.
+    """
+    derivation = derive("""
+coordinates: [phi, theta, psi]
+parameters: {A: {assume: positive}, B: {assume: positive}, C: {assume: positive}}
+definitions:
+  p: phi'*sin(theta)*sin(psi) + theta'*cos(psi)
+  q: phi'*sin(theta)*cos(psi) - theta'*sin(psi)
+  r: phi'*cos(theta) + psi'
+T: (A*p^2 + B*q^2 + C*r^2)/2
+constraints: {suslov: phi'*cos(theta) + psi' = 0}
+""")
+    assert summary(derivation.discovery).independent == 4
+    system = derivation.system
+    (phi, theta, _), (dphi, dtheta, _) = system.q, system.qdot
+    in_space = (
+        dtheta * sympy.cos(phi) - dphi * sympy.sin(theta) * sympy.cos(theta) * sympy.sin(phi),
+        dtheta * sympy.sin(phi) + dphi * sympy.sin(theta) * sympy.cos(theta) * sympy.cos(phi),
+        dphi * sympy.sin(theta) ** 2,
+    )  # with psi' = -phi' cos(theta)
+    for component in in_space:
+        ratios = (sympy.simplify(c.charge / component) for c in derivation.discovery.charges)
+        assert any(ratio.free_symbols <= {*system.parameters} for ratio in ratios)

@@ -158,11 +158,16 @@ class UnderConstraints:
         return {e: dot(e, self.dynamics.lagrange.momenta) for e in fields} if moved else fields
 
     def _timed_terms(self, number: int) -> list[IntegralTerm]:
-        """Those of the first degree along the given number of displacements, timed."""
+        """Those of the first degree along the given number of displacements, timed or turned.
+
+        The axes of space turn about those of a body: Suslov's has L_1, L_2 and all of omega.
+        """
         one = sympy.S.One
         plain = [one, *self.kinds.lengths]
         times = [T for T in self.times.translations if T != 1]
         terms = [IntegralTerm((a,), T, one) for a in range(number) for T in times]
+        turned = affine(self.kinds)[: _MOST_LINEAR // (2 * number)]
+        terms += [IntegralTerm((a,), one, g) for a in range(number) for g in turned]
         terms += [IntegralTerm((), T, g) for T in (one, *times) for g in self._still(plain)]
         return _ordered([x for x in terms if x.fields or x.function != 1])
 
