@@ -6,7 +6,7 @@ import re
 from collections.abc import Collection, Sequence
 
 from lagcli.expression import FUNCTIONS
-from lagcli.reader.misshapen import pieces
+from lagcli.reader.expressions import signed_terms
 
 
 def energies_of(
@@ -17,37 +17,32 @@ def energies_of(
     Each equation is that of one coordinate: a*q'' + c*q' + k*q = Q(t) with constants.
     """
     parts: dict[str, list[str]] = {"T": [], "V": [], "dissipation": []}
-    forces: dict[str, str] = {}
     keys = {"''": ("T", "'"), "'": ("dissipation", "'"), "": ("V", "")}
+    forces: dict[str, str] = {}
     known = {*constants, *FUNCTIONS, "t", "pi"}
     for text in equations:
-        sides = text.split("=")
+        left, _, right = text.partition("=")
         own = {*re.findall(r"[^\W\d]\w*", text)} & {*coordinates}
-        if len(sides) != 2 or len(own) != 1 or own & forces.keys():
+        terms = [*signed_terms(left), *((not minus, each) for minus, each in signed_terms(right))]
+        if len(own) != 1 or own & forces.keys() or not (signed_terms(left) and signed_terms(right)):
             return ""
-        q, force, has_mass = own.pop(), [], False
-        for place, side in enumerate(sides):
-            signed = re.sub(r"(?<=[\w)'])\s*(?=-)", "+", side.replace(" ", ""))
-            for term in pieces(signed, "+"):
-                is_negative = term.startswith("-") != (place == 1)  # on the left side
-                bare = term.lstrip("+-").replace("+-", "-")
-                moving = re.fullmatch(rf"((?:[\w.^]+[*/])*)({q})('*)((?:[*/][\w.^]+)*)", bare)
-                words = re.findall(r"[^\W\d]\w*", bare)
-                if moving and q in words:
-                    words.remove(q)
-                if bare in {"", "0"}:
-                    continue
-                if not {*words} <= ({*constants} if moving else known):
-                    return ""
-                if moving is None:
-                    force.append("-" * (not is_negative) + bare)
-                    continue
-                if moving[3] not in keys or moving[1].endswith("/"):
-                    return ""
+        q, force, masses = own.pop(), [], len(parts["T"])
+        for is_negative, term in terms:  # on the left side
+            moving = re.fullmatch(
+                rf"((?:[\w.^]+[*/])*(?<!/))({q})('{{0,2}})((?:[*/][\w.^]+)*)", term
+            )
+            words = re.findall(r"[^\W\d]\w*", term)
+            if moving:
+                words.remove(q)
                 key, prime = keys[moving[3]]
-                has_mass |= key == "T" and not is_negative
+                if key == "T" and is_negative:
+                    return ""
                 parts[key].append(f"{'-' * is_negative}{moving[1]}{q}{prime}^2{moving[4]}/2")
-        if not has_mass:
+            elif term != "0":
+                force.append("-" * (not is_negative) + term)
+            if not {*words} <= ({*constants} if moving else known):
+                return ""
+        if len(parts["T"]) == masses:
             return ""
         forces[q] = " + ".join(force).replace("+ -", "- ")
     lines = [f"{key}: {' + '.join(terms)}" for key, terms in parts.items() if terms]

@@ -9,7 +9,7 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar, cast
 
 from lagcli.diagnostics import ProblemError, Source
-from lagcli.expression import Equation
+from lagcli.expression import Equation, Negative, terms_of
 from lagcli.problem_data import Inequality
 from lagcli.reader.automaton import Token, Unexpected
 from lagcli.reader.builder import excerpt_being_read, mistake
@@ -17,7 +17,7 @@ from lagcli.reader.constants import check_constants
 from lagcli.reader.limits import EXPRESSION_CHARACTERS, thousands
 from lagcli.reader.parser import automaton
 from lagcli.reader.positions import Excerpt
-from lagcli.reader.text import Mistake
+from lagcli.reader.text import Mistake, SourceText
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -66,6 +66,18 @@ def formula_or_none(text: str) -> Expression | None:
         return parse_text(text)
     except ProblemError:
         return None
+
+
+def signed_terms(text: str) -> list[tuple[bool, str]]:
+    """Whether each term of a sum has a minus, and its text without it; empty for no formula."""
+    formula = formula_or_none(text)
+    source = SourceText.of(Source("", text))
+    terms = terms_of(formula) if formula is not None else ()
+    bare = (each.operand if isinstance(each, Negative) else each for each in terms)
+    return [
+        (term is not inner, text[slice(*source.offsets(inner.span))])
+        for term, inner in zip(terms, bare, strict=True)
+    ]
 
 
 def parse_equation_text(text: str) -> Equation:

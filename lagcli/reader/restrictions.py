@@ -6,8 +6,7 @@ import re
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from lagcli.diagnostics import Source
-from lagcli.expression import ZERO, Name, Negative, Sum, name_nodes
+from lagcli.expression import ZERO, Name, name_nodes
 from lagcli.problem_data import Constraint, pushing_sign
 from lagcli.reader.contacts import (
     RESTITUTION,
@@ -16,7 +15,7 @@ from lagcli.reader.contacts import (
     declared,
     read_restitution,
 )
-from lagcli.reader.expressions import formula_or_none
+from lagcli.reader.expressions import signed_terms
 from lagcli.reader.habits import comparisons_in
 from lagcli.reader.misshapen import as_equation, is_sentence, pieces, source_of, texts_of
 from lagcli.reader.names import derivative_order
@@ -24,7 +23,6 @@ from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import QUESTION, STATE
 from lagcli.reader.suggest import did_you_mean
-from lagcli.reader.text import SourceText
 from lagcli.reader.velocity_quotients import multiplied_out, without_squares
 
 if TYPE_CHECKING:
@@ -112,17 +110,10 @@ def check_multipliers(file: FileReader, energies: list[Scalar]) -> None:
 
 def _equated(law: str) -> str:
     """`x^2 + y^2 = l^2` for `x^2 + y^2 - l^2`; nothing for what is no sum."""
-    formula = formula_or_none(law)
-    if not isinstance(formula, Sum):
-        return ""
-    text = SourceText.of(Source("", law))
-    sides: tuple[list[str], list[str]] = ([], [])
-    for term in formula.terms:
-        is_negative = isinstance(term, Negative)
-        inner = term.operand if isinstance(term, Negative) else term
-        sides[is_negative].append(law[slice(*text.offsets(inner.span))])
-    left, right = (" + ".join(each) or "0" for each in sides)
-    return f"{left} = {right}"
+    terms = signed_terms(law)
+    left, right = (" + ".join(x for minus, x in terms if minus == on_right) or "0"
+                   for on_right in (False, True))  # fmt: skip
+    return f"{left} = {right}" if terms[1:] else ""
 
 
 def _is_refused(file: FileReader, key: Scalar, value: DocumentNode) -> bool:

@@ -4,11 +4,17 @@ from __future__ import annotations
 
 import re
 from fractions import Fraction
-from typing import get_args
+from typing import TYPE_CHECKING, get_args
 
 from lagcli.problem_data import Assumption
-from lagcli.reader.habits import SIGNS, habits
+from lagcli.reader.habits import SIGNS, habits, letters, number_and_unit, spellings
+from lagcli.reader.misshapen import RANGE, source_of, values_in
 from lagcli.reader.regex import regex
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from lagcli.reader.nodes import DocumentNode
 
 ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 #: The strongest first.
@@ -21,6 +27,11 @@ _SPOKEN = regex(r"\b(?:than|least|not|zero|in|non|or)\b|Reals|Positive|\bR_?\+|[
 _RELATION = regex(r"(?:[^\W\d]\w*\s*)?([<>]=?|[≥≤≠]|!=)\s*(-?\d*\.?\d*(?:[eE]-?\d+)?)")
 #: A range in brackets: `[0, 3]`, `]0, inf[`.
 _ENDS = regex(r"([\[(\]])\s*([^,;]*?)\s*[,;]\s*([^,;]*?)\s*([\])\[])")
+
+_OF_PARAMETER = (
+    "leave it out: a sign is written assume: positive; "
+    "several values are run by lagcli sweep FILE --vary"
+)
 
 
 def sign_meant(text: str, relation: str = "") -> str:
@@ -70,3 +81,34 @@ def _turned(text: str) -> str:
 
 
 _MIRROR = str.maketrans("<>≤≥", "><≥≤")
+
+
+def range_meant(relation: str, value: DocumentNode, what: str, given: Collection[str]) -> str:
+    """`write assume: positive` for `r > 0`, `(0, inf]`, `[1, 3]` and the bound `gt: 0`.
+
+    Parameters
+    ----------
+    relation
+        Of the quantity to the value; nothing where the value has it.
+    value
+        A number, a range, a relation or an assumption.
+    what
+        As in "the parameter 'm'".
+    given
+        The keys of the entry.
+    """
+    written, is_parameter = source_of(value).strip("'\" "), what.startswith("the parameter")
+    written = number_and_unit(written)[0]
+    if among := RANGE.fullmatch(written):  # 0..5
+        written = f"[{among[1]}, {among[3]}]"
+    bounds = [each for each in given if letters(each) in spellings("bounds")]
+    is_range = bounds[1:] or re.match(r"[\[(\]](?!.*(?:inf|oo|∞))", written)
+    is_open = is_parameter or not is_range
+    sign = sign_meant(written, relation) if is_open and "assume" not in given else ""
+    hint = f"write assume: {sign}" if sign else "leave it out"
+    if is_parameter and (values := values_in(written.strip("[]()"))):
+        varied = f"{what.split(chr(39))[1]}={values}"
+        return f"{hint}; several are run by lagcli sweep FILE --vary {varied}"
+    if sign:
+        return hint
+    return _OF_PARAMETER if is_parameter else f"{hint}: a coordinate has no range"

@@ -28,7 +28,6 @@ from lagcli.reader.misplaced import names_in
 from lagcli.reader.misshapen import (
     ALREADY_FOUND,
     FOUND,
-    RANGE,
     difference,
     entries_of,
     key_by_shape,
@@ -41,12 +40,10 @@ from lagcli.reader.misshapen import (
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.potential_meant import GRAVITY, potential_meant
 from lagcli.reader.regex import regex
-from lagcli.reader.sign_meant import ASSUMPTIONS, sign_meant
+from lagcli.reader.sign_meant import ASSUMPTIONS, range_meant
 from lagcli.reader.suggest import closest, did_you_mean
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
-
     from lagcli.reader.scope import Scope
 
 #: The likeness of a key and its misspelling: another word of as many letters is less like it.
@@ -58,10 +55,6 @@ _WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
 _NOT = frozenset({"no", "false", "off", "0"})
 #: The number of a state.
 _STATE = regex(r"(?:[-+*/\d.() ]|pi|e(?=[-+\d]))+")
-_OF_PARAMETER = (
-    "leave it out: a sign is written assume: positive; "
-    "several values are run by lagcli sweep FILE --vary"
-)
 _DEFINED = "a formula with a name stands under definitions"
 _MANUAL = "leave it out, or see lagcli help problem-format"
 
@@ -117,7 +110,7 @@ def unknown_key(
     given = {each.label for each, _ in around.entries}
     bound = spellings("bounds").get(letters(word))
     if "assume" in names and bound is not None:
-        meant, hint = None, _of_range(bound, value, what, given)
+        meant, hint = None, range_meant(bound, value, what, given)
     if meant in given and hint == f"the key is {meant}":
         hint = f"the key is {meant}, which is given already: its entries stand there"
         hint = f"leave it out: {meant} is given already" if written else hint
@@ -383,37 +376,6 @@ def _quadratic_form(word: str, value: DocumentNode, coordinates: list[str]) -> s
             if entry != "0":
                 terms.append(f"{sign}{'2*' * (i != j)}{size_}*{pair}")
     return f"write {key}: ({' + '.join(terms).replace('+ -', '- ')})/2" if terms else ""
-
-
-def _of_range(relation: str, value: DocumentNode, what: str, given: Collection[str]) -> str:
-    """`write assume: positive` for `r > 0`, `(0, inf]`, `[1, 3]` and the bound `gt: 0`.
-
-    Parameters
-    ----------
-    relation
-        Of the quantity to the value; nothing where the value has it.
-    value
-        A number, a range, a relation or an assumption.
-    what
-        As in "the parameter 'm'".
-    given
-        The keys of the entry.
-    """
-    written, is_parameter = source_of(value).strip("'\" "), what.startswith("the parameter")
-    written = number_and_unit(written)[0]
-    if among := RANGE.fullmatch(written):  # 0..5
-        written = f"[{among[1]}, {among[3]}]"
-    bounds = [each for each in given if letters(each) in spellings("bounds")]
-    is_range = bounds[1:] or re.match(r"[\[(\]](?!.*(?:inf|oo|∞))", written)
-    is_open = is_parameter or not is_range
-    sign = sign_meant(written, relation) if is_open and "assume" not in given else ""
-    hint = f"write assume: {sign}" if sign else "leave it out"
-    if is_parameter and (values := values_in(written.strip("[]()"))):
-        varied = f"{what.split(chr(39))[1]}={values}"
-        return f"{hint}; several are run by lagcli sweep FILE --vary {varied}"
-    if sign:
-        return hint
-    return _OF_PARAMETER if is_parameter else f"{hint}: a coordinate has no range"
 
 
 def _letter_used(word: str, around: Mapping) -> str:
