@@ -98,15 +98,7 @@ def _functions(found: Iterable[Exponent], t: Symbol) -> list[Expr]:
 
 def affine(found: Kinds) -> list[Expr]:
     """Functions of the coordinates for point transformations, the simplest first."""
-    one = sympy.S.One
-    x = [y - found.centre.get(y, 0) for y in found.lengths]
-    turned = [y / r for r in found.radii for y in x if y != r]  # r to z, in cylindrical coordinates
-    lengths = [one, *x, *(1 / r for r in found.radii), *found.exponentials]
-    if found.powers:
-        lengths += [x[0] ** k for k in (-2, -1, 2, 3)]
-    elif found.curved and len(x) <= _MOST_CURVED:
-        lengths += [a * b for i, a in enumerate(x) for b in x[: i + 1]]
-    by_angle = {y: _angle(y, found) for y in found.angles}
+    lengths, turned, by_angle = _of_each(found)
     if _size([[*lengths, *turned], *by_angle.values()]) <= _MOST_FUNCTIONS:
         lengths += turned
     if _size([lengths, *by_angle.values()]) <= _MOST_FUNCTIONS:
@@ -115,6 +107,25 @@ def affine(found: Kinds) -> list[Expr]:
     parts = found.parts if len(found.parts) > 1 else ()
     own = [f for part in parts for f in affine(found.of(part))]
     return sorted(dict.fromkeys([*own, *_fewer(lengths, by_angle, found)]), key=complexity)
+
+
+def has_all_products(found: Kinds) -> bool:
+    """Whether `affine` has all products of functions of several coordinates."""
+    lengths, _, by_angle = _of_each(found)
+    return _size([lengths, *by_angle.values()]) <= _MOST_FUNCTIONS
+
+
+def _of_each(found: Kinds) -> tuple[list[Expr], list[Expr], dict[Symbol, list[Expr]]]:
+    """Functions of lengths, of these and a radius, and of each angle."""
+    one = sympy.S.One
+    x = [y - found.centre.get(y, 0) for y in found.lengths]
+    turned = [y / r for r in found.radii for y in x if y != r]  # r to z, in cylindrical coordinates
+    lengths = [one, *x, *(1 / r for r in found.radii), *found.exponentials]
+    if found.powers:
+        lengths += [x[0] ** k for k in (-2, -1, 2, 3)]
+    elif found.curved and len(x) <= _MOST_CURVED:
+        lengths += [a * b for i, a in enumerate(x) for b in x[: i + 1]]
+    return lengths, turned, {y: _angle(y, found) for y in found.angles}
 
 
 def _fewer(lengths: list[Expr], by_angle: dict[Symbol, list[Expr]], found: Kinds) -> list[Expr]:

@@ -19,6 +19,7 @@ from lagcli.mechanics.discovery import point
 from lagcli.mechanics.discovery.ansatz import (
     TimeFunctions,
     affine,
+    has_all_products,
     point_unknowns,
     products_of_two,
     quadratic_unknowns,
@@ -201,10 +202,9 @@ class Discovery(Setting):
             words = "point transformations that are isometries of space and time"
             return Search(equations, slots, unknowns, allowed), words
         if self.killing is not None:
-            return self.killing.search(equations, times, allowed), self.killing.words + _timed(
-                times
-            )
-        spaces = affine(kinds)
+            words = self.killing.words + _timed(times)
+            return self.killing.search(equations, times, allowed), words
+        spaces, whole = affine(kinds), has_all_products(kinds)
         if kinds.powers:
             times = replace(times, others=(*times.others, self.system.t**3))
         # of L = T - V the terms of third degree leave tau a function of t
@@ -213,8 +213,9 @@ class Discovery(Setting):
             unknowns = point_unknowns(slots, times, spaces, time_with_space=not fixed)
             if len(unknowns) <= MOST_UNKNOWNS or len(spaces) == 1:
                 break
-            spaces = spaces[: len(spaces) // 2]
-        return Search(equations, slots, unknowns, allowed), self._sentence(times, spaces)
+            spaces, whole = spaces[: len(spaces) // 2], False
+        words = self._shapes(spaces) + ("" if whole else ", not all products of such")
+        return Search(equations, slots, unknowns, allowed), words + _timed(times)
 
     def _points(self) -> None:
         allowed = self.allowed.part(0.7)
@@ -426,7 +427,8 @@ class Discovery(Setting):
         naming = self.listing.naming
         return kept + [(naming.of_mode(c.transformation.changes), sympy.S.One, c) for c in modes]
 
-    def _sentence(self, times: TimeFunctions, spaces: Sequence[Expr]) -> str:
+    def _shapes(self, spaces: Sequence[Expr]) -> str:
+        """The transformations with functions of the coordinates, in words."""
         what = "point transformations" if self.canonical else "integrating factors"
         shapes = []
         if any(set(s.free_symbols) & set(self.coordinate_kinds.lengths) for s in spaces) or (
@@ -441,7 +443,7 @@ class Discovery(Setting):
         if any(s.has(sympy.sin, sympy.cos) for s in spaces):
             shapes.append("with sines and cosines of the angles")
         space = " ".join(shapes) or "constant in the coordinates"
-        return f"{what} {space}{_timed(times)}"
+        return f"{what} {space}"
 
 
 def _timed(times: TimeFunctions) -> str:
