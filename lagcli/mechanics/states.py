@@ -8,6 +8,7 @@ surfaces, the states are on those of one rank.
 
 from __future__ import annotations
 
+import math
 import random
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import count, islice, product
@@ -30,6 +31,7 @@ _NEWTON_STEPS = 60  # at a double root each gains a bit
 _HALVINGS = 8  # to a 256th of a step; a shorter one leads nowhere
 _AS_DRAWN = 20  # attempts with the parameters as they were drawn
 _SURFACES = 32  # at most: of two or three forms with three factors each, all
+_REDRAWN = 60  # times, for each quantity, until roots and logarithms are real
 _NEAR = 3  # states drawn near 0, before those that come from afar
 
 State = dict[Symbol, mpf]
@@ -60,6 +62,7 @@ class RandomStates:
             [x for e in constraints.equations for x in (*e.row, e.drift)], DIGITS + _GUARD
         )
         self._lagrangian = Evaluator([system.L, *system.applied_forces], DIGITS + _GUARD)
+        self._radicands = Evaluator(_radicands([system.L, *system.applied_forces]))
         self._kinks = Evaluator(_kinks(e.f for e in constraints.equations), DIGITS + _GUARD)
         self._kept: list[State] = []
         self._open = list(range(len(self._surfaces)))  # those that are visited
@@ -170,6 +173,7 @@ class RandomStates:
                 wide = attempts % 2 == 1 if often else attempts % 3 == 0
                 state = self._draw(source, scale, wide=wide)
                 if attempts > _AS_DRAWN:
+                    self._make_real(source, state)
                     self._adapt(state, surface)
                 failed = self._project(state)
                 good = failed is None and self._is_regular(state)
@@ -182,6 +186,29 @@ class RandomStates:
             if attempts >= _ATTEMPTS:
                 worst = max(failures, key=lambda k: (failures[k], k)) if failures else -1
                 raise Contradiction(worst)
+
+    def _make_real(self, source: random.Random, state: State) -> None:
+        """Draw one quantity after the other anew, where that makes no root less real."""
+        moving = (*self._movable, *self.system.qdot)
+        best = self._unreal(state)
+        for _ in range(_REDRAWN * len(moving)):
+            if not best[0]:
+                return
+            x = source.choice(moving)
+            size = mpf(source.randint(1000, 10000)) / 10007 * source.choice((1, 1, 3, 9))
+            other = {**state, x: with_assumed_sign(source, x, size)}
+            there = self._unreal(other)
+            if there <= best:
+                state[x], best = other[x], there
+
+    def _unreal(self, state: State) -> tuple[float, mpf]:
+        """How many arguments of roots and logarithms are not positive, and how far in sum."""
+        values = self._radicands.where_defined(state)
+        if values is None:
+            return math.inf, mpf(0)
+        below = [-value if is_real(value) else 0 for value in values]
+        below = [x for x in below if x >= 0]
+        return len(below), mpmath.fsum(below)
 
     def _is_regular(self, state: State) -> bool:
         """Whether L and the forces are finite and real there, and no constraint has a kink."""
@@ -357,6 +384,13 @@ def _kinks(forms: Iterable[Expr]) -> list[Expr]:
     """What is 0 where |u| has a kink or sign(u) jumps: a constraint has no gradient there."""
     found = {f.args[0] for form in forms for f in form.atoms(sympy.Abs, sympy.sign)}
     return sorted(found, key=str)
+
+
+def _radicands(formulas: Iterable[Expr]) -> list[Expr]:
+    """What is positive where roots and logarithms are real."""
+    found = {f.args[0] for each in formulas for f in each.atoms(sympy.log)}
+    found |= {p.base for f in formulas for p in f.atoms(sympy.Pow) if not p.exp.is_integer}
+    return sorted((u for u in found if not u.is_number), key=str)
 
 
 def _far(x: mpf) -> bool:

@@ -5,9 +5,13 @@ of the plane); Landau and Lifshitz, *Mechanics*, section 15 (b/r^2 beside a cent
 Avron, Herbst, Simon, Ann. Phys. 114 (1978) 431 (the momentum of two charges in a magnetic field).
 """
 
+import random
+
 import pytest
 
+from lagcli.algebra.numeric import Evaluator
 from lagcli.mechanics.discovery.summary import summary
+from lagcli.mechanics.states import is_real
 from tests.oracle.constancy import digits_of
 
 from .derived import derive
@@ -79,6 +83,32 @@ def test_a_lagrangian_that_is_never_real_has_no_answer(L):
     assert found.stopped == ["no state was found at which the Lagrangian is real"]
     known = summary(found)
     assert (known.independent, known.in_involution, known.integrable) == (None, None, None)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_goldfish_of_any_orientation_have_states(seed):
+    """Calogero, Physica D 152 (2001) 78: L = sum x_i' ln |x_i' prod (x_i - x_k)|."""
+    source = random.Random(seed)
+    letters = "xyzu"[: 2 + seed % 3]
+    terms = []
+    for x in letters:
+        factors = [f"({x} - {y})" if source.random() < 0.5 else f"({y} - {x})"
+                   for y in letters if y != x]  # fmt: skip
+        terms.append(f"{x}'*log({'*'.join([x + chr(39), *factors])})")
+    found = summary(derive(problem(" + ".join(terms), f"[{', '.join(letters)}]")).discovery)
+    assert found.notes == ()
+    assert (found.dimension, found.independent, found.in_involution) == (3, 3, 2)
+
+
+@pytest.mark.parametrize("L", [
+    "(x'^2 + y'^2)/2 - log(x - 5)", "x'^2/2 + y'^2*sqrt(x - y - 7)",
+    "-sqrt(1 - x'^2 - y'^2) + sqrt(x' - y' - 1)", "x'*log(-x') + y'*log(y'*(x - 4))*log(9 - x - y)",
+])  # fmt: skip
+def test_states_are_found_where_roots_and_logarithms_are_real(L):
+    derivation = derive(problem(L))
+    assert not derivation.discovery.stopped
+    evaluate = Evaluator([derivation.system.L])
+    assert all(is_real(evaluate(s)[0]) for s in derivation.dynamics.states.take(8))
 
 
 SPACE = "sqrt(x^2 + y^2 + z^2)"

@@ -132,20 +132,19 @@ class ChargeBrackets:
                     scale = mpf(1) / 3 if x in system.qdot else mpf(width)
                     size = scale * source.randint(2000, 13000) / 10007
                     state[x] = with_assumed_sign(source, x, size, 0.6)
-                for x in place if bad else ():  # close to one at which roots are real
-                    state[x] = (state[x] + 15 * place[x]) / 16
+                near = place or (base if bad % 2 else {})  # where roots and logarithms are real
+                for x in (*system.q, *system.qdot) if bad and near else ():
+                    state[x] = (state[x] + 15 * near[x]) / 16
                 state[system.t] = mpf(source.randint(1000, 9000)) / 10007
-                if not self.dynamics.states.placed(state):
-                    bad += 1
-                    continue
-                sample = self._sample(state)
-                if sample is None:
-                    bad += 1
-                    if bad % _PATIENCE == 0:
-                        self._samples.clear()
-                    continue
-            place = place or {x: state[x] for x in system.q}
-            yield sample
+                sample = self._sample(state) if self.dynamics.states.placed(state) else None
+            if sample is not None:
+                place = place or state
+                yield sample
+                continue
+            bad += 1
+            if bad % _PATIENCE == 0:
+                self._samples.clear()
+                place = {}
 
     def _sample(self, state: State) -> Sample | None:
         """None where there are no real values."""

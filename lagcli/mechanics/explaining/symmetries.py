@@ -279,7 +279,7 @@ def _no_brackets(explainer: Explainer) -> list[Part]:
     if not explainer.derivation.discovery.canonical:
         L = explainer.letters.L
         return ["Forces that are not in ", L, " act, so no Poisson brackets are taken."]
-    return ["The Poisson brackets were not worked out."]
+    return ["How many of the conserved quantities are in involution was not worked out."]
 
 
 def _dimension(found: AlgebraSection) -> Iterator[Block]:
