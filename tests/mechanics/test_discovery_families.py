@@ -579,6 +579,44 @@ def test_what_holds_at_one_value_is_not_listed_for_two():
     assert len(cases) == 2
 
 
+@pytest.mark.parametrize(
+    ("power", "rho", "x"), [("-1/2", 2, "x"), ("1/2", -1, "u"), ("-3/2", 3, "x")]
+)
+def test_a_value_of_an_integral_with_the_time_is_found_alone(power, rho, x):
+    """y'' = F(x) + G(x) y, x'' = c x^p: without a both are of one degree, which is a dilation.
+
+    Drach's potential (l) with p = -1/2: Tsiganov, J. Phys. A 33 (2000) 7407.
+    """
+    L = f"x'*y' - a*(y - {rho}*x/3) - b*x^p - 2*(y - {rho}*x)*x^p".replace("^p", f"^({power})")
+    L = re.sub(r"\bx\b", x, L)
+    derivation = derive(problem(L, f"{{{x}: {POS}, y: {{}}}}", "|a b"))
+    [case] = [c for c in derivation.special_cases if not c.given]
+    assert (str(case.parameter), case.value) == ("a", 0)
+    there = derive(problem(L.replace("a*", "0*"), f"{{{x}: {POS}, y: {{}}}}", "|b")).discovery
+    assert case.number == len(there.charges) == len(derivation.discovery.charges) + 1
+    [charge] = case.charges
+    assert derivation.system.t in charge.charge.free_symbols
+
+
+SURFACES = {  # with what is said of signs: powers that are odd are of another surface
+    "x^2/a^2 + y^2/b^2 + z^2 - 1": {"b"},
+    "x^2/a + y^2/b + z^2 - 1": set(),
+    "a*x^2 + b*y^2 + z^2 - 1": set(),
+    "x^2/a^4 + y^2/b^4 + z^2/3 - 1": {"b"},
+}
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("sign", ["{}", POS])
+@pytest.mark.parametrize("surface", SURFACES)
+def test_a_sign_of_a_parameter_is_exchanged_where_the_constraint_allows_it(surface, sign):
+    given = f"coordinates: [x, y, z]\nparameters: {{a: {sign}, b: {sign}}}\n"
+    derivation = derive(f"{given}L: (x'^2 + y'^2 + z'^2)/2\nconstraints: {{s: {surface}}}\n")
+    assert "a" in {str(c.value) for c in derivation.special_cases}
+    exchanged = {x for x in "ab" if f"of {x} and -{x}, which" in derivation.discovery.ansatz}
+    assert exchanged == (SURFACES[surface] if sign == "{}" else set())
+
+
 @pytest.mark.long
 def test_a_list_of_special_values_is_not_called_whole_without_those_of_quartic_integrals():
     """Grammaticos, Dorizzi, Padjen, Phys. Lett. A 89 (1982) 111: c = 16 and b = 16 a, of degree 4."""

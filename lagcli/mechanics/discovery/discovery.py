@@ -294,23 +294,24 @@ class Discovery(Setting):
             self._say_unproved(integrals.unproved)
             if self.isometries is None and is_gyroscopic(self.equations):
                 self._of_fixed_energy()
+        timed = self.timed(self.time_functions, self.allowed)
+        if timed is not None and timed.functions:
+            self.degree = 2
+            functions = "with the same functions of time in the coefficients"
+            still = self.system.t not in self.equations_symbols
+            self.words.append(f"also {functions}" if still else f"{_SECOND} {functions}")
+            self._keep(timed.found(self.charges))
+            self._say_unproved(timed.unproved)
+
+    def timed(self, times: TimeFunctions, allowed: Allowance) -> TimedIntegrals | None:
+        """The search for integrals of second degree with these functions of time, if there is."""
         in_lengths = not (self.isometries or self.coordinate_kinds.angles)
-        if (self.flat or in_lengths) and TimedIntegrals.apply(self.equations, self.point_charges):
-            timed = TimedIntegrals(
-                self.noether,
-                self.equations,
-                self.centred_kinds,
-                self.time_functions,
-                self.flat,
-                self.allowed,
-            )
-            if timed.functions:
-                self.degree = 2
-                functions = "with the same functions of time in the coefficients"
-                still = self.system.t not in self.equations_symbols
-                self.words.append(f"also {functions}" if still else f"{_SECOND} {functions}")
-                self._keep(timed.found(self.charges))
-                self._say_unproved(timed.unproved)
+        if not (self.flat or in_lengths):
+            return None
+        if not TimedIntegrals.apply(self.equations, self.point_charges):
+            return None
+        kinds = self.centred_kinds
+        return TimedIntegrals(self.noether, self.equations, kinds, times, self.flat, allowed)
 
     def _of_higher_degree(self) -> None:
         """Those of third degree beyond the known, and of fourth while fewer than n commute.
@@ -453,5 +454,5 @@ def _timed(times: TimeFunctions) -> str:
     if times.exponents:
         timed += " and with the exponents of the linear part"
     if times.changing:
-        timed += " and with the solutions of the linear equation"
+        timed += " and with the solutions of the linear part of the equations of motion"
     return timed + (" and with the functions of time of the driving" if times.forced else "")

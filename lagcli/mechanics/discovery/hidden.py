@@ -100,6 +100,11 @@ class QuadraticIntegrals:
         return quadratic(kinds, most) if self.own is None else up_to_second_degree(self.X, most)
 
     @property
+    def size(self) -> int:
+        """The number of unknowns, but for the terms of a field."""
+        return len(self.functions) * len(self.times) * (len(self.pairs) + len(self.linear))
+
+    @property
     def words(self) -> str:
         """The functions f."""
         if self.curved:

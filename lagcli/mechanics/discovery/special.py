@@ -62,25 +62,35 @@ class SpecialCase:
 
 
 def candidates(
-    system: System, factors: Sequence[Expr], exponents: Sequence[Exponent], ratios: Sequence[int]
+    dynamics: Dynamics,
+    factors: Sequence[Expr],
+    exponents: Sequence[Exponent],
+    ratios: Sequence[int],
 ) -> list[Value]:
     """Each once: roots of the factors, and exponents with frequencies in these ratios."""
-    found: dict[Value, None] = {}
+    parameters, found = dynamics.system.parameters, dict[Value, None]()
     for factor in factors:
-        found |= dict.fromkeys(_solved(factor, system.parameters))
-    found |= dict.fromkeys(_commensurate(system.parameters, exponents, ratios))
+        found |= dict.fromkeys(_solved(factor, parameters))
+    found |= dict.fromkeys(_commensurate(parameters, exponents, ratios))
     return [
         (parameter, value)
         for parameter, value in found
         if not (value.free_symbols and value.could_extract_minus_sign())
         or (parameter, -value) not in found
-        or not is_reflected(system, parameter)
+        or not is_reflected(dynamics, (parameter, value))
     ]
 
 
-def is_reflected(system: System, parameter: Symbol) -> bool:
-    """Whether -p for p is the same system with some axes, or the time, turned round."""
+def is_reflected(dynamics: Dynamics, value: Value) -> bool:
+    """Whether -p for p is the same system with some axes, or the time, turned round.
+
+    False where the parameter may not have the other sign.
+    """
+    system, (parameter, there) = dynamics.system, value
+    if not _admissible(parameter, -there):
+        return False
     formulas = [system.L, *system.applied_forces]
+    held = [e.f for e in dynamics.constraints.equations]
     for time, *axes in product((1, -1), repeat=1 + len(system.q)):
         moving = zip(axes, system.q, system.qdot, strict=True)
         images = {x: y for s, q, v in moving for x, y in ((q, s * q), (v, s * time * v))}
@@ -88,7 +98,7 @@ def is_reflected(system: System, parameter: Symbol) -> bool:
         if all(
             is_zero(s * f.xreplace(images) - f) is True
             for s, f in zip((1, *axes), formulas, strict=True)
-        ):
+        ) and all(any(is_zero(f.xreplace(images) - s * f) is True for s in (1, -1)) for f in held):
             return True
     return False
 
@@ -364,15 +374,16 @@ def _time_factor(term: Expr, t: Symbol) -> tuple[Expr, Expr] | None:
 
 
 def resonant_waves(functions: Sequence[Expr], rest: Expr, q: Sequence[Symbol]) -> Iterator[Expr]:
-    """What vanishes where cos(c q) of flat coordinates, or a product of two, is a wave of L.
+    """What vanishes where cos(c q) of flat coordinates is a wave of L, or one of both its square.
 
     The ansatz takes both for independent: r cos(c theta) beside cos(theta) in a swinging Atwood
-    machine, where 4 c^2 = 1 at M = 3 m.
+    machine, where 4 c^2 = 1 at M = 3 m, and the half angles of parabolic coordinates.
     """
     own, given = (_wave_numbers(each, q) for each in (functions, (rest,)))
     for x, c in own:
         for d in (d for y, d in given if y == x and not (c / d).is_number):
-            yield from (sympy.numer(sympy.together(k**2 * c**2 - d**2)) for k in (1, 2))
+            for k, m in ((1, 1), (2, 1), (1, 2)):
+                yield sympy.numer(sympy.together((k * c) ** 2 - (m * d) ** 2))
 
 
 def powers_of_length(X: Expr, rest: Expr, x: Symbol) -> Iterator[Expr]:

@@ -137,9 +137,13 @@ def special_cases(
         discovery.words.append(_NOT_ALL)
     listed = dict.fromkeys((case.parameter, case.value) for case in found)
     for p, value in listed:
-        if value.free_symbols and (p, -value) not in listed and is_reflected(system, p):
+        if (
+            value.free_symbols
+            and (p, -value) not in listed
+            and is_reflected(searched.dynamics, (p, value))
+        ):
             discovery.words.append(f"of {p} and -{p}, which a reflection exchanges, one is named")
-    if found and searched.degree > 2:  # the values come from the searches up to second degree
+    if searched.degree > 2:  # the values come from the searches up to second degree
         discovery.words.append(_NOT_ALL)
     return tuple(found)
 
@@ -172,7 +176,7 @@ def _to_try(
         factors += system.parameters  # a term less: linear, with functions of time
     # without charges with these functions of time only those of a frame may be alike
     ratios = _RATIOS if _is_timed(searched) else (1,)
-    values = candidates(system, factors, exponents, ratios)
+    values = candidates(searched.dynamics, factors, exponents, ratios)
     both = inertia if searched.quadratic_mass else system.parameters
     together += both_missing(values, both, system, at_rest)
     if searched.accelerations:
@@ -337,6 +341,14 @@ def _searches(discovery: Discovery, allowed: Allowance) -> Iterator[Search | Non
     integrals = QuadraticIntegrals(
         discovery.noether, equations, discovery.centred_kinds, allowed, discovery.isometries
     )
-    size = len(integrals.functions) * (len(integrals.pairs) + len(integrals.linear))
-    if size and t not in discovery.equations_symbols:
-        yield integrals.search(()) if size <= _MOST_UNKNOWNS else None
+    if integrals.size and t not in discovery.equations_symbols:
+        yield integrals.search(()) if integrals.size <= _MOST_UNKNOWNS else None
+    for highest in (2, 1):  # t suffices without time in the equations: with Q, dQ/dt of t^2 is one
+        own = tuple(t**k for k in range(highest + 1))
+        timed = discovery.timed(TimeFunctions(own, own, ()), allowed)
+        if timed is None or not timed.functions:
+            return
+        few = timed.size <= _MOST_UNKNOWNS
+        if few or highest == 1:
+            yield timed.search(()) if few else None
+            return
