@@ -62,6 +62,7 @@ class Multiples:
         self.field = field
         self.kind = kind
         self.base = base  # of a power
+        self.most = _MAX_POWER if kind in ("exp", "power") else MAX_MULTIPLE
         self._unit: dict[Expr, Fraction] = {}  # base argument -> N: the generator is of argument/N
         self._generators: dict[tuple[Expr, Fraction], int] = {}
         self._prepared: list[dict[Expr, Fraction]] = []  # multiples by base argument
@@ -142,7 +143,7 @@ class Multiples:
                 self._unit[base] = unit
             multiplier = scaled.numerator
             part = base / Rational(unit)
-            if abs(multiplier) > (_MAX_POWER if self.kind in ("exp", "power") else MAX_MULTIPLE):
+            if abs(multiplier) > self.most:
                 self.field.doubtful = True
                 part, multiplier = abs(multiplier) * part, 1 if multiplier > 0 else -1
                 yield multiplier, self._generator(part, Fraction(1))
@@ -189,7 +190,7 @@ class Multiples:
         field = self.field
         cosine, sine = field.rational(1), field.rational(0)
         parts = split(field, argument)
-        if sum(abs(multiple) for multiple, _ in parts) > MAX_MULTIPLE:
+        if sum(abs(multiple) for multiple, _ in parts) > self.most:
             # expanded, it would be longer than anyone wants to see
             field.doubtful = True
             number = parts[0][0]

@@ -331,6 +331,31 @@ def test_a_swinging_atwood_machine_is_special_at_three_to_one(names, n):
     assert relation.subs(named[M], 3 * named[m]).expand() == 0
 
 
+@pytest.mark.long
+@pytest.mark.parametrize(("U", "n", "found"), [
+    ("-1/r", "1/2", {"1": 3}), ("-1/r", "3/2", {"1/3": 3}), ("-1/r", "2", {"1/4": 3}),
+    ("w^2*r^2", "1", {"1": 7, "1/2": 6}), ("w^2*r^2", "1/3", {"3": 7, "3/2": 6}),
+])  # fmt: skip
+def test_waves_of_half_the_angle_are_special(U, n, found):
+    """2/cos^2 + 3/sin^2 of n k phi: Smorodinsky and Winternitz at k n = 1/2 (parabolic) and 1.
+
+    Beside Kepler's force there is an integral at 1/2, with the energy and that of the angle; the
+    oscillator has three more with its conformal ones, at 1/2 two with the time, at 1 three.
+    """
+    V = f"{U} + (2/cos({n}*k*phi)^2 + 3/sin({n}*k*phi)^2)/r^2"
+    text = problem(f"(r'^2 + r^2*phi'^2)/2 - ({V})", f"{{r: {POS}, phi: {{}}}}", "k w")
+    cases = derive(text).special_cases
+    assert {str(c.value): c.number for c in cases if not c.given} == found
+
+
+@pytest.mark.parametrize("n", [6, 7, 20])
+def test_an_angle_many_times_leaves_the_energy(n):
+    text = problem(
+        f"(r'^2 + r^2*phi'^2)/2 + 1/r - 1/(r*cos({n}*phi))^2", f"{{r: {POS}, phi: {{}}}}"
+    )
+    assert [c.name for c in derive(text).discovery.charges] == ["energy", "L_z_squared"]
+
+
 @pytest.mark.parametrize("n", [2, 3])
 def test_a_saddle_on_a_cone_is_special_where_the_cone_is_a_plane(n):
     """V = k (x² - y²) of a plane with phi = n psi: energies of x and y, and four waves, 6."""

@@ -22,6 +22,7 @@ from lagcli.mechanics.discovery.modular import (
 )
 from lagcli.platform.effort import EFFORT
 
+_MOST_MULTIPLE = 48  # nothing is printed: 12 phi beside 6 phi, and phi of the ansatz
 _BAD_POINTS = 50  # as of the search: half of them for each square root
 
 #: The value of a node from those of its parts, and the point.
@@ -44,7 +45,8 @@ class Tree:
     ) -> None:
         self.allowed = allowed
         leaves = _leaves(expressions)
-        self.field = Field(leaves)
+        self.field = Field(leaves, closed=True)
+        self.field.circular.most = _MOST_MULTIPLE
         elements = {}
         for leaf in leaves:
             allowed.check()
