@@ -143,6 +143,33 @@ def test_an_energy_is_damped_where_its_factor_grows(c, name):
     assert name in {charge.name for charge in derive(text).discovery.charges}
 
 
+@pytest.mark.parametrize(("letters", "drag", "rate"), [("xy", "B", 2), ("x", "3*B", 6)])
+def test_a_kinetic_energy_that_a_drag_takes_is_no_conformal_charge(letters, drag, rate):
+    given = text_of(letters, f"m*({kinetic(letters)})", "m B")
+    loss = f'"{drag}*({kinetic(letters)})"'
+    derivation = derive(given.rstrip().removesuffix("}") + f", dissipation: {loss}}}")
+    found = {c.name: c.charge for c in derivation.discovery.charges}["damped_energy"]
+    m, B = derivation.system.parameters
+    wanted = sympy.exp(rate * B * derivation.system.t / m)
+    ratio = sympy.simplify(found / wanted / sympy.Add(*(v**2 for v in derivation.system.qdot)))
+    assert not ratio.free_symbols - {m}
+
+
+@pytest.mark.parametrize(
+    "V", ["a/u", "a*(4*u^2 + v^2)/u + B/u", "a/(u*v^2) - B/u", "(a + B*v^2)/u"]
+)
+def test_no_charge_has_a_constant_of_its_own(V):
+    """Of Darboux's first surface, where K and V u have constants: u (u'^2 + v'^2)."""
+    text = (f"{{coordinates: {{u: {POS}, v: {POS}}}, parameters: {{a: {POS}, B: {{}}}}, "
+            f'L: "u*(u\'^2 + v\'^2) - ({V})"}}')  # fmt: skip
+    derivation = derive(text)
+    system = derivation.system
+    for charge in derivation.discovery.charges:
+        terms = sympy.Add.make_args(sympy.expand(charge.charge))
+        assert all(x.free_symbols & {*system.q, *system.qdot} for x in terms)
+    assert min(digits_of(derivation).values()) > 20
+
+
 def test_the_energy_in_an_expanding_space_is_no_damped_one():
     text = text_of("x", "-a*sqrt(1 - exp(2*B*t)*x'^2)", "a B")
     names = [charge.name for charge in derive(text).discovery.charges]

@@ -13,6 +13,7 @@ from lagcli.mechanics.constraints import ConstraintEquation
 from lagcli.mechanics.discovery.cartesian import Cartesian
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.names import Naming, distinct
+from lagcli.mechanics.discovery.point import is_energy
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
 from lagcli.record import replace
@@ -45,7 +46,8 @@ class Listing:
 
     def add(self, charges: Iterable[NoetherCharge]) -> None:
         """Name charges of point symmetries, and sort all of them anew."""
-        self._found += [self._named(charge) for charge in filter(self._lasts, charges)]
+        kept = map(self._without_constant, filter(self._lasts, charges))
+        self._found += [self._named(charge) for charge in kept]
         self._found.sort(key=lambda pair: rank_of(pair[0]))
         names = distinct([shown(name, charge) for name, charge in self._found])
         self.points = tuple(
@@ -69,7 +71,7 @@ class Listing:
 
     def add_hidden(self, named: Iterable[tuple[str, NoetherCharge]]) -> None:
         """Other charges, with the names that they have, if any, made to differ."""
-        kept = [each for each in named if self._lasts(each[1])]
+        kept = [(x, self._without_constant(each)) for x, each in named if self._lasts(each)]
         names = distinct([*self._names, *(name for name, _ in kept)])[len(self._names) :]
         self.hidden += tuple(
             replace(charge, name=name) for name, (_, charge) in zip(names, kept, strict=True)
@@ -78,6 +80,17 @@ class Listing:
     def _lasts(self, charge: NoetherCharge) -> bool:
         """Whether it is constant also where the argument of a sign passes 0."""
         return self._system.is_continuous and is_continuous(charge.charge)
+
+    def _without_constant(self, charge: NoetherCharge) -> NoetherCharge:
+        """Without a constant that G brings into Q."""
+        moving = (self._system.t, *self._system.q, *self._system.qdot)
+        gauge = sympy.expand(charge.gauge or sympy.S.Zero)
+        constant = gauge.as_independent(*moving, as_Add=True)[0]
+        if constant == 0:
+            return charge
+        sign = -1 if is_energy(charge.transformation) else 1  # of h + G
+        Q = sympy.expand(charge.charge + sign * constant)
+        return replace(charge, gauge=gauge - constant, charge=Q)
 
     def _named(self, charge: NoetherCharge) -> tuple[str, NoetherCharge]:
         given = charge.transformation

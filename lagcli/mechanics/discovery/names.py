@@ -112,8 +112,8 @@ class Naming:
             steady = set(self.q).isdisjoint(sympy.Tuple(*moved.values()).free_symbols)
             named = "moving_energy" if steady else "damped_energy" if self._shrinks(moved) else ""
             return named if moved else "energy"
-        if self._grows(tau):
-            return "conformal_exp"
+        if self._grows(tau):  # exp(2 c t/m) T under a drag
+            return "conformal_exp" if moved else "damped_energy"
         turns = self._turning(tau)
         if len(turns) == 1:
             return f"conformal_{turns.pop().func.__name__}"
@@ -300,7 +300,8 @@ class Naming:
             slope = moved[other].diff(one)  # of y_2 by x_1: the other particle's is opposite
             backward = not slope.could_extract_minus_sign()
             return sympy.S.NegativeOne if backward != (name[2] == "y") else sympy.S.One
-        if name in ("moving_energy", "damped_energy", "energy_exp") and moved:
+        plain = charge.transformation.time == 1 and not moved
+        if name in ("moving_energy", "damped_energy", "energy_exp") and not plain:
             return sympy.S.NegativeOne  # p.xi - h tau: the textbook's is h
         name = name.removesuffix(MOVING)
         if name not in ("L_x", "L_y", "L_z", "L_1", "L_2"):
