@@ -474,3 +474,44 @@ def test_a_constant_beside_an_angular_momentum_changes_no_name(seed):
         found = None if structure is None else name_of(structure)
         assert (found or "").startswith(name or "")
         assert (name is None) == (found is None)
+
+
+# coordinates about an axis: names, m beside its factor, T/m, and x, y, z by them
+ABOUT_AN_AXIS = {
+    "prolate": (
+        "u v f", "a^2*((u^2 - v^2)*(u'^2/(u^2 - 1) + v'^2/(1 - v^2)) + (u^2 - 1)*(1 - v^2)*f'^2)/2",
+        ("a*sqrt((u^2 - 1)*(1 - v^2))*cos(f)", "a*sqrt((u^2 - 1)*(1 - v^2))*sin(f)", "a*u*v")),
+    "parabolic": (
+        "u v f", "((u^2 + v^2)*(u'^2 + v'^2) + u^2*v^2*f'^2)/2",
+        ("u*v*cos(f)", "u*v*sin(f)", "(u^2 - v^2)/2")),
+    "oblate": (
+        "u v f", "a^2*((sinh(u)^2 + sin(v)^2)*(u'^2 + v'^2) + cosh(u)^2*cos(v)^2*f'^2)/2",
+        ("a*cosh(u)*cos(v)*cos(f)", "a*cosh(u)*cos(v)*sin(f)", "a*sinh(u)*sin(v)")),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ABOUT_AN_AXIS)
+def test_momenta_about_an_axis_are_those_of_cartesian_coordinates(name):
+    """m X', m (X Y' - Y X') and m (t X' - X) of the axes x, y, z, in numbers at two states."""
+    coordinates, T, axes = ABOUT_AN_AXIS[name]
+    derivation = derive(
+        f"{{coordinates: [{', '.join(coordinates.split())}], "
+        f'parameters: {{m: {POS}, a: {POS}}}, T: "m*({T})"}}'
+    )
+    system = derivation.system
+    X = dict(zip("xyz", (system.build(parse_text(each)) for each in axes), strict=True))
+    V = {k: system.total_derivative(f) for k, f in X.items()}
+    m, t = next(p for p in system.parameters if p.name == "m"), system.t
+    expected = {f"p_{k}": m * V[k] for k in "xyz"} | {
+        f"boost_{k}": m * (t * V[k] - X[k]) for k in "xyz"
+    }
+    expected |= {f"L_{i}": m * (X[j] * V[k] - X[k] * V[j]) for i, j, k in ("xyz", "yzx")}
+    found = {c.name: c.charge for c in derivation.discovery.charges}
+    assert {*expected} <= {*found}
+    for sizes in ("19/8 3/7 4/5 1/3 2/7 5/9", "13/8 2/7 9/5 2/3 1/7 7/9"):
+        numbers = dict(
+            zip((*system.q, *system.qdot), map(sympy.Rational, sizes.split()), strict=True)
+        )
+        at = numbers | dict.fromkeys((*system.parameters, t), sympy.Rational(6, 5))
+        for key, formula in expected.items():
+            assert abs((found[key] - formula).subs(at).evalf(30)) < 1e-20

@@ -9,6 +9,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, is_zero, simplify
+from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.slots import SlotEquations
 
@@ -47,6 +48,30 @@ def cartesian(kinds: Kinds, equations: SlotEquations) -> Cartesian | None:
     choices = [(whole[0] + curved[0], curved[1] + whole[1]), *([curved] if curved[0] else [])]
     made = (_of_one_mass(q, functions, equations) for q, functions in choices)
     return next((each for each in made if each is not None), None)
+
+
+def about_an_axis(
+    X: Sequence[Expr], inertia: Sequence[Expr], q: Sequence[Symbol]
+) -> Cartesian | None:
+    """x and y with the cosine and the sine of one coordinate, z without it; else None.
+
+    They are X_a sqrt(m_a) to a common factor, of which the squares of parameters are taken out: in
+    prolate coordinates m a^2 is the inertia of x/a.
+    """
+    for phi in q if len(X) == 3 else ():
+        alike = [[k for k, f in enumerate(X) if f.has(g(phi))] for g in (sympy.cos, sympy.sin)]
+        rest = [k for k, f in enumerate(X) if free_of(f, [phi])]
+        places = [*alike[0], *alike[1], *rest]
+        if sorted(places) != [0, 1, 2] or not len(alike[0]) == len(alike[1]) == 1:
+            continue
+        m = inertia[places[0]]
+        powers = (f.as_base_exp() for f in sympy.Mul.make_args(m))
+        squares = sympy.Mul(*(b ** (e // 2) for b, e in powers if e.is_Integer))
+        scales = [squares * sympy.sqrt(simplify(inertia[k] / m)) for k in places]
+        functions = [scale * X[k] for scale, k in zip(scales, places, strict=True)]
+        if all(scale.is_rational_function(*scale.free_symbols) for scale in scales):
+            return Cartesian(tuple(q), ("x", "y", "z"), tuple(functions), m / squares**2)
+    return None
 
 
 def _of_radius(kinds: Kinds, equations: SlotEquations) -> tuple[tuple[Symbol, ...], Functions]:

@@ -118,6 +118,11 @@ class Isometries:
         return sympy.Matrix([[simplify(dot(D, low)) for low in lowered] for D in self._gradients])
 
     @property
+    def inertia(self) -> list[Expr]:
+        """m_a of T = sum m_a X_a'^2/2; none where the X_a are not at right angles."""
+        return [1 / k for k in self._gram.diagonal()] if self._gram.is_diagonal() else []
+
+    @property
     def what_they_are(self) -> str:
         """The X_a of a flat space as what stands before them in a sentence."""
         if len(self.functions) == 1:

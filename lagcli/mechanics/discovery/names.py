@@ -11,6 +11,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.cartesian import Cartesian
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.noether import NoetherCharge
@@ -66,18 +67,20 @@ class Naming:
         named = components.items()
         return {Symbol(name, real=True): change for name, change in named if change != 0}
 
-    def _turned(self, components: Mapping[str, Expr], xi: Sequence[Expr]) -> tuple[str, int] | None:
-        """The axis of a rotation about the origin, with its sign, unless it moves one angle."""
+    def _turned(
+        self, components: Mapping[str, Expr], xi: Sequence[Expr]
+    ) -> tuple[str, Expr] | None:
+        """The axis of a rotation about the origin, with its rate, unless it moves one angle."""
         if self.cartesian is None or set(components) != set(AXES.values()):
             return None
         if sum(e != 0 for e in xi) < 2:
             return None
         X = dict(zip(self.cartesian.names, self.cartesian.X, strict=True))
         for axis, y, z in ("xyz", "yzx", "zxy"):
-            for sign in (1, -1) if components[axis] == 0 else ():
-                apart = components[y] + sign * X[z], components[z] - sign * X[y]
-                if all(is_zero(e) is True for e in apart):
-                    return axis, sign
+            rate = simplify(components[z] / X[y]) if components[axis] == 0 else sympy.S.Zero
+            fixed = rate != 0 and free_of(rate, [self.t, *self.q])
+            if fixed and is_zero(components[y] + rate * X[z]) is True:
+                return axis, rate
         return None
 
     def _drift(self, change: Expr) -> Expr:
@@ -166,6 +169,8 @@ class Naming:
         return all(not sympy.cancel(e / function).has(self.t) for e in moved.values())
 
     def _rotation(self, moved: Mapping[Symbol, Expr]) -> str:
+        if name := self._rotation_of_body(moved):
+            return name
         if set(moved) & set(self.kinds.angles) or not moved:
             return self._rotation_of_sphere(moved)
         planes = set()
@@ -190,6 +195,18 @@ class Naming:
             kind = "angular_momentum" if whole else "rotation"  # m_1 m_2 (x y' - y x')
             return f"{kind}_{one.name}_{other.name}"
         return "angular_momentum" if whole and len(moved) == len(self.q) else ""
+
+    def _rotation_of_body(self, moved: Mapping[Symbol, Expr]) -> str:
+        """Of two of x, y and z, and of the angles of a body with them."""
+        places = {x: e for x, e in moved.items() if x.name in "xyz" and abs(e) in map(abs, moved)}
+        turned = {x: e for x, e in moved.items() if x not in places}
+        if len(places) != 2 or not turned or not {*turned} <= {*self.kinds.angles}:
+            return ""
+        (x, one), (y, other) = places.items()
+        inside = sympy.Tuple(*turned.values()).free_symbols
+        if (one, other) not in ((y, -x), (-y, x)) or inside & {x, y}:
+            return ""
+        return f"L_{AXES[''.join(sorted((x.name, y.name)))]}"
 
     def of_relative(self, charge: Expr, xi: Sequence[Expr], v: Sequence[Symbol]) -> str:
         """L of two particles about their centre of mass: linear in p, of differences alone.
@@ -293,8 +310,11 @@ class Naming:
         moved = {x: change for x, change in zip(self.q, xi, strict=True) if change != 0}
         components = self._displacement(xi)
         if charge.transformation.time == 0 and (along := self._carried(components)):
-            backward = next(iter(along.values())).could_extract_minus_sign()
-            return sympy.S.NegativeOne if backward else sympy.S.One
+            first = next(iter(along.values()))
+            rate = first.as_independent(self.t, as_Add=False)[0]
+            if len(along) == 1:
+                return 1 / rate
+            return sympy.S.NegativeOne if first.could_extract_minus_sign() else sympy.S.One
         if name.startswith("L_") and name.endswith("_relative"):
             one, *_, other = sorted(moved, key=lambda x: x.name)
             slope = moved[other].diff(one)  # of y_2 by x_1: the other particle's is opposite
@@ -307,8 +327,8 @@ class Naming:
         if name not in ("L_x", "L_y", "L_z", "L_1", "L_2"):
             return sympy.S.One
         if turned := self._turned(components, xi):
-            right = turned[1] > 0
-        elif tilt := self._tilt(moved):
+            return 1 / turned[1]
+        if tilt := self._tilt(moved):
             right = bool(tilt.could_extract_minus_sign()) == (name == "L_2")
         elif sphere := self._sphere(moved):
             at = dict.fromkeys(sphere, sympy.pi / 4)  # -cot(theta), or -tan of a latitude

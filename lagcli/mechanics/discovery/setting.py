@@ -15,7 +15,7 @@ from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.row_rank import rank
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, time_functions
-from lagcli.mechanics.discovery.cartesian import cartesian
+from lagcli.mechanics.discovery.cartesian import about_an_axis, cartesian
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.isometries import Isometries, are_beyond
 from lagcli.mechanics.discovery.killing_fields import KillingFields
@@ -58,7 +58,10 @@ class Setting:
         """The charges that were found, with their names."""
         kinds = self.coordinate_kinds
         constraints = self.dynamics.constraints.equations
-        return Listing(self.system, constraints, kinds, cartesian(kinds, self.equations))
+        axes = cartesian(kinds, self.equations)
+        if axes is None and self.flat is not None and self.flat.inertia:
+            axes = about_an_axis(self.flat.functions, self.flat.inertia, self.system.q)
+        return Listing(self.system, constraints, kinds, axes)
 
     @property
     def point_charges(self) -> tuple[NoetherCharge, ...]:
