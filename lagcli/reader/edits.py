@@ -37,8 +37,6 @@ _LINE = regex(r"\s*(?:[^\s:{\[][^:{\[]*:\s+)?")
 _BLANKS = "  "
 #: What a comma has cut off a value in braces.
 _CUT = regex(r"(?:\s*,\s*[^,{}\[\]:\n]+)+(?=\s*[,}])")
-#: A line with those that are indented as it is, or more, up to the next key of the problem.
-_ALIKE = regex(rf"(\s*)\S.*\n?(?:\1(?!(?:{'|'.join(KEYS)}):)\s*\S.*\n?)*")
 
 
 class Edit(NamedTuple):
@@ -203,11 +201,6 @@ def _moved(mistake: Diagnostic, end: int, text: SourceText) -> list[Edit]:
     ):
         lines = [line, *map(int, re.findall(r"\d+", hint))]
         return [Edit(at, at, _BLANKS) for at in (text.line_starts[each - 1] for each in lines)]
-    if hint in {"begin the line with blanks", "begin the line with more blanks"}:
-        alike = _ALIKE.match(written[begin:])
-        inner = alike[0].rstrip("\n") if alike else ""
-        whole = re.sub(r"^(?=.)", _BLANKS, inner, flags=re.MULTILINE)
-        return [Edit(begin, begin + len(inner), whole)]
     if hint == "leave out the '-' before each key":
         inner = written[begin:end]
         whole = re.sub(r"^(\s*)-( +)(?=[^\W\d][\w']*:)", r"\1 \2", inner, flags=re.MULTILINE)

@@ -230,18 +230,17 @@ def _formula_of(
     inner = {each.label: value for each, value in getattr(node, "entries", ())}
     value = inner.get("value", node) if section == "parameters" else node
     text = value.value if isinstance(value, Scalar) else ""
-    names = {*re.findall(r"[^\W\d]\w*", text)}
+    called = CALLED.fullmatch(key.label)
+    key = replace(key, value=called[1]) if called else key
     if not re.search(r"[-+*/^(']", text) or formula_or_none(text) is None:
         return None
     if section == "functions":
-        called = CALLED.fullmatch(key.label)
         is_open = called and not {*re.split(r"\s*,\s*", called[2])} <= known
-        name = called[1] if called else key.label
         listed = re.fullmatch(r"(\w*)\(\s*[\w, ]+?\s*\)", text)  # U: U(r)
         is_list = listed is not None and listed[1] not in FUNCTIONS
-        return None if is_open or is_list else (replace(key, value=name), value)
-    is_name = key.label.isidentifier() and key.label not in coordinates
-    if not is_name or not names & {*coordinates, "t"}:
+        return None if is_open or is_list else (key, value)
+    moves = {*re.findall(r"[^\W\d]\w*", text)} & {*coordinates, "t"}
+    if not moves or not key.label.isidentifier() or key.label in coordinates:
         return None
     return None if unit_behind(text.replace("*", " ", 1)) else (key, value)  # 9.81*m/s^2
 

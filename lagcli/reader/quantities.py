@@ -54,7 +54,6 @@ _NUMBER_WITH_WORDS = regex(
 _WORDS = regex(r"[^\W\d_]{4,}(?: [^\W\d_]+)*")
 #: `G M` and `G*M` before a value, the name GM.
 _PRODUCT = regex(r"^[^\W\d](?:[ *][^\W\d])+(?=\s*[=:])")
-_OF_TIME = regex(r"(\w+)\(t\)")
 _ONE_NAME = regex(r"write (\w+)(?:, without .*)?")
 _ASSUMED = ("assume", "value")
 
@@ -274,11 +273,6 @@ def _declared(
             missing = "blank" if broken[2] == ":" else "':'"
             file.error(f"a {missing} is missing behind '{broken[1]}'", key.span, f"write {whole}")
             file.scope.refused.append(broken[1])
-        elif (of_time := _OF_TIME.fullmatch(key.label)) and isinstance(value, Scalar):
-            whole = f"write definitions: {{{of_time[1]}: {value.value}}}"
-            hint = f"a function of time is a formula: {whole}, and {of_time[1]} where it is used"
-            file.error(f"'{key.label}' is not a constant", key.span, hint)
-            file.scope.refused.append(of_time[1])
         elif section == "parameters" and (better := _without_primes(file, key)):
             hint = f"write {better}: a prime is a velocity"
             file.error(f"'{key.label}' is not a name", key.span, hint)

@@ -43,7 +43,9 @@ _OTHER_KEY = regex(
 )
 _NAME = regex(r"unknown name '(\w+)' in (.*)")
 #: Of a name that is declared in a wrong way, and what follows from it.
-_CAUSE = regex(r"the (?:definition|arguments) of '(\w+)'|([\w, ]+) (?:is|are) not (?:a )?function")
+_CAUSE = regex(
+    r"the (?:definition|arguments) of '(\w+)'|([\w, ]+) (?:is|are) not (?:a )?(?:func|param)"
+)
 _USE = regex(r"unknown name '(\w+)' in |(\w+) is a definition, not a function")
 
 
@@ -130,17 +132,14 @@ def one_for_shapes(
     if not found[1:]:
         return tuple(diagnostics)
     listed = ", ".join(name for _, name in found[:-1])
-    wholes = [each.hint.removeprefix("write ") for each, _ in found]
-    wholes = [each if each[:1] in "[{" else f"{{{each}}}" for each in wholes]
-    first, *others = (f"write {each}" for each in wholes)
-    lines = [
-        f"in line {each.span.line} {x}" for (each, _), x in zip(found[1:], others, strict=True)
-    ]
+    told = (x.hint if x.hint[6] in "[{" else f"write {{{x.hint[6:]}}}" for x, _ in found)
+    lines = [f"in line {x.span.line} {hint}" for (x, _), hint in zip(found, told, strict=True)]
     message = f"{listed} and {found[-1][1]} must be lists or maps"
-    whole = replace(found[0][0], message=message, hint="; ".join([first, *lines]))
-    gone = [each for each, _ in found[1:]]
+    hint = re.sub("^in line \\d+ ", "", "; ".join(lines))
+    whole = replace(found[0][0], message=message, hint=hint)
+    gone = {id(each) for each, _ in found[1:]}
     kept = (whole if each is found[0][0] else each for each in diagnostics)
-    return tuple(each for each in kept if all(each is not other for other in gone))
+    return tuple(each for each in kept if id(each) not in gone)
 
 
 def one_for_habit(

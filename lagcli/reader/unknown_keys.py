@@ -333,8 +333,7 @@ def _answer_meant(word: str, written: str, scope: Scope) -> str:
 def _state_meant(key: Scalar, written: str, around: Mapping) -> str:
     """`write initial: {x: 1}` for an entry `x(0): 1`; nothing for others."""
     coordinates = _coordinates(around)
-    source = around.text.source.text
-    rest = source[: key.start] + source[key.end :]
+    rest = _elsewhere(key, key.end, around)
     rate, _, value = written.partition("=")  # velocity: x' = 3
     label, written = (rate.strip(), value.strip()) if "'" in rate else (key.label, written)
     is_used = label not in coordinates and re.search(rf"(?<!\w){re.escape(label)}(?!\w)", rest)
@@ -397,25 +396,25 @@ def _outer(key: Scalar, value: DocumentNode, names: tuple[str, ...]) -> str:
     return f"a key of the problem: write {outer}: {source_of(value)} on a line of its own"
 
 
+def _elsewhere(key: Scalar, end: int, around: Mapping) -> str:
+    """The text of the file without an entry."""
+    text = around.text.source.text
+    return text[: key.start] + text[end:]
+
+
 def _is_named(key: Scalar, value: DocumentNode, around: Mapping) -> bool:
     """Whether the word for a key stands in other formulas of the file."""
-    text = around.text.source.text
-    elsewhere = text[: key.start] + text[value.end :]
-    return re.search(rf"[-+*/^(=:]\s*{re.escape(key.label)}(?!\w|\s*:)", elsewhere) is not None
+    form = rf"[-+*/^(=:]\s*{re.escape(key.label)}(?!\w|\s*:)"
+    return re.search(form, _elsewhere(key, value.end, around)) is not None
 
 
 def _is_used(key: Scalar, value: DocumentNode, around: Mapping) -> bool:
     """Whether an entry is the formula of a name that stands in other formulas of the file."""
     if not re.fullmatch(r"[^\W\d]\w*", key.label) or not isinstance(value, Scalar):
         return False
-    if value.is_empty:
-        return False
-    text = around.text.source.text
-    elsewhere = text[: key.start] + text[value.end :]
-    name = re.escape(key.label)
-    used = re.search(rf"(?<![\w.])d?{name}(?:[²³]|dot|_dot|(?!\w|\s*[:,\]])|(?=/dt))", elsewhere)
+    used = rf"(?<![\w.])d?{key.label}(?:[²³]|dot|_dot|(?!\w|\s*[:,\]])|(?=/dt))"
     is_formula = re.search(r"[-−+*/^(√]|[^\W\d]\s[^\W\d]", value.value) and "=" not in value.value
-    return used is not None and is_formula is not None
+    return bool(is_formula) and re.search(used, _elsewhere(key, value.end, around)) is not None
 
 
 def _counted(advice: str, word: str, value: str) -> str:
