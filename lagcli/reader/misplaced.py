@@ -199,11 +199,15 @@ def _with_definitions(
         return root, []
     keys = [key for key, _ in found]
     named = ", ".join(f"{key.label}: {source_of(value)}" for key, value in found)
-    listed = f"{', '.join(key.label for key in keys)} {'are' if keys[1:] else 'is'} not"
-    what = "it changes with time" if section == "parameters" else "it has a formula"
-    message = f"{listed} a {section[:-1]}: {what}"
-    if keys[1:]:
-        message = f"{listed} {section}: {what.replace('it ', 'they ').replace('s ', ' ', 1)}"
+    names = ", ".join(key.label for key in keys)
+    what = "it has a formula" if section == "functions" else "it changes with time"
+    what = (
+        what.replace("it has", "they have").replace("it changes", "they change")
+        if keys[1:]
+        else what
+    )
+    listed = f"are not {section}" if keys[1:] else f"is not a {section[:-1]}"
+    message = f"{names} {listed}: {what}"
     uses_given = {*re.findall(r"\w+", named)} & {key.label for key, _ in given}
     gone = f"leave {'them' if keys[1:] else 'it'} out, and"
     hint = f"{gone} {'end' if uses_given else 'begin'} definitions with {named}"
@@ -232,17 +236,16 @@ def _formula_of(
     text = value.value if isinstance(value, Scalar) else ""
     called = CALLED.fullmatch(key.label)
     key = replace(key, value=called[1]) if called else key
-    if not re.search(r"[-+*/^(']", text) or formula_or_none(text) is None:
-        return None
-    if section == "functions":
-        is_open = called and not {*re.split(r"\s*,\s*", called[2])} <= known
-        listed = re.fullmatch(r"(\w*)\(\s*[\w, ]+?\s*\)", text)  # U: U(r)
-        is_list = listed is not None and listed[1] not in FUNCTIONS
-        return None if is_open or is_list else (key, value)
     moves = {*re.findall(r"[^\W\d]\w*", text)} & {*coordinates, "t"}
-    if not moves or not key.label.isidentifier() or key.label in coordinates:
+    is_name = key.label.isidentifier() and key.label not in coordinates
+    is_formula = re.search(r"[-+*/^(']", text) and (section == "functions" or (moves and is_name))
+    if not is_formula or formula_or_none(text) is None:
         return None
-    return None if unit_behind(text.replace("*", " ", 1)) else (key, value)  # 9.81*m/s^2
+    if section == "parameters":
+        return None if unit_behind(text.replace("*", " ", 1)) else (key, value)  # 9.81*m/s^2
+    is_open = called and not {*re.split(r"\s*,\s*", called[2])} <= known
+    listed = re.fullmatch(r"(\w*)\(\s*[\w, ]+?\s*\)", text)  # U: U(r)
+    return None if is_open or (listed and listed[1] not in FUNCTIONS) else (key, value)
 
 
 def names_in(node: DocumentNode | None) -> list[str]:
