@@ -67,6 +67,8 @@ def check_energies(file: FileReader, entries: dict[str, tuple[Scalar, DocumentNo
             file.error(message, given[at].span, hint, related)
             if whole != "H" or both != ["V"]:  # H: p^2/(2*m) + V has other mistakes
                 file.scope.refused += both  # as in L: T - V
+            if at == whole:  # what is to be left out has no other mistakes
+                file.scope.refused += re.findall(r"[^\W\d]\w*", texts.get(whole, ""))
 
 
 def check_masses(file: FileReader, problem: Problem, span: Span) -> None:

@@ -145,7 +145,8 @@ def unit_in_formula(
     if declared and product != text and is_unit(unit_behind(product)):  # 500*N
         text = product
     unit = unit_behind(text)
-    if unit and (is_number or is_unit(unit)):
+    is_product = " " in unit and all(w in names for w in re.findall(r"[^\W\d]\w*", unit))
+    if unit and ((is_number and not is_product) or is_unit(unit)):
         return unit_mistake(text, names, declared=declared)
     if (unit := unit_at_end(text)) and is_unit(unit):
         number = text.removesuffix(f"({unit})").removesuffix(unit).strip()

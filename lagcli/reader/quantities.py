@@ -273,6 +273,11 @@ def _declared(
             missing = "blank" if broken[2] == ":" else "':'"
             file.error(f"a {missing} is missing behind '{broken[1]}'", key.span, f"write {whole}")
             file.scope.refused.append(broken[1])
+        elif several := _listed(key.label):
+            given = "" if value is None else source_of(value)
+            hint = f"write {', '.join(f'{name}: {given}'.rstrip() for name in several)}"
+            file.error("each name has a line of its own", key.span, hint)
+            file.scope.refused += several
         elif section == "parameters" and (better := _without_primes(file, key)):
             hint = f"write {better}: a prime is a velocity"
             file.error(f"'{key.label}' is not a name", key.span, hint)
@@ -282,6 +287,12 @@ def _declared(
             file.scope.refused.append(key.label)
         elif file.declare(key.label, kind_, key.span, one=value is not None and not value.is_empty):
             yield key, value
+
+
+def _listed(label: str) -> tuple[str, ...]:
+    """The names of `m1, m2`, where there are several."""
+    names = tuple(map(str.strip, label.split(",")))
+    return names if names[1:] and all(map(str.isidentifier, names)) else ()
 
 
 def _without_attributes(

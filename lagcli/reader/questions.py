@@ -308,6 +308,11 @@ def _where(
         message = f"the acceleration {unknown.value.strip()} cannot stand in 'for'"
         file.error(message, unknown.span, hint)
         return []
+    if isinstance(unknown, Scalar) and unknown.value.strip() == "t":
+        end = difference(source_of(where))
+        hint = f'the time of an event comes from a run: lagcli simulate FILE --stop-when "{end}"'
+        file.error("the time cannot stand in 'for'", unknown.span, f"leave it out; {hint}")
+        return []
     name = _unknown(file, unknown)
     if name is None:
         return []

@@ -28,6 +28,7 @@ from lagcli.expression import (
     walk,
 )
 from lagcli.reader.constants import rational_value
+from lagcli.reader.degrees_meant import degrees_meant
 from lagcli.reader.foreign.words import Vocabulary, momentum_meant, rate_meant
 from lagcli.reader.friction_slips import friction_slips
 from lagcli.reader.habits import is_angle
@@ -70,6 +71,7 @@ def slips(problem: Problem) -> list[Diagnostic]:
             message = "a term of V with velocities and constants alone has no effect on the motion"
             found.append(_warning(message, term.span, FRICTION))
     coordinates = tuple(x.name for x in problem.coordinates)
+    found += degrees_meant(problem, _known(problem))
     found += friction_slips(problem.forces, coordinates, signs, problem.source)
     energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
     roots = (n for formula in energies if formula is not None for n in walk(formula))

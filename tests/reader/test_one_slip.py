@@ -278,3 +278,33 @@ def test_a_constraint_and_a_coordinate_may_be_called_like_an_energy(name):
     assert not errors(tied)
     pushed = f"coordinates: [{name}]\n{energy}: {name}'^2\nforces:\n  {name}: -2*{name}'\n"
     assert not errors(pushed)
+
+
+SLIPS = [
+    # L beside T and V: what is to be left out has no other mistakes
+    ("T: m*x'^2/2\nV: k*x^2/2\nL: T - U\n", 6, "leave out L: it is T - V"),
+    # two names for one entry
+    ("T: (a + b)*x'^2/2\nV: k*x^2\nparameters:\n  a, b: {assume: positive}\n  k: 1\n", 7,
+     "write a: {assume: positive}, and on a line of its own b: {assume: positive}"),
+    # a product without stars, all of it names of the file
+    ("T: J*x'^2/2\nV: k*x^2\nparameters:\n  k: 1\n  m: 1\n  l: 1\n  J: 1/3 m l^2\n", 10,
+     "did you mean 1/3*m*l^2?"),
+    # when, instead of where
+    ("T: m*x'^2/2\nfind: {when: {where: x = 2, for: t}}\n", 5,
+     'leave it out; the time of an event comes from a run: lagcli simulate p --stop-when "x - 2"'),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("written", "line", "hint"), SLIPS)
+def test_it_is_one_mistake_with_what_would_be_right(written, line, hint):
+    begin = "title: a\ncoordinates: [x]\n"
+    declared = "parameters: {m: 1, k: 2}\n" if "parameters" not in written else ""
+    [only] = errors(begin + declared + written)
+    assert only.hint.replace("FILE", "p") == hint
+    assert only.span.line == line - ("parameters" in written)
+
+
+@pytest.mark.parametrize("dash", "−–")
+def test_a_dash_of_a_text_is_a_minus(dash):
+    text = f"coordinates: [x]\nT: x'^2/2\nV: {dash}3*x {dash} x^2\n"
+    assert not read_problem("p", text.encode()).diagnostics
