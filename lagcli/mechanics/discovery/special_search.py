@@ -54,6 +54,7 @@ _UNITS = 64_000_000  # three frequencies: 13 values take 64 million
 _FOR_PIVOTS = 0.3  # of these
 _SHARE = 0.8  # of what its section has left
 _MOST_UNKNOWNS = 150  # measured: up to 378
+_MOST_TIMED = 200  # of integrals with the time: 180 in space, linear in t
 _MOST_VALUES = 16  # measured: at most 5
 _MOST_PAIRS = 20  # measured: up to 31
 _RATIOS = (1, 2, 3)
@@ -348,7 +349,7 @@ def _searches(discovery: Discovery, allowed: Allowance) -> Iterator[Search | Non
         timed = discovery.timed(TimeFunctions(own, own, ()), allowed)
         if timed is None or not timed.functions:
             return
-        few = timed.size <= _MOST_UNKNOWNS
+        few = timed.size <= _MOST_TIMED
         if few or highest == 1:
             yield timed.search(()) if few else None
             return
