@@ -281,7 +281,8 @@ class Discovery(Setting):
             return
         if len(self.system.q) > _MOST_FOR_TENSORS:
             return
-        if self.system.t not in self.equations_symbols and not self._by_killing_vectors():
+        still = self.system.t not in self.equations_symbols
+        if not (still and self._by_killing_vectors()):
             self.degree = 2
             integrals = QuadraticIntegrals(
                 self.noether, self.equations, self.centred_kinds, self.allowed, self.isometries
@@ -292,14 +293,13 @@ class Discovery(Setting):
                 return
             self._keep(integrals.found(self.charges))
             self._say_unproved(integrals.unproved)
-            if self.isometries is None and is_gyroscopic(self.equations):
+            if still and self.isometries is None and is_gyroscopic(self.equations):
                 self._of_fixed_energy()
         timed = self.timed(self.time_functions, self.allowed)
         if timed is not None and timed.functions:
             self.degree = 2
             functions = "with the same functions of time in the coefficients"
-            still = self.system.t not in self.equations_symbols
-            self.words.append(f"also {functions}" if still else f"{_SECOND} {functions}")
+            self.words.append(f"also {functions}")
             self._keep(timed.found(self.charges))
             self._say_unproved(timed.unproved)
 

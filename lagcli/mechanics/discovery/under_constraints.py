@@ -119,7 +119,7 @@ class UnderConstraints:
         return found
 
     def _displacements(self, known: Sequence[NoetherCharge]) -> list[Vector]:
-        """Admissible ones with angles along which a momentum is constant, or that of a length.
+        """Admissible ones with angles along which a momentum is constant, or those of lengths.
 
         A ball that rolls straight on has x - x' t, whose displacement is that of its momentum
         with the factor t: of the fields themselves it is a combination with angles and the time.
@@ -131,7 +131,8 @@ class UnderConstraints:
         found = []
         for field in dict.fromkeys([*constant, *self._of_lengths]):
             names = sympy.Tuple(*field).free_symbols
-            new = field not in self.fields and not names & moving and names & angles
+            beyond = names & angles or field in self._of_lengths
+            new = beyond and field not in self.fields and not names & moving
             if new and self._is_admissible(field):
                 found.append(field)
         return found
