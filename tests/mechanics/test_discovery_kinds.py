@@ -313,3 +313,30 @@ def test_a_momentum_decays_under_a_force_in_proportion_to_it(T, moment, drag):
     expected = p * sympy.exp(c * (system.t if drag == "c" else system.t**3 / 3))
     found = [x.charge / expected for x in derivation.discovery.charges]
     assert any(sympy.simplify(ratio).is_number for ratio in found)
+
+
+# name -> text, charges in all, independent ones, integrable
+LINEAR_INSIDE = {
+    # Chandrasekar, Senthilvelan, Lakshmanan, Phys. Rev. E 72 (2005) 066203
+    "modified Emden": (
+        f"{{coordinates: [x], parameters: {{k: {POS}, w: {POS}}}, L: 1/(k*x' + k^2*x^2/3 + 3*w^2)}}",
+        5, 2, True),
+    # Bloch, *Nonholonomic Mechanics and Control*, 2nd ed., section 1.8: the multiplier is 0
+    "Heisenberg's constraint under a spring": (
+        (f"{{coordinates: [x, y, z], parameters: {{k: {POS}}}, T: (x'^2 + y'^2 + z'^2)/2, "
+        "V: k*(x^2 + y^2)/2, constraints: {flat: z' = x*y' - y*x'}}"), 7, 5, None),
+    # Sutherland, Phys. Rev. Lett. 80 (1998) 3678: two of second degree contain no time
+    "Calogero's three in a trap that fades": (
+        (f"{{coordinates: [x, y, z], parameters: {{k: {POS}, g: {POS}}}, L: (x'^2 + y'^2 + z'^2)/2 "
+        "- k*(x^2 + y^2 + z^2)/(2*t^2) - g/(x - y)^2 - g/(y - z)^2 - g/(z - x)^2}"), 7, 5, True),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", LINEAR_INSIDE)
+def test_what_the_linear_part_suggests_is_found_in_every_setting(name):
+    text, number, independent, integrable = LINEAR_INSIDE[name]
+    discovery = derive(text).discovery
+    found = summary(discovery)
+    assert all(c.conserved is True and c.verified == "exact" for c in discovery.charges)
+    assert len(discovery.charges) == number
+    assert (found.independent, found.integrable) == (independent, integrable)

@@ -167,7 +167,9 @@ class Setting:
         mass = self.equations.mass
         if all(m == 0 for i, row in enumerate(mass) for j, m in enumerate(row) if i != j):
             forcing = map(self._with_linear_terms, range(len(mass)))
-            return tuple(f / row[i] for i, (f, row) in enumerate(zip(forcing, mass, strict=True)))
+            found = [f / row[i] for i, (f, row) in enumerate(zip(forcing, mass, strict=True))]
+            # one denominator with velocities, that of M, may cancel
+            return tuple(found if self.quadratic_mass else map(simplify, found))
         if any(not free_of(m, self.system.q) for row in mass for m in row):
             return None  # its inverse times the forcing has no linear terms of use
         motion = self.dynamics.motion
