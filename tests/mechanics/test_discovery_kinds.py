@@ -340,3 +340,15 @@ def test_what_the_linear_part_suggests_is_found_in_every_setting(name):
     assert all(c.conserved is True and c.verified == "exact" for c in discovery.charges)
     assert len(discovery.charges) == number
     assert (found.independent, found.integrable) == (independent, integrable)
+
+
+@pytest.mark.parametrize("c", ["c", "2*c"])
+def test_roots_that_are_imaginary_at_a_value_hide_none_there(c):
+    """Modes of w^2 +- l - c^2: alike at l = 0, where sch(2) is that of one frequency."""
+    derivation = derive(
+        f"{{coordinates: [x, y], parameters: {{c: {POS}, w: {POS}, l: {{}}}}, "
+        f"L: exp(2*{c}*t)*((x'^2 + y'^2)/2 - w^2*(x^2 + y^2)/2 - l*x*y)}}"
+    )
+    [found] = (case for case in derivation.special_cases if case.value == 0)
+    assert (found.parameter.name, found.number, found.given) == ("l", 8, ())
+    assert {"L_z", "conformal_cos", "conformal_sin"} == {c.name for c in found.charges}

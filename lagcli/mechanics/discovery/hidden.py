@@ -148,7 +148,8 @@ class QuadraticIntegrals:
     def _products(self, known: Sequence[NoetherCharge]) -> list[tuple[Expr, ...]]:
         """The multipliers of the known integrals and of products of those of first degree."""
         t = self.equations.t
-        timed = len(self.times) > 1
+        entries = (*self.equations.forcing, *(m for row in self.equations.mass for m in row))
+        timed = len(self.times) > 1 or not free_of(sympy.Tuple(*entries), [t])
         fixed = [c for c in known if timed or t not in c.charge.free_symbols]
         eta = {id(c): self.noether.characteristic(c.transformation) for c in fixed}
         linear = [c for c in fixed if c.transformation.displaces_without(self.equations.v)]

@@ -29,7 +29,6 @@ from lagcli.algebra.equations import solve_for
 from lagcli.algebra.signs import sign
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
-from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.slots import SlotEquations
 from lagcli.mechanics.discovery.spectrum import Exponent, has_roots
@@ -174,14 +173,11 @@ def new_charges(
 ) -> tuple[NoetherCharge, ...]:
     """Those that are no combinations of the known ones, over the constants, on the constraints."""
     system, charges = dynamics.system, [*known, *(c.charge for c in found)]
-    try:
-        if dynamics.constraints.equations:
-            kept = independent_on_surface(charges, dynamics, allowed)
-        else:
-            variables = (system.t, *system.q, *system.qdot)
-            kept = Relation([[x] for x in charges], variables, allowed).independent()
-    except (NoPoint, ZeroDivisionError):
-        return ()
+    if dynamics.constraints.equations:
+        kept = independent_on_surface(charges, dynamics, allowed)
+    else:
+        variables = (system.t, *system.q, *system.qdot)
+        kept = Relation([[x] for x in charges], variables, allowed).independent()
     return tuple(found[k - len(known)] for k in kept if k >= len(known))
 
 

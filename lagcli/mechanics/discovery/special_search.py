@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import combinations
 
 import sympy
 from sympy import Expr, Symbol
@@ -118,14 +119,18 @@ def special_cases(
             less = [discovery, *(each for case, each in searches if _holds(case, choice))]
             if not all(_has_more(there, each) for each in less):
                 continue
+            roots = _radicands(there.charges, variables)
             known = [
                 part for each in less for c in each.charges
-                for part in _real_parts(_at_values(c.charge, choice, variables), c.charge)
+                for part in _real_parts(_at_values(c.charge, choice, variables, roots), c.charge)
                 if not part.has(*NO_VALUE)  # divided by what is 0 there
             ]  # fmt: skip
-            charges = _beyond_products(
-                known, new_charges(known, there.charges, there.dynamics, allowed), there, allowed
-            )
+            try:
+                new = new_charges(known, there.charges, there.dynamics, allowed)
+                charges = _beyond_products(known, new, there, allowed)
+            except (NoPoint, ZeroDivisionError):
+                discovery.words.append(_NOT_ALL)
+                continue
             charges = _named_apart(charges, there, discovery)
             if charges:
                 number, given = len(there.charges), tuple(choice[1:])
@@ -155,6 +160,7 @@ def _to_try(
     """Single values, and pairs of them."""
     system, equations = searched.system, searched.equations
     if searched.dynamics.constraints.equations:
+        discovery.words.append(_NOT_ALL)
         return exchanged(discovery.dynamics), []
     factors, pairs = _factors(searched, allowed)
     discovery.words += [_NOT_ALL] if _NOT_ALL in searched.words else []
@@ -251,10 +257,36 @@ def _degrees(found: Discovery) -> list[int]:
     return degrees + [1] * (len(found.charges) - len(degrees))
 
 
-def _at_values(charge: Expr, values: Sequence[Value], moving: Sequence[Symbol]) -> Expr:
-    """With either sign of a frequency: sqrt(c) is |sqrt(a) - sqrt(b)| at its square."""
+def _at_values(
+    charge: Expr, values: Sequence[Value], moving: Sequence[Symbol], roots: Mapping[Expr, Expr]
+) -> Expr:
+    """With either sign of a frequency: sqrt(c) is |sqrt(a) - sqrt(b)| at its square.
+
+    Beside the roots of the given radicands those of the opposite ones are imaginary.
+    """
     there = charge.xreplace(dict(values))
-    return there.xreplace({x: x.args[0] for x in there.atoms(sympy.Abs) if free_of(x, moving)})
+    there = there.xreplace({x: x.args[0] for x in there.atoms(sympy.Abs) if free_of(x, moving)})
+    opposite = {
+        p: (sympy.I * roots[sympy.expand(-p.base)]) ** (2 * p.exp)
+        for p in _roots_in(there, moving)
+        if sympy.expand(-p.base) in roots
+    }
+    return there.xreplace(opposite)
+
+
+def _roots_in(charge: Expr, moving: Sequence[Symbol]) -> set[Expr]:
+    """Square roots of constants of either sign."""
+    return {
+        p for p in charge.atoms(sympy.Pow)
+        if p.exp.is_Rational and p.exp.q == 2 and p.base.is_Add and free_of(p.base, moving)
+    }  # fmt: skip
+
+
+def _radicands(charges: Sequence[NoetherCharge], moving: Sequence[Symbol]) -> dict[Expr, Expr]:
+    """Each with its root, of products of two as well: sqrt(w^2 - c^2) is a product of two."""
+    single = {p.base for c in charges for p in _roots_in(c.charge, moving)}
+    pairs = {sympy.expand(a * b): sympy.sqrt(a) * sympy.sqrt(b) for a, b in combinations(single, 2)}
+    return pairs | {sympy.expand(r): sympy.sqrt(r) for r in single}
 
 
 def _real_parts(charge: Expr, given: Expr) -> list[Expr]:
@@ -262,7 +294,12 @@ def _real_parts(charge: Expr, given: Expr) -> list[Expr]:
 
     The cosine of an imaginary argument is one of exponentials, as the search there has them.
     """
-    parts = charge.expand(complex=True).as_real_imag() if charge.has(sympy.I) else (charge,)
+    parts: Sequence[Expr] = (charge,)
+    if charge.has(sympy.I):
+        names = {p: sympy.Dummy(real=True) for p in _roots_in(charge, ())}
+        back = {name: p for p, name in names.items()}
+        whole = charge.xreplace(names).expand(complex=True)
+        parts = [part.xreplace(back) for part in whole.as_real_imag()]
     waves = (sympy.sinh, sympy.cosh)
     return [
         part.xreplace({f: f.rewrite(sympy.exp) for f in part.atoms(*waves) - given.atoms(*waves)})
