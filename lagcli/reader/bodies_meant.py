@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
+from lagcli.reader.file_reader import FileReader
 from lagcli.reader.habits import is_angle, letters, spellings
 from lagcli.reader.misshapen import source_of
-
-if TYPE_CHECKING:
-    from lagcli.reader.file_reader import FileReader
-    from lagcli.reader.nodes import DocumentNode, Scalar
+from lagcli.reader.nodes import DocumentNode, Scalar
 
 #: What is said of a moment of inertia.
 NO_ROTATION = "a point does not turn"

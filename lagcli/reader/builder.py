@@ -10,7 +10,7 @@ from __future__ import annotations
 import unicodedata
 from contextvars import ContextVar
 from fractions import Fraction
-from typing import TYPE_CHECKING, cast
+from typing import cast
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import (
@@ -31,13 +31,11 @@ from lagcli.expression import (
     terms_of,
 )
 from lagcli.problem_data import Comparison, Inequality
+from lagcli.reader.automaton import Token
 from lagcli.reader.limits import NUMBER_DIGITS, thousands
+from lagcli.reader.positions import Excerpt
 from lagcli.reader.text import Mistake
 from lagcli.record import replace
-
-if TYPE_CHECKING:
-    from lagcli.reader.automaton import Token
-    from lagcli.reader.positions import Excerpt
 
 #: The text that is being read: where the spans of its nodes are looked up.
 excerpt_being_read: ContextVar[Excerpt] = ContextVar("excerpt_being_read")
@@ -220,11 +218,8 @@ def _split_name(token: Token) -> tuple[str, int]:
     primes = sum(_PRIME_COUNT[prime] for prime in written[len(letters) :])
     name = unicodedata.normalize("NFC", letters)
     for character in name:
-        if (
-            character != "_"
-            and unicodedata.category(character)[0] != "L"
-            and unicodedata.category(character) != "Nd"
-        ):
+        kind = unicodedata.category(character)
+        if character != "_" and kind[0] != "L" and kind != "Nd":
             from lagcli.reader.habits import superscript
 
             message = f"a name has letters, digits and underscores, not '{character}'"

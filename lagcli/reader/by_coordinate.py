@@ -5,24 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Container
 from collections.abc import Set as AbstractSet
-from typing import TYPE_CHECKING
 
+from lagcli.reader.assignments import assigned
 from lagcli.reader.foreign.vector_products import along_z, vector_product
 from lagcli.reader.foreign.words import Vocabulary, momentum_meant, rate_meant
 from lagcli.reader.misshapen import as_list, behind_words, is_sentence, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
+from lagcli.reader.scope import Scope
 
-if TYPE_CHECKING:
-    from lagcli.reader.scope import Scope
-
-#: `x' = 0` and `x(0): 1`, several of them.
-_GIVEN = regex(
-    r"(?:\b(?:and|und|et|y)\s+)?([^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]>|[=:→])\s*([^,;=:→]+?)"
-    r"(?=\s*(?:$|[,;]|(?:and|und|et|y)\s+|[^\W\d]\w*'*(?:\(0\))?\s*(?:[-=]>|[=:→])))"
-)
-#: `x 1, x' 0`.
-_SIDE_BY_SIDE = regex(r"(?:^|[,;])\s*([^\W\d]\w*'*)\s+([-+]?[\d.]+)\s*(?=$|[,;])")
 #: A state that is 0.
 _AT_REST = regex(
     r"^(?:\w+\.)?zeros\b|\b(?:rest|equilibrium|standard|default|Ruhe|repos)\b", re.IGNORECASE
@@ -57,9 +48,8 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
         return _pairs([*zip(names, axes, strict=True)]) + condition
     written = node.text.source.text[node.start : node.end].strip("[] \n")
     written = behind_words(written, scope.kinds)
-    pairs_given = _GIVEN.findall(written) or _SIDE_BY_SIDE.findall(written)
     stated = [(coordinate_meant(name.removesuffix("''"), names), value)
-              for name, value in pairs_given]  # fmt: skip
+              for name, value in assigned(written)]  # fmt: skip
     if stated and (stated[1:] or isinstance(node, Sequence) or stated[0][0] in names):
         return _pairs(stated, braces=len(stated) > 1 or isinstance(node, Sequence))
     values = [] if is_sentence(written, scope.kinds) else _values(node, scope)

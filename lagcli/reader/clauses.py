@@ -3,18 +3,14 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
+from lagcli.reader.assignments import assigned
 from lagcli.reader.expressions import formula_or_none
 from lagcli.reader.habits import KEYS, is_constant
-from lagcli.reader.misshapen import pieces
+from lagcli.reader.nodes import Scalar
 from lagcli.reader.regex import regex
-from lagcli.reader.scope import Definition, name_mistake
-
-if TYPE_CHECKING:
-    from lagcli.reader.nodes import Scalar
-    from lagcli.reader.scope import Scope
+from lagcli.reader.scope import Definition, Scope, name_mistake
 
 _WORD = r"(?:with|where|mit|wobei|avec|où|con|donde)\s*:?\s+"
 _CLAUSE = regex(
@@ -22,7 +18,6 @@ _CLAUSE = regex(
     r"(?P<given>[^\W\d]\w*\s*=[^=<>].*?)\)?",
     re.DOTALL,
 )
-_AND = regex(r"\s+(?:and|und|et|y|e)\s+(?=[^\W\d]\w*\s*=)")
 
 
 def of_clause(node: Scalar, scope: Scope) -> Diagnostic | None:
@@ -30,8 +25,7 @@ def of_clause(node: Scalar, scope: Scope) -> Diagnostic | None:
     found = _CLAUSE.fullmatch(node.value.strip())
     if found is None:
         return None
-    parts = (each.partition("=") for each in pieces(_AND.sub(", ", found["given"]), ",;"))
-    named = {name.strip(): value.strip() for name, _, value in parts}
+    named = dict(assigned(found["given"]))
     formulas = (found["formula"].rstrip("("), *named.values())
     if {*named} <= {"T", "V"} - scope.energies.keys():
         lines = ", ".join(f"{name}: {value}" for name, value in named.items())

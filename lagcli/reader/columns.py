@@ -3,25 +3,21 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import starmap
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source
 from lagcli.expression import Diff, Expression, Name, Negative, Product, Sum, name_nodes
-from lagcli.problem_data import JACOBI_FUNCTION, charge_of
+from lagcli.problem_data import JACOBI_FUNCTION, Constraint, Contact, Problem, Symmetry, charge_of
+from lagcli.reader.assignments import pieces
 from lagcli.reader.expressions import read_expression
-from lagcli.reader.misshapen import pieces
 from lagcli.reader.names import depends_on_time, derivative_order, name_mistakes
 from lagcli.reader.number_units import run_mistake
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.scope import ALONG, NUMBERS, Definition, Role, Scope
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.text import Mistake
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Sequence
-
-    from lagcli.problem_data import Constraint, Contact, Problem, Symmetry
 
 
 class Column(NamedTuple):
@@ -131,9 +127,8 @@ def _columns(problem: Problem, scope: Scope, word: str) -> Iterator[Column]:
 
 def _check_units(problem: Problem, text: str, expression: Expression) -> None:
     """The terms of a column have one unit, where the file gives units."""
-    if expression.span.line < 1 or all(
-        quantity.unit is None for quantity in (*problem.coordinates, *problem.parameters)
-    ):
+    quantities = (*problem.coordinates, *problem.parameters)
+    if expression.span.line < 1 or all(each.unit is None for each in quantities):
         return  # made from the file's own, or without units
     from lagcli.dimensions.check import check_formula
 

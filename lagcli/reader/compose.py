@@ -71,10 +71,8 @@ def compose(text: SourceText) -> tuple[DocumentNode, list[Diagnostic]]:
 
         raise Mistake(explain(error, text)) from None
     if composer.root is None:
-        where = text.span(0, 0)
-        raise Mistake(
-            Diagnostic("the file is empty", where, "a problem has 'coordinates' at least")
-        )
+        hint = "a problem has 'coordinates' at least"
+        raise Mistake(Diagnostic("the file is empty", text.span(0, 0), hint))
     return composer.root, composer.diagnostics
 
 
@@ -145,12 +143,8 @@ class _Composer:
             case yaml.DocumentStartEvent():
                 self._documents += 1
                 if self._documents > 1:
-                    self._stop(
-                        start,
-                        end,
-                        "a second document begins here",
-                        "leave out '---': one problem, one file",
-                    )
+                    hint = "leave out '---': one problem, one file"
+                    self._stop(start, end, "a second document begins here", hint)
             case yaml.ScalarEvent():
                 broken, value = self._has_tag(event), event.value.translate(self._shown)
                 if self._in_flow and not event.style and value != event.value:
@@ -223,14 +217,9 @@ class _Composer:
         others = any(not value.is_empty for value in values)
         if is_text:  # of which a comma cuts off words
             found = [each if each and each["key"] in SECTIONS else None for each in found]
-        section = next(
-            (getattr(x.children[-1], "value", "") for x in self._stack[-1:] if x.children), ""
-        )
-        if (
-            not any(found)
-            or not (others or len(keys) == 1)
-            or (section == "constraints" and not others)
-        ):
+        above = self._stack[-1].children[-1:] if self._stack else []
+        is_of_constraints = bool(above) and getattr(above[0], "value", "") == "constraints"
+        if not any(found) or not (others or (len(keys) == 1 and not is_of_constraints)):
             return children  # all alike: reported where names are declared
         mended: list[DocumentNode] = []
         for key, value, split in zip(keys, values, found, strict=True):
@@ -261,12 +250,8 @@ class _Composer:
                 hint = "a map has one pair of braces, a placeholder is no value: write key: value"
                 self._report(key.start, key.end, "a key must be a text", hint)
             elif key.label == "<<":
-                self._report(
-                    key.start,
-                    key.end,
-                    "the merge key '<<' is not part of the format",
-                    "write what it stands for",
-                )
+                message = "the merge key '<<' is not part of the format"
+                self._report(key.start, key.end, message, "write what it stands for")
             elif key.label in entries:
                 if key.in_flow and key.label.isdigit() and value.is_empty:
                     continue  # the second 5 of {m: 1,5, k: 2,5}

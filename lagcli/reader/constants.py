@@ -7,10 +7,12 @@ number of its digits when it is not.  log10 of numerator and denominator of a po
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from fractions import Fraction
 from math import inf, log10
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
+from lagcli.diagnostics import Diagnostic
 from lagcli.expression import (
     Call,
     Expression,
@@ -28,11 +30,6 @@ from lagcli.expression import (
 from lagcli.reader.builder import mistake
 from lagcli.reader.limits import NUMBER_DIGITS, thousands
 from lagcli.reader.text import Mistake
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from lagcli.diagnostics import Diagnostic
 
 #: Functions without a value at 0.
 _UNDEFINED_AT_ZERO = frozenset({"log", "cot", "csc"})

@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-from lagcli.expression import ZERO, Equation
+from lagcli.expression import ZERO, Equation, Expression
 from lagcli.problem_data import Contact
-from lagcli.reader.file_reader import Required
+from lagcli.reader.file_reader import FileReader, Required
 from lagcli.reader.habits import comparisons_in, is_angle, key_meant, name_meant
 from lagcli.reader.misshapen import is_sentence, source_of, texts_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import POSITION, VALUES, Kind, name_mistake
-
-if TYPE_CHECKING:
-    from lagcli.expression import Expression
-    from lagcli.reader.file_reader import FileReader
 
 RESTITUTION = "restitution"
 _ATTRIBUTES = ("gap", RESTITUTION, "multiplier")
@@ -82,9 +78,8 @@ def declared(
             label = "" if text is None else text.label
             law = source_of(attributes.get("equation", value))
             sides = re.fullmatch("([^=<>{]+?)(?: *= *([^=<>{]+))?", law)
-            if (
-                sides and label[:1] == "-" and label[1:].isidentifier()
-            ):  # right = left has the other
+            # right = left has the other sign
+            if sides and label[:1] == "-" and label[1:].isidentifier():
                 meant = {"equation": f"{sides[2] or 0} = {sides[1]}", "multiplier": label[1:]}
                 given = {k.label: source_of(v) for k, v in value.entries} | meant
                 hint = f"write {{{', '.join(map(': '.join, given.items()))}}}"

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
+from lagcli.diagnostics import Span
+from lagcli.expression import Expression
 from lagcli.problem_data import Point, Problem
 from lagcli.reader.bodies_meant import NO_ROTATION, of_bodies
 from lagcli.reader.by_coordinate import by_name, coordinate_meant, of_vectors
 from lagcli.reader.expressions import formula_or_none
-from lagcli.reader.file_reader import Required
+from lagcli.reader.file_reader import FileReader, Required
 from lagcli.reader.foreign.words import polar_speed
 from lagcli.reader.growth import growth
 from lagcli.reader.habits import KEYS, colon_advice, is_angle, is_constant, key_meant
@@ -23,11 +24,6 @@ from lagcli.reader.regex import regex
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Growth, Role
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import replace
-
-if TYPE_CHECKING:
-    from lagcli.diagnostics import Span
-    from lagcli.expression import Expression
-    from lagcli.reader.file_reader import FileReader
 
 _CARTESIAN = "write [x, y], in polar coordinates [r*cos(phi), r*sin(phi)]"
 #: A unit vector of polar coordinates.
@@ -148,8 +144,7 @@ def declare_definitions(file: FileReader, node: DocumentNode) -> list[tuple[Scal
     for key, value in file.of_section(entries, "definitions", ()):
         if square := re.fullmatch(r"(\w+?)\s*(?:(?:\^|\*\*)\s*2|²)", key.label):
             hint = f"write {square[1]}: sqrt({source_of(value)})"
-            file.error(f"'{key.label}' is not a name", key.span, hint)
-            file.scope.refused.append(square[1])
+            file.error(f"'{key.label}' is not a name", key.span, hint, refused=square[1])
             continue
         if file.declare(key.label, "definition", key.span):
             file.scope.definitions[key.label] = Definition(place=len(declared))
@@ -219,8 +214,7 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
             if value.value[:1] == "(":  # {ball: (x, y), m}
                 whole = f"{as_list(value.value)}, mass: {rest[0]}"
             hint = f"write {{position: {whole}}}"
-            file.error(f"{what} must be a map, not a text", value.span, hint)
-            file.scope.refused.append("points")
+            file.error(f"{what} must be a map, not a text", value.span, hint, refused="points")
             break
         labels = {*names_in(value)}
         by_axes = [] if "position" in labels else _by_axes(value)
@@ -230,8 +224,7 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
             whole = f"{key.label}: {{{whole}, {rest_of}}}"
         required = Required("position", key.span, f"write {whole}")
         if by_axes and labels & _RADII:  # r is not the position
-            file.error(f"{what} has no position", key.span, required.hint)
-            file.scope.refused.append("points")
+            file.error(f"{what} has no position", key.span, required.hint, refused="points")
             continue
         axes = value.items if isinstance(value, Sequence) else ()
         is_bare = all(isinstance(axis, Scalar) and "=" not in axis.value for axis in axes)
@@ -374,11 +367,8 @@ def _force(file: FileReader, node: DocumentNode, name: str, length: int) -> tupl
     what = f"the force on '{name}'"
     before = len(file.diagnostics)
     axes = [file.scope.components.get(f"{name}.{axis}", "") for axis in "xyz"[:length]]
-    law = (
-        node.value
-        if axes == [*file.scope.of_kind("coordinate")] and isinstance(node, Scalar)
-        else ""
-    )
+    is_cartesian = axes == [*file.scope.of_kind("coordinate")]
+    law = node.value if is_cartesian and isinstance(node, Scalar) else ""
     if written := of_vectors(law, axes, file.scope.kinds.keys()):
         file.error(f"{what} must be a list, not a text", node.span, _listed(written))
         return ()

@@ -9,9 +9,10 @@ from itertools import takewhile
 from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic, Source
-from lagcli.reader.habits import KEYS, is_unit
+from lagcli.reader.assignments import pieces
+from lagcli.reader.habits import KEYS, MAPS, is_unit
 from lagcli.reader.misplaced import names_in
-from lagcli.reader.misshapen import pieces
+from lagcli.reader.misshapen import with_entries
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, entries_in, nodes_in
 from lagcli.reader.regex import regex
 from lagcli.reader.text import SourceText
@@ -35,6 +36,14 @@ _ENTRY = regex(r"\s*[^\W\d]\w*'*: \S")
 #: What stands before a place of the line of an entry.
 _LINE = regex(r"\s*(?:[^\s:{\[][^:{\[]*:\s+)?")
 _BLANKS = "  "
+#: The value of a section, on its line and below it.
+_LINES_OF = r"^{}:[^\S\n]*(.*(?:\n(?:[ \t-].*)?)*)"
+#: A section that a hint writes whole.
+_WHOLE = regex(
+    r"(?P<stands>under \w+: )?"
+    r"(?:write |(?<=declare it: )(?=f)|(?<=as such: )|(?<=; )|(?P<lead>and ))"
+    rf"(?P<key>{'|'.join(MAPS)}|observables|picture): \{{"
+)
 #: What a comma has cut off a value in braces.
 _CUT = regex(r"(?:\s*,\s*[^,{}\[\]:\n]+)+(?=\s*[,}])")
 
@@ -68,11 +77,8 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
     proposed = PROPOSED.fullmatch(hint)
     if proposed is None or ", or " in hint:
         return []
-    whole = re.sub(
-        r"^'(.*)'$",
-        r"\1",
-        re.sub(r", without \w+, also .*|; and so on", "", proposed[1] or proposed[2]),
-    )
+    whole = re.sub(r", without \w+, also .*|; and so on", "", proposed[1] or proposed[2])
+    whole = re.sub(r"^'(.*)'$", r"\1", whole)
     if proposed[2] and (entry := entry_at(root, start, end)):  # entries in the place of one
         inner = (
             whole if entry[0].in_flow else _in_lines(whole, text.position(entry[0].start)[1] - 1)
@@ -263,7 +269,50 @@ def entry_at(root: DocumentNode, start: int, end: int) -> tuple[Scalar, Document
     return found
 
 
-def on_lines(mistake: Diagnostic, source: Source) -> Diagnostic:
+def as_typed(mistake: Diagnostic, source: Source) -> Diagnostic:
+    """The mistake with a hint that can be typed as it stands in the file."""
+    return _on_lines(_in_given_sections(mistake, source), source)
+
+
+def _in_given_sections(mistake: Diagnostic, source: Source) -> Diagnostic:
+    """`below parameters: write k: 2` for `write parameters: {k: 2}` beside other parameters."""
+    hint = mistake.hint
+    for found in reversed([*_WHOLE.finditer(hint)]):
+        key, begin = found["key"], found.end()
+        section = re.search(_LINES_OF.format(key), source.text, re.MULTILINE)
+        if section is None:
+            continue
+        given, first = section[1].rstrip(), source.text.count("\n", 0, section.start()) + 1
+        inner = pieces(f"{{{hint[begin:]}", "}")[0][1:]
+        entries = [_with_given(each.strip(), given, key) for each in pieces(inner, ",")]
+        names = {each.partition(":")[0] for each in entries}
+        is_flow = given[:1] in {"{", "["}
+        lines = pieces(given[1:-1], ",;") if is_flow else given.split("\n")
+        own = {each.partition(":")[0].strip() for each in lines} - {""}
+        is_all = own <= names and key != "forces"  # the hint has the whole section
+        if is_all or first <= mistake.span.line <= first + given.count("\n"):
+            continue
+        place = f"{'in' if own & names else 'below'} {key}: write {_on_own_lines(entries)}"
+        if is_flow:
+            whole = with_entries(given, ", ".join(entries))
+            place = f"between the braces of {key}: write {', '.join(entries)}"
+            place = f"{found['stands'] or ''}write all as {key}: {whole}" if whole else place
+        hint = (
+            hint[: found.start()] + (found["lead"] or "") + place + hint[begin + len(inner) + 1 :]
+        )
+    return replace(mistake, hint=hint)
+
+
+def _with_given(entry: str, given: str, section: str) -> str:
+    """An entry, of a coordinate that has a force already with the sum of both."""
+    name, _, law = entry.partition(": ")
+    own = re.search(rf"(?<![\w']){re.escape(name)}:[^\S\n]*([^\n,}}#]*[^\s,}}#])", given)
+    return (
+        f"{name}: {own[1]} + {law}".replace("+ -", "- ") if own and section == "forces" else entry
+    )
+
+
+def _on_lines(mistake: Diagnostic, source: Source) -> Diagnostic:
     """`write a: 1, and on a line of its own b: 2` for `write a: 1, b: 2` where one has a line."""
     span, before = mistake.span, "{"
     if span.line > 0:
@@ -271,16 +320,18 @@ def on_lines(mistake: Diagnostic, source: Source) -> Diagnostic:
     if not _LINE.fullmatch(before):
         return mistake
     sentences = re.split(r"(; in line \d+ )", mistake.hint)
-    return replace(mistake, hint="".join(map(_on_lines, sentences)))
+    return replace(mistake, hint="".join(map(_entries_on_lines, sentences)))
 
 
-def _on_lines(hint: str) -> str:
+def _entries_on_lines(hint: str) -> str:
     proposed = PROPOSED.fullmatch(hint)
     whole = (proposed[1] or proposed[2]) if proposed else ""
     parts = pieces(whole, ",;")
     entries = [each.strip() for each in takewhile(_ENTRY.match, parts)]
-    if not entries[1:]:
-        return hint
     rest = whole[len("".join(parts[: len(entries)])) + len(entries) - 1 :]
+    return f"{hint[: -len(whole)]}{_on_own_lines(entries)}{rest}" if entries[1:] else hint
+
+
+def _on_own_lines(entries: list[str]) -> str:
     lines = "lines of their own" if entries[2:] else "a line of its own"
-    return f"{hint[: -len(whole)]}{entries[0]}, and on {lines} {' and '.join(entries[1:])}{rest}"
+    return entries[0] + f", and on {lines} {' and '.join(entries[1:])}" * bool(entries[1:])

@@ -2,22 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from lagcli.diagnostics import Span
+from lagcli.expression import Expression
 from lagcli.problem_data import Constraint, Contact, Expect, Inequality, Problem
+from lagcli.reader.assignments import assigned, pieces
 from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
-from lagcli.reader.misshapen import pieces
+from lagcli.reader.file_reader import FileReader
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, size
 from lagcli.reader.scope import ANSWER, Role
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.trajectory import TrajectoryReader
 from lagcli.statements.registry import expected_keys, find_expected
-
-if TYPE_CHECKING:
-    from lagcli.diagnostics import Span
-    from lagcli.expression import Expression
-    from lagcli.reader.file_reader import FileReader
 
 #: The fields of `Expect` that are no answers of one section.
 _FIELDS = frozenset(Expect.__annotations__) - {"others", "ranges", "spans"}
@@ -123,9 +121,9 @@ class ExpectReader:
         if len(known) > 1:
             hint = f"write {{name: {written}}}; known are {', '.join(known[:10])}"
         items = [each.value for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
-        told = [each.partition("=") for each in items or pieces(written, ",;")]
-        named = [(_known_as(name.strip(), known), value.strip()) for name, _, value in told]
-        if all(name and value for name, value in named):
+        told = items or pieces(written, ",;")
+        named = [(_known_as(x, known), value) for each in told for x, value in assigned(each)]
+        if len(named) == len(told):
             hint = f"write {{{', '.join(map(': '.join, named))}}}"
         elif items and len(items) <= len(known):
             pairs = ", ".join(f"{name}: {item}" for name, item in zip(known, items, strict=False))
@@ -135,17 +133,9 @@ class ExpectReader:
             if key.label in known:
                 good.append((key, value))
                 continue
-            names = ", ".join(known[:10])
             meant = _known_as(key.label, known)
-            hint = (
-                f"write {meant}"
-                if meant in known
-                else did_you_mean(key.label, known)
-                or (
-                    f"known are {names}"
-                    if known
-                    else f"the problem has no {what}: it is declared first"
-                )
-            )
+            hint = did_you_mean(key.label, known) or f"known are {', '.join(known[:10])}"
+            hint = f"write {meant}" if meant in known else hint
+            hint = hint if known else f"the problem has no {what}: it is declared first"
             self.file.error(f"there is no {what} '{key.label}'", key.span, hint)
         return good

@@ -5,11 +5,12 @@ The text is read once.  Names are not looked up here: see `lagcli.reader.scope`.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
-from typing import TYPE_CHECKING, TypeVar, cast
+from typing import TypeVar, cast
 
 from lagcli.diagnostics import ProblemError, Source
-from lagcli.expression import Equation, Negative, terms_of
+from lagcli.expression import Equation, Expression, Negative, terms_of
 from lagcli.problem_data import Inequality
 from lagcli.reader.automaton import Token, Unexpected
 from lagcli.reader.builder import excerpt_being_read, mistake
@@ -18,12 +19,6 @@ from lagcli.reader.limits import EXPRESSION_CHARACTERS, thousands
 from lagcli.reader.parser import automaton
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.text import Mistake, SourceText
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from lagcli.expression import Expression
-
 
 Tree = TypeVar("Tree")
 
@@ -75,7 +70,7 @@ def signed_terms(text: str) -> list[tuple[bool, str]]:
     terms = terms_of(formula) if formula is not None else ()
     bare = (each.operand if isinstance(each, Negative) else each for each in terms)
     return [
-        (term is not inner, text[slice(*source.offsets(inner.span))])
+        (term is not inner, source.written(inner.span))
         for term, inner in zip(terms, bare, strict=True)
     ]
 
@@ -124,9 +119,7 @@ def _tokens(value: str) -> list[Token]:
     return tokens
 
 
-def sides_of(
-    formula: Expression | Equation | Inequality,
-) -> tuple[Expression, ...]:
+def sides_of(formula: Expression | Equation | Inequality) -> tuple[Expression, ...]:
     """A formula, or both sides of a relation."""
     if isinstance(formula, Equation | Inequality):
         return formula.left, formula.right

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Callable, Container, Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import islice
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import Any, NamedTuple, TypeVar
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import ZERO, Equation, Expression, Name
+from lagcli.problem_data import Inequality
+from lagcli.reader.assignments import assigned
 from lagcli.reader.by_coordinate import state_meant
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression, sides_of
 from lagcli.reader.friction_meant import friction_meant
@@ -36,17 +39,12 @@ from lagcli.reader.misshapen import (
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import in_digits, unit_in_formula
+from lagcli.reader.positions import Excerpt
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import INITIAL, NUMBERS, VALUES, Kind, Role, Scope, name_mistake
 from lagcli.reader.suggest import closest
 from lagcli.reader.text import Mistake
 from lagcli.reader.unknown_keys import unknown_key
-
-if TYPE_CHECKING:
-    from collections.abc import Callable, Container, Iterable, Iterator
-
-    from lagcli.problem_data import Inequality
-    from lagcli.reader.positions import Excerpt
 
 _T = TypeVar("_T")
 _Formula = TypeVar("_Formula", "Expression", "Equation", "Inequality")
@@ -60,8 +58,7 @@ YES_OR_NO = {"yes": True, "no": False, "true": True, "false": False}
 _WORDS = frozenset({"none", "null", *YES_OR_NO})
 _FREQUENCIES = "write [sqrt(g/l)]"
 _RELATION = regex("[=<>≤≥]")
-#: An entry of a map that has no colon, and the sections in which it is no equation.
-_ASSIGNED = regex(r"(?P<key>[^\W\d]\w*'*)(?:\(0\))?\s*(?:[-=]?>|:?=|→)\s*(?P<value>[^=<>]+?)\s*")
+#: The sections in which an entry of a map that has no colon is no equation.
 _ASSIGNABLE = frozenset({"initial", "forces", "definitions", "simulation"})
 #: Sections whose entries have names of the user's, which stand in no formula.
 _OF_FREE_NAMES = frozenset("brackets contacts find points symmetries".split())
@@ -87,11 +84,18 @@ class FileReader:
     text: str = ""
 
     def error(
-        self, message: str, span: Span, hint: str = "", related: tuple[tuple[Span, str], ...] = ()
+        self,
+        message: str,
+        span: Span,
+        hint: str = "",
+        related: tuple[tuple[Span, str], ...] = (),
+        refused: str | None = None,
     ) -> None:
-        """Note a mistake and go on; after very many, forget it."""
+        """Note a mistake, and the name that is not declared for it; after very many, forget it."""
         if not self.is_full:
             self.diagnostics.append(Diagnostic(message, span, hint, related=related))
+        if refused is not None:
+            self.scope.refused.append(refused)
 
     @property
     def is_full(self) -> bool:
@@ -124,8 +128,7 @@ class FileReader:
             other = section_meant(value, attributes, coordinates)
             if kept and other and other not in {section, *self.sections} and not key.in_flow:
                 message = f"'{key.label}' does not belong to {section}"
-                self.error(message, key.span, f"a line '{other}:' is missing above it")
-                self.scope.refused.append("")
+                self.error(message, key.span, f"a line '{other}:' is missing above it", refused="")
                 break
             kept.append((key, value))
         return kept
@@ -138,28 +141,24 @@ class FileReader:
             is_contact = re.search("[<>≤≥]", "".join(texts_of(node))) is not None
             of_relations = "contacts" if is_contact else "constraints"
             if texts_of(node) and what in {of_relations, "symmetries"}:
-                self.error(f"each of {what} has a name", node.span, hint)
-                self.scope.refused.append("")
+                self.error(f"each of {what} has a name", node.span, hint, refused="")
                 return
             yield from self._with_decimals(node, what)
         else:
             word = node.value.casefold() if isinstance(node, Scalar) else ""
             is_word = word in _WORDS or word in habits()["nothing"]
-            is_word |= isinstance(node, Sequence) and not node.items
+            items = node.items if isinstance(node, Sequence) else []
+            are_maps = bool(items) and all(isinstance(x, Mapping) for x in items)
+            is_word |= isinstance(node, Sequence) and not items
             if is_word and not what.startswith("the symmetry"):
                 hint = "leave out the key"
             if named := by_its_name(node):
                 hint = f"write {{{named}}}"
-            elif (
-                isinstance(node, Sequence)
-                and node.items
-                and all(isinstance(x, Mapping) for x in node.items)
-                and ("…" in hint or not hint.startswith("write {"))
-            ):
-                inner = ", ".join(map(entries_of, node.items))
+            elif are_maps and ("…" in hint or not hint.startswith("write {")):
+                inner = ", ".join(map(entries_of, items))
                 is_flow = node.text.source.text[node.start] == "["
                 hint = f"write {{{inner}}}" if is_flow else WITHOUT_HYPHENS
-            first = node.items[0] if isinstance(node, Sequence) and node.items else None
+            first = items[0] if items else None
             labels = {key.label for key, _ in getattr(first, "entries", ())}
             if first is not None and labels and labels <= SECTIONS.keys():
                 hint = f"each has a name: write name: {{{entries_of(first)}}}, without '-'"
@@ -179,8 +178,7 @@ class FileReader:
         """
         labels = [key.label if value.is_empty else "" for key, value in node.entries]
         parts = [part for label in labels for part in label.split(";")]  # {x = 1; x' = 0}
-        pairs = [_ASSIGNED.fullmatch(part.strip()) for part in parts]
-        given = [f"{each['key']}: {each['value']}" for each in pairs if each]
+        given = [f"{name}: {value}" for part in parts for name, value in assigned(part)]
         if what in _ASSIGNABLE and given and len(given) == len(parts):
             first = node.entries[0][0]
             message = f"': ' is missing behind '{given[0].partition(':')[0]}'"
@@ -193,8 +191,7 @@ class FileReader:
         if written[:1] == "{" and re.search(r"\d,\d+\s*;", written):
             whole = re.sub(r"(\d),(?=\d)", r"\1.", written).replace(";", ",")
             hint = f"a decimal point is written '.': write {whole}"
-            self.error("a comma ends a value", node.span, hint)
-            self.scope.refused.append("")
+            self.error("a comma ends a value", node.span, hint, refused="")
             return
         for key, value in node.entries:
             is_digits = re.fullmatch(r"\d+(?:\s*[^\W\d].*)?", key.label)  # 5 kg of {m: 0,5 kg}
@@ -426,9 +423,8 @@ class FileReader:
             hint = one_sum(node, what)
             if what == "dissipation":
                 hint = friction_meant(what, node, [*self.scope.of_kind("coordinate")])
-                hint = hint.replace("dissipation: ", "").replace(
-                    "write f", "these are forces: write f"
-                )
+                hint = hint.replace("dissipation: ", "")
+                hint = hint.replace("write f", "these are forces: write f")
                 hint = hint or "one function for all coordinates, such as c*x'^2/2"
             self.error(f"{what} must be an expression, not {kind(node)}", node.span, hint)
             return None
@@ -450,8 +446,7 @@ class FileReader:
         """Enter a name into the scope; a mistake when it is none, or taken."""
         wrong = name_mistake(name, one=one)
         if wrong is not None:
-            self.error(wrong[0], span, wrong[1])
-            self.scope.refused.append(name)
+            self.error(wrong[0], span, wrong[1], refused=name)
             return False
         if name in self.scope.kinds:
             taken = self.scope.kinds[name]

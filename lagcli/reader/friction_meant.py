@@ -12,9 +12,9 @@ from lagcli.reader.misshapen import as_rayleigh
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.regex import regex
 
-_FRICTION = regex(
+FRICTION_WORD = regex(
     r"(?P<dry>fri[ck]|reib|frott|attrit|atrit|roz|roce|coulomb|wrijv|тре|tarcie)"
-    r"|damp|dämpf|demp|dashpot|absorber|amort|smorz|drag|dissip|rayleigh|visc",
+    r"|brems|damp|dämpf|demp|dashpot|absorber|amort|smorz|drag|dissip|rayleigh|visc",
     re.IGNORECASE,
 )
 #: Quantities of friction that are no factor of a velocity.
@@ -29,7 +29,7 @@ def friction_meant(word: str, value: DocumentNode, coordinates: Sequence[str]) -
     Laws are forces or their Rayleigh functions, a number or name is a coefficient.  Nothing where
     it is not clear what is meant.
     """
-    about = _FRICTION.search(word)
+    about = FRICTION_WORD.search(word)
     if about is None or not coordinates or _OTHER.search(word):
         return ""
     lost: list[str] = []

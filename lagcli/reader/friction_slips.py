@@ -58,7 +58,7 @@ def friction_slips(
 
 def _opposite(term: Expression, text: SourceText) -> str:
     """`: -mu*m*g*sign(x')`, the term with the other sign; nothing where a parenthesis is cut."""
-    written = text.source.text[slice(*text.offsets(term.span))]
+    written = text.written(term.span)
     other = written[1:].strip() if written[0] == "-" else f"-{written}"
     return f": {other}" if written.count("(") == written.count(")") else ""
 

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from lagcli.expression import FUNCTIONS
 from lagcli.reader.clauses import written_out
+from lagcli.reader.file_reader import FileReader
 from lagcli.reader.misplaced import CALLED
 from lagcli.reader.misshapen import named_formulas
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import name_mistake
-
-if TYPE_CHECKING:
-    from lagcli.reader.file_reader import FileReader
 
 _FORMULA = "a formula, without arguments, stands under definitions"
 

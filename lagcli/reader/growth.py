@@ -6,7 +6,7 @@ arithmetic holds the exponent.  A polynomial of degree 10^400 has no arithmetic 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator, Sequence
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import (
@@ -26,9 +26,6 @@ from lagcli.reader.constants import magnitude
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS, thousands
 from lagcli.reader.scope import Growth, Scope
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
 _GROWING = frozenset({"exp", "sinh", "cosh"})
 
 
@@ -46,16 +43,12 @@ def growth(expression: Expression, scope: Scope) -> tuple[Growth, Diagnostic | N
 
 def _excess(node: Expression, found: Growth) -> Iterator[Diagnostic]:
     if found.exponentials > EXPONENTIAL_LEVELS:
-        yield Diagnostic(
-            f"more than {EXPONENTIAL_LEVELS} exponentials inside each other",
-            node.span,
-            f"the limit is {EXPONENTIAL_LEVELS} levels",
-        )
+        message = f"more than {EXPONENTIAL_LEVELS} exponentials inside each other"
+        yield Diagnostic(message, node.span, f"the limit is {EXPONENTIAL_LEVELS} levels")
     if found.degree > DEGREE:
         bound = thousands(DEGREE)
-        yield Diagnostic(
-            f"an expression of a degree beyond {bound}", node.span, f"the limit is {bound}"
-        )
+        message = f"an expression of a degree beyond {bound}"
+        yield Diagnostic(message, node.span, f"the limit is {bound}")
 
 
 def _levels(node: Expression, parts: Sequence[Growth], scope: Scope) -> int:

@@ -14,6 +14,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
+from lagcli.reader.assignments import assigned
 from lagcli.reader.regex import regex
 
 #: The keys of a problem.
@@ -158,8 +159,8 @@ def colon_advice(line: str) -> str:
         r"\s*([^\W\d]\w*)(?:\s*(?:<-|←|[-=]>|→|[=:]?[=:：])\s*(?=[^+*/^<>])|\s+(?![-+*/^<>]))(.+)",
         line,
     )
-    values = re.findall(r"(\w+)\s*=\s*([-\d.e/]+)\s*(?:[;,]|$)\s*", line)
-    if values and line[0] != " " and "; ".join(map(" = ".join, values)) == line.strip(" ;"):
+    values = assigned(line.strip(" ;")) if re.match(r"\w+\s*=", line) else []
+    if values and all(re.fullmatch(r"[-\d.e/]+", value) for _, value in values):
         return f"write parameters: {{{', '.join(map(': '.join, values))}}}"
     for pattern, advice in habits()["begins"]:
         if begun := re.match(pattern, line):

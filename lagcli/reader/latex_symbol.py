@@ -7,13 +7,10 @@ letters, digits, known macros such as `\theta` and `\dot`, indices, balanced bra
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
+from lagcli.reader.file_reader import FileReader
+from lagcli.reader.nodes import Scalar
 from lagcli.reader.regex import regex
-
-if TYPE_CHECKING:
-    from lagcli.reader.file_reader import FileReader
-    from lagcli.reader.nodes import Scalar
 
 _LETTERS = """alpha beta gamma delta epsilon varepsilon zeta eta theta vartheta iota kappa
 lambda mu nu xi pi varpi rho varrho sigma varsigma tau upsilon phi varphi chi psi omega

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from html import unescape
 from typing import NamedTuple
 
@@ -39,7 +40,7 @@ _SIGNED = regex(
 #: The formula in a hint.
 _PROPOSED = regex(r"(?:write|did you mean) (.*?)\??")
 _ASSIGNED = regex(r"[^\W\d][\w()=' ]*?\s*:?=\s*[^=]")
-_TWO_KEYS = regex(
+_TWO_KEYS = (
     rf"^(.*?[^\s:;,])\s*[;,]?\s+(?=(?:{'|'.join(KEYS)}):\s)|^([^{{]*?)\s*[;,]\s+(?=[^\W\d]\w*:\s)"
 )
 #: What is said of a line that is none of the file.
@@ -53,14 +54,8 @@ _PAIRS = {"[": "]", "{": "}", '"': '"', "'": "'"}
 _NEVER_CLOSED = {"]": "a list '[' is never closed", "}": "a map '{' is never closed",
                  **dict.fromkeys("'\"", "this quote is never closed")}  # fmt: skip
 #: Advice that fits many lines; a repair is better.
-_GENERAL = frozenset(
-    {
-        "",
-        "put the whole value in quotes",
-        "group with parentheses ( )",
-        "leave out what is not known",
-    }
-)
+_GENERAL = {"", "put the whole value in quotes", "group with parentheses ( )",
+            "leave out what is not known"}  # fmt: skip
 
 
 def _closed(line: str) -> str:
@@ -158,71 +153,63 @@ def _assumed(line: str) -> str:
     return _SIGNED.sub(entry, line)
 
 
-#: In the order in which they are tried.
-_CHANGES: tuple[Callable[[str], str], ...] = (
-    lambda line: re.sub(r"\s+(?://|/\*|!\s)\s*(?=\S)", "  # ", line, count=1),
-    lambda line: re.sub(r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- ", line),
-    lambda line: re.sub(r"(?<=:)\s+\?\s*$", "", line),
-    lambda line: re.sub(r"(?:(?<=\{)value: +\?+(?:, +)?|, +value: +\?+)(?=[\w},])", "", line),
-    lambda line: re.sub(r"(?<=: )\s*\?+\s*(?=[,}])", "", line),
-    lambda line: re.sub(r"(?<=unit: )\s*-+(?=\s*(?:#|$))", "1", line),
+def _with_indices(line: str) -> str:
+    """`[x_1, x_2, x_3]` for `[x_{1}, x[2], Subscript[x, 3]]`."""
+    form = r"Subscript\[(\w+),\s*(\w+)\]|(?<![\w:])([^\W\d]\w*?)_?(?:\[(\d+)\]|_\{(\w+)\})"
+    is_listed = re.match(r"\s*\w+:\s+[\[{]", line)
+    return re.sub(form, lambda m: "_".join(filter(None, m.groups())), line) if is_listed else line
+
+
+#: What is written for each form, or the line for each line, in the order in which they are tried.
+_CHANGES: tuple[tuple[str, str] | Callable[[str], str], ...] = (
+    (r"^(.*?)\s+(?://|/\*|!\s)\s*(?=\S)", r"\1  # "),
+    (r"^(\s*)-(?=[^\W\d]\w*\s*$)", r"\1- "),
+    (r"(?<=:)\s+\?\s*$", ""),
+    (r"(?:(?<=\{)value: +\?+(?:, +)?|, +value: +\?+)(?=[\w},])", ""),
+    (r"(?<=: )\s*\?+\s*(?=[,}])", ""),
+    (r"(?<=unit: )\s*-+(?=\s*(?:#|$))", "1"),
     _assumed,
     lambda line: re.sub(r"\\\[([A-Z])([a-z]+)\]", lambda m: m[1].lower() + m[2], line),
-    lambda line: re.sub(r"^([TVLH]:)\s+[a-z][a-z ]*:(?=\s)", r"\1", line),
-    lambda line: (
-        re.sub(  # [x_{1}, x[2], Subscript[x, 3]]
-            r"Subscript\[(\w+),\s*(\w+)\]|(?<![\w:])([^\W\d]\w*?)_?(?:\[(\d+)\]|_\{(\w+)\})",
-            lambda m: "_".join(filter(None, m.groups())),
-            line,
-        )
-        if re.match(r"\s*\w+:\s+[\[{]", line)
-        else line
-    ),
+    (r"^([TVLH]:)\s+[a-z][a-z ]*:(?=\s)", r"\1"),
+    _with_indices,
     _with_units,
-    lambda line: re.sub(r"^(\s*[\w ]+:\s+)(\|[^|]+\|.*)$", r'\1"\2"', line),
-    lambda line: re.sub(r"^(\s*)[*•·–—+]\s+(?=[^\W\d]\w*\s*$)", r"\1- ", line),
+    (r"^(\s*[\w ]+:\s+)(\|[^|]+\|.*)$", r'\1"\2"'),
+    (r"^(\s*)[*•·–—+]\s+(?=[^\W\d]\w*\s*$)", r"\1- "),
     lambda line: unescape(line) if re.search(r"&\w+;", line) else line,
-    lambda line: re.sub(r"^[A-Za-z][a-z ]*\s([TVLH])\s*=\s*(?=\S)", r"\1: ", line),
-    lambda line: re.sub(rf"^({'|'.join(KEYS)})(?:\s+(?=[^\s:=])|(?=[\[{{]))", r"\1: ", line),
-    lambda line: re.sub(r"(?<=\w)\s*(?=\{\s*\w+:\s)", ": ", line),  # {m{value: 1}}
-    lambda line: re.sub(
-        r"^(\s*\"?[^\W\d]\w*'?\"?(?:\((?:t=)?0\))?)\s*(?:<-|←|:=|->|→|=>|=|：)\s*", r"\1: ", line
-    ),
-    lambda line: re.sub(r"^(\s+[^\W\d]\w*)(?=\s*(?:#.*)?$)", r"\1:", line),
-    lambda line: re.sub(  # {S: for: m}
-        r"(?<=[{,])(\s*\w+: )(\w+: [^,:{}\[\]]*[^\s,:{}\[\]])\s*(?=[,}])", r"\1{\2}", line
-    ),
+    (r"^[A-Za-z][a-z ]*\s([TVLH])\s*=\s*(?=\S)", r"\1: "),
+    (rf"^({'|'.join(KEYS)})(?:\s+(?=[^\s:=])|(?=[\[{{]))", r"\1: "),
+    (r"(?<=\w)\s*(?=\{\s*\w+:\s)", ": "),  # {m{value: 1}}
+    (r"^(\s*\"?[^\W\d]\w*'?\"?(?:\((?:t=)?0\))?)\s*(?:<-|←|:=|->|→|=>|=|：)\s*", r"\1: "),
+    (r"^(\s+[^\W\d]\w*)(?=\s*(?:#.*)?$)", r"\1:"),
+    (r"(?<=[{,])(\s*\w+: )(\w+: [^,:{}\[\]]*[^\s,:{}\[\]])\s*(?=[,}])", r"\1{\2}"),  # {S: for: m}
     _with_blanks,
     _formula,
-    lambda line: re.sub(r"^(\s*[\w ]+:\s+)-\s+(?=\S)", r"\1-", line),
+    (r"^(\s*[\w ]+:\s+)-\s+(?=\S)", r"\1-"),
     _grouped,
-    lambda line: re.sub(r"^(\s*)-\s+(?=[^\W\d]\w*:\s)", r"\1", line),
-    lambda line: re.sub(r"^(\s*[^\W\d]\w*);\s", r"\1: ", line),
-    lambda line: re.sub(r"'(\w+)'('+)(?=\s*:)", r"\1\2", line),
-    lambda line: re.sub(r"(?<=[\[{,\s])['\"](?=[^\W\d]\w*'*(?::\s|\s*[\]},]))", "", line),
-    lambda line: re.sub(r"\s+#\s*([^\]}#]*)([\]}]+)\s*$", r"\2  # \1", line),
-    lambda line: re.sub(r"(?<=[\w)])\s+\[[\w*/^ ]+\](?=\s*[,}])", "", line),
+    (r"^(\s*)-\s+(?=[^\W\d]\w*:\s)", r"\1"),
+    (r"^(\s*[^\W\d]\w*);\s", r"\1: "),
+    (r"'(\w+)'('+)(?=\s*:)", r"\1\2"),
+    (r"(?<=[\[{,\s])['\"](?=[^\W\d]\w*'*(?::\s|\s*[\]},]))", ""),
+    (r"\s+#\s*([^\]}#]*)([\]}]+)\s*$", r"\2  # \1"),
+    (r"(?<=[\w)])\s+\[[\w*/^ ]+\](?=\s*[,}])", ""),
     _paired,
     _without_last,
     _with_points,
-    lambda line: re.sub(  # bob: [x, y], m
+    (  # bob: [x, y], m
         r"^(\s+\w+:\s+)(\[[^\[\]]+\]),\s*(?:m\w*\s*[:=]\s*)?(\w+)\s*$",
         r"\1{position: \2, mass: \3}",
-        line,
     ),
     lambda line: line.replace(";", ",") if re.search(r"[\[{].*;", line) else line,
-    lambda line: _TWO_KEYS.sub(r"\1\2\n", line, count=1),
-    lambda line: re.sub(r"(?<=[^\s:,])\s+(?:%|--|;)\s*(?=\S)", "  # ", line, count=1),
-    lambda line: re.sub(r"(?<=[:,\[] )[%@`&!*](?=\w)", "", line),
+    (_TWO_KEYS, r"\1\2\n"),
+    (r"^(.*?[^\s:,])\s+(?:%|--|;)\s*(?=\S)", r"\1  # "),
+    (r"(?<=[:,\[] )[%@`&!*](?=\w)", ""),
     _listed,
     _closed,
-    lambda line: re.sub(  # {m: 1 k: 2}
-        r"([\w.)\]'\"])\s+(?=[\"']?[^\W\d]\w*[\"']?:\s)", r"\1, ", line
-    ),
+    (r"([\w.)\]'\"])\s+(?=[\"']?[^\W\d]\w*[\"']?:\s)", r"\1, "),  # {m: 1 k: 2}
     lambda line: line.rstrip() + "," if re.match(r"\s+[\w\"']+:.*[^:,]$", line) else line,
-    lambda line: re.sub(r"(?<=[\w)\]}\"'])\s*[;,.]\s*$", "", line),
+    (r"(?<=[\w)\]}\"'])\s*[;,.]\s*$", ""),
     _quoted,
-    lambda line: re.sub(r"([\]}])\s*=\s*[^\s,\]}]+", r"\1", line),
+    (r"([\]}])\s*=\s*[^\s,\]}]+", r"\1"),
 )
 
 
@@ -296,11 +283,8 @@ def _continued(text: str, mistake: Diagnostic) -> _Repair | None:
     more = range(mistake.span.line, last)
     for k in (mistake.span.line - 1, *more):
         lines[k] = f"  {lines[k]}"
-    return _Repair(
-        replace(mistake, hint=mistake.hint + also_in_lines(k + 1 for k in more)),
-        "\n".join(lines),
-        str,
-    )
+    hint = mistake.hint + also_in_lines(k + 1 for k in more)
+    return _Repair(replace(mistake, hint=hint), "\n".join(lines), str)
 
 
 def _without_tabs(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
@@ -315,9 +299,8 @@ def _without_tabs(text: str, mistake: Diagnostic, read: Reading) -> _Repair | No
     if is_mixed and not read(Source("", whole))[0]:
         return None
     lines = [k for k, line in enumerate(text.split("\n")) if re.match(rf" *[{BLANKS}]\s*\S", line)]
-    return _Repair(
-        replace(mistake, hint=mistake.hint + also_in_lines(k + 1 for k in lines[1:])), whole, str
-    )
+    hint = mistake.hint + also_in_lines(k + 1 for k in lines[1:])
+    return _Repair(replace(mistake, hint=hint), whole, str)
 
 
 def _at(mistake: Diagnostic, cuts: list[tuple[int, int]]) -> Diagnostic:
@@ -336,9 +319,8 @@ def _repaired(text: str, mistake: Diagnostic, read: Reading) -> _Repair | None:
     lines = text.split("\n")
     first = mistake.span.line - 1
     shown = lines[first].strip() if first < len(lines) else ""
-    general = (
-        _GENERAL | {hint for *_, hint in habits()["yaml"]} | {f"write {shown}", colon_advice(shown)}
-    )
+    general = {*_GENERAL, f"write {shown}", colon_advice(shown)}
+    general |= {hint for *_, hint in habits()["yaml"]}
     other = mistake.hint == "indent with spaces" or "U+" in mistake.message
     other |= mistake.hint.startswith("write parameters: ")
     if len(text) > _LONGEST or other or not (mistake.hint in general or re.match(r"-\w", shown)):
@@ -454,7 +436,8 @@ def _tried(lines: list[str], first: int) -> Iterator[tuple[int, str, _Change]]:
         yield above[0], f"{indent[0] if indent else ''}{lines[above[0]].lstrip()}", str
     if above[1:] and re.fullmatch(r"(title|source|description):\s*", lines[above[1]]):
         yield above[0], f"  {lines[above[0]]}", str
-    for change in _CHANGES:
+    for form in _CHANGES:
+        change = form if callable(form) else partial(re.sub, *form)
         for number in above:
             if (line := change(lines[number])) != lines[number]:
                 yield number, line, change

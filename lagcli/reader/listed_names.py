@@ -4,15 +4,11 @@ from __future__ import annotations
 
 import re
 
+from lagcli.reader.assignments import assigned
 from lagcli.reader.habits import names_among, number_and_unit
 from lagcli.reader.headings import system_meant
 from lagcli.reader.regex import regex
 
-#: `m = 1 kg`, `k: 2`, `l 3`, several of them.
-_VALUES = regex(
-    r"(\w+)(?:\s*[=:]\s*|\s+(?=[\d.]))"
-    r"((?:[^\s,;()}]|\([^()]*\))+(?: [A-Za-z][\w/^]*(?=\s*(?:[,;]|$)))?)"
-)
 #: `Real x(start=1);`, `parameter Real m = 2 "mass";` of Modelica, `double m = 2;`.
 _DECLARATION = regex(
     r"(?:\b(?:parameter|constant|const|final|var|let)\s+)*\b(?:Real|real|float|double|int|Integer)\s+"
@@ -63,7 +59,7 @@ def as_names(text: str) -> str:
     if vector := re.fullmatch(r"\s*\w+\s*=\s*[(\[<]([\w\s,']+)[)\]>](?:\^?T)?\s*", text):
         return f"write [{vector[1].strip()}]"
     text = re.sub(r"^(?:.*=)?\s*(?:\w+\.)?\w+\(\s*(['\"])(.*)\1.*\)\s*$", r"\2", text)
-    if given := _VALUES.findall(text):
+    if given := assigned(text):
         parts = ((name, *number_and_unit(value)) for name, value in given)
         listed = ", ".join(
             f"{x}: {{value: {value}, unit: {unit}}}" if unit else f"{x}: {value}"
@@ -76,9 +72,6 @@ def as_names(text: str) -> str:
         return f"write their names, as in {meant}"
     if counted := names_among(text):
         return f"write [{', '.join(counted)}]"
-    names = [
-        name
-        for name in re.findall(r"[^\W\d]\w*", re.sub(r"[(\[]t[)\]]", "", text))
-        if name not in _AND
-    ]
+    words = re.findall(r"[^\W\d]\w*", re.sub(r"[(\[]t[)\]]", "", text))
+    names = [name for name in words if name not in _AND]
     return f"write [{', '.join(names)}]" if names else "such as [x, y]"

@@ -61,7 +61,7 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
         return few[0] if len(few) == 1 else None
 
     def factor(mistake: Diagnostic, places: list[_Place], remaining: list[str]) -> _Place | None:
-        term = text.source.text[slice(*text.offsets(mistake.span))]
+        term = text.written(mistake.span)
         groups = [_squares(places, term, problem), places]
         if _is_energy(mistake):
             moving = {each.name for each in problem.coordinates} | {*problem.definitions}
@@ -97,7 +97,7 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
         return known
     for number, each in enumerate(found[:_MOST]):
         others = _terms([*found[:number], *found[number + 1 :]])
-        term = text.source.text[slice(*text.offsets(each.span))]
+        term = text.written(each.span)
         is_bare = not any(re.search(rf"\b{one.name}\b", term) for one in problem.parameters)
         places = _other_factors(problem, text, each)
         powers = [place for place in places if is_bare or place[0] != place[1]]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import FUNCTIONS
@@ -24,9 +24,6 @@ from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
 from lagcli.reader.text import also_in_lines
 from lagcli.record import replace
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
 
 #: `U(r)`.
 CALLED = regex(r"(\w+)\(\s*([^\W\d][\w, ]*?)\s*\)")
@@ -64,9 +61,7 @@ def lifted(root: Mapping) -> tuple[Mapping, list[Diagnostic]]:
         if key.in_flow or key.label in given:
             return False
         if key.label in _ENERGIES:
-            formula = (
-                value.value if isinstance(value, Scalar) and key.label not in coordinates else ""
-            )
+            formula = "" if key.label in coordinates else getattr(value, "value", "")
             return mentions.search(formula) is not None and not _RELATION.search(formula)
         return key.label in MAPS and isinstance(value, Mapping | Sequence)
 
@@ -201,11 +196,8 @@ def _with_definitions(
     named = ", ".join(f"{key.label}: {source_of(value)}" for key, value in found)
     names = ", ".join(key.label for key in keys)
     what = "it has a formula" if section == "functions" else "it changes with time"
-    what = (
-        what.replace("it has", "they have").replace("it changes", "they change")
-        if keys[1:]
-        else what
-    )
+    if keys[1:]:
+        what = what.replace("it has", "they have").replace("it changes", "they change")
     listed = f"are not {section}" if keys[1:] else f"is not a {section[:-1]}"
     message = f"{names} {listed}: {what}"
     uses_given = {*re.findall(r"\w+", named)} & {key.label for key, _ in given}

@@ -9,6 +9,7 @@ from typing import get_args
 
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption
+from lagcli.reader.assignments import assigned, pieces
 from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.habits import (
     CASE,
@@ -34,6 +35,8 @@ ALREADY_FOUND = (
     "leave it out: equilibria, frequencies and charges are found by "
     "lagcli solve FILE --show equilibria,modes,charges"
 )
+#: A longer section is not repeated.
+_LONGEST = 80
 FRICTION = "a friction force -c*x' is written dissipation: c*x'^2/2"
 WITHOUT_HYPHENS = "leave out the '-' before each key"
 #: `0:0.1:1`, also without the step.
@@ -41,8 +44,6 @@ RANGE = regex(
     r"\s*[\[(]?\s*(-?[\d.]*\d)\s*(?:\.\.+|…|to|bis|:|–)\s*(?:(-?[\d.]*\d)\s*:\s*)?"
     r"(-?[\d.]*\d)\s*[\])]?\s*"
 )
-#: `x = l*sin(a)`, several of them.
-_ASSIGNED_PARTS = regex(r"(\w+)(?:\([\w, ]*\))?\s*=\s*(.*?)(?=[\s,;]+\w+\s*=|\s*$)")
 _EQUATION = regex(r"\s*(?:\w+\.)?(?:Eq|Equality|Equal)\s*[(\[](.*)[)\]]\s*")
 _RELATION = regex(r"([^\s=<>≤≥:,{[][^=<>≤≥:,{[]*?)\s*[=<>≤≥]+\s*([^=<>≤≥:,\]}]*[^\s=<>≤≥:,\]}])")
 #: A velocity, or a difference of some.
@@ -81,7 +82,9 @@ def as_equation(text: str) -> str:
 def named_formulas(node: DocumentNode) -> dict[str, str]:
     """`x*y` by `a` for each `a = x*y` in a text or a list; empty for others."""
     lines = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
-    return dict(_ASSIGNED_PARTS.findall("; ".join(lines)))
+    lines = [each for each in lines if "=" in each and not re.search("[-=]>|[→:]", each)]
+    pairs = assigned("; ".join(re.sub(r"(?<=')=", "＝", each) for each in lines))  # where x'=0
+    return {name: value.replace("＝", "=") for name, value in pairs}
 
 
 def as_list(written: str) -> str:
@@ -113,18 +116,6 @@ def as_rayleigh(forces: str) -> str:
         has_half = re.search(r"^(?:1/2|0\.5)(?!\d)|/\s*2$", term) and not re.search("[-−]", law)
         found.append(f"{term[:at]}^2{term[at:]}{'' if has_half else '/2'}")
     return " + ".join(found)
-
-
-def pieces(text: str, signs: str) -> list[str]:
-    """What stands between signs that stand outside of brackets."""
-    parts, depth = [""], 0
-    for each in text:
-        depth += ("([{".find(each) >= 0) - (")]}".find(each) >= 0)
-        if depth == 0 and each in signs and parts[-1].strip():
-            parts.append("")
-        else:
-            parts[-1] += each
-    return parts
 
 
 def texts_of(node: DocumentNode) -> list[str]:
@@ -222,9 +213,9 @@ def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str
         entries = re.sub(r"(?:^|(?<=, ))(position|mass|force) +", r"\1: ", written)
         if re.match(r"(position|mass) ", written):
             return f"write {{{entries}}}"
-        if parts := dict(_ASSIGNED_PARTS.findall(written)):
-            axes = [parts[axis].strip(" ,") for axis in "xyz" if axis in parts]
-            mass = (parts.get("mass") or parts.get("m") or "").strip(" ,")
+        if parts := dict(assigned(written)):
+            axes = [parts[axis] for axis in "xyz" if axis in parts]
+            mass = parts.get("mass") or parts.get("m") or ""
             if axes:
                 return f"write {{position: [{', '.join(axes)}]{f', mass: {mass}' * bool(mass)}}}"
         if not present and written.isidentifier():  # ball: m
@@ -408,6 +399,17 @@ def entries_of(node: DocumentNode | None) -> str:
     """The entries of a map in one line, as between braces."""
     entries = node.entries if isinstance(node, Mapping) else []
     return ", ".join(f"{key.label}: {source_of(value)}" for key, value in entries)
+
+
+def with_entries(given: str, added: str) -> str:
+    """`{m, k: 2}` for the section `[m]` and the entry `k: 2`; nothing for a long one or none."""
+    inner = " ".join(given[1:-1].split())
+    entries = pieces(f"{inner}, {added}" if inner else added, ",")
+    parts = {each.partition(":")[0].strip(): each.strip() for each in entries}
+    begin, end = "{}" if given[:1] == "{" or ":" in added else "[]"
+    whole = f"{begin}{', '.join(parts.values())}{end}"
+    is_short = given[:1] in {"{", "["} and "#" not in given and len(whole) <= _LONGEST
+    return whole if is_short else ""
 
 
 def source_of(node: DocumentNode) -> str:

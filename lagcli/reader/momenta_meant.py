@@ -20,10 +20,9 @@ from lagcli.expression import (
     name_nodes,
     terms_of,
 )
-from lagcli.reader.expressions import formula_or_none, read_expression
-from lagcli.reader.positions import Excerpt
+from lagcli.reader.expressions import formula_or_none
 from lagcli.reader.regex import regex
-from lagcli.reader.text import Mistake, SourceText
+from lagcli.reader.text import SourceText
 
 #: Factors above and below of the square of a velocity.
 _Factors = tuple[list[str], list[str]]
@@ -69,14 +68,8 @@ def with_velocities(text: str) -> str:
 
     T = p^2/(2 a) with p = a q' is a q'^2/2; terms without momenta stay as they are.
     """
-    source = SourceText.of(Source("", text))
-    try:
-        formula = read_expression(Excerpt.whole(source.source))
-    except Mistake:
-        return ""
-    terms = formula.terms if isinstance(formula, Sum) else (formula,)
-    changed = text
-    for term in reversed(terms):
+    source, changed, formula = SourceText.of(Source("", text)), text, formula_or_none(text)
+    for term in reversed(terms_of(formula) if formula is not None else ()):
         start, end = source.offsets(term.span)
         if not re.search(r"(?<!\w)p_", text[start:end]):
             continue
@@ -100,7 +93,7 @@ def rate_of(name: str, text: str) -> str:
         return f"p_{name}/" + (f"({'*'.join(divisors)})" if divisors[1:] else divisors[0])
     law = energies.get("T") or energies.get("L", "")
     source = SourceText.of(Source("", law))
-    moving = [each for each in terms_of(formula_or_none(law) or ZERO) if _has_velocity(each)]
+    moving = [each for each in terms_of(formula_or_none(law) or ZERO) if has_velocity(each)]
     found = with_momenta(f"{name}'", Sum(tuple(moving)), source)
     return re.sub(r"^\((.*)\)$", r"\1", found)
 
@@ -128,11 +121,11 @@ def _squares(
         case Sum(terms=terms):
             return all(_squares(term, around, found, source) for term in terms)
         case Product(factors=factors):
-            moving = [each for each in factors if _has_velocity(each)]
-            others = [_written(each, source) for each in factors if not _has_velocity(each)]
+            moving = [each for each in factors if has_velocity(each)]
+            others = [_written(each, source) for each in factors if not has_velocity(each)]
             inner = ([*above, *others], below)
             return len(moving) == 1 and _squares(moving[0], inner, found, source)
-        case Quotient(numerator=over, denominator=under) if not _has_velocity(under):
+        case Quotient(numerator=over, denominator=under) if not has_velocity(under):
             return _squares(over, (above, [*below, _written(under, source)]), found, source)
         case Power(base=Name(name=name, primes=1), exponent=Number(value=power)) if power == 2:
             is_new = name not in found
@@ -141,12 +134,12 @@ def _squares(
     return False
 
 
-def _has_velocity(node: Expression) -> bool:
+def has_velocity(node: Expression) -> bool:
+    """Whether a name with a prime stands in a formula."""
     return any(each.primes for each in name_nodes(node))
 
 
 def _written(node: Expression, source: SourceText) -> str:
     """The text of a factor, in parentheses where it is not one name or number."""
-    start, end = source.offsets(node.span)
-    text = source.source.text[start:end].strip()
+    text = source.written(node.span).strip()
     return text if re.fullmatch(r"[\w.]+(?:\^\w+)?", text) or text[:1] == "(" else f"({text})"

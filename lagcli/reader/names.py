@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import (
@@ -24,9 +24,6 @@ from lagcli.reader.number_units import in_digits
 from lagcli.reader.scope import CONSTANT, Role, Scope
 from lagcli.reader.suggest import alike, closest, did_you_mean
 from lagcli.reader.undeclared import COORDINATE, UNDECLARED
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 _MOMENTA = "momenta stand in H: give H, or write velocities x'"
 _ORDERS = ("coordinate", "velocity", "acceleration", "third derivative")
@@ -52,26 +49,22 @@ def name_mistakes(
     """
     times = (isinstance(node, Name) and node.name == "t" for node in walk(expression))
     role = role._replace(driven=any(times))
+    coordinates = [*scope.of_kind("coordinate")]
     covered: set[int] = set()  # by the message on what is around them
     for node in walk(expression):
         match node:
-            case Quotient(numerator=Name() as above, denominator=Name(name="dt") as below) if (
-                above.name[:1] == "d" and alike(above.name[1:], scope.of_kind("coordinate"))
-                and not {above.name, "dt"} & scope.kinds.keys()
-            ):  # fmt: skip
-                covered |= {id(above), id(below)}
-                message = f"'{above.name}/dt' is not a velocity in {what}"
-                yield Diagnostic(message, above.span.to(below.span))
             case Quotient(numerator=Name() as above, denominator=Name() as below) if (
-                above.name[:1] == "d" and below.name[:1] == "d" and above.name[1:]
-                and alike(below.name[1:], scope.of_kind("coordinate"))
+                above.name[:1] == "d" == below.name[:1] and above.name[1:]
+                and alike((above if below.name == "dt" else below).name[1:], coordinates)
                 and not {above.name, below.name} & scope.kinds.keys()
             ):  # fmt: skip
                 covered |= {id(above), id(below)}
-                energy = above.name[1:] in {"V", "U", "T", "L", "H", "W"}
-                hint = f"write diff({above.name[1:]}, {below.name[1:]})"
-                hint = "leave it out: what an energy contributes is derived" if energy else hint
-                message = f"'{above.name}/{below.name}' is not a derivative in {what}"
+                rate, hint = "derivative", f"write diff({above.name[1:]}, {below.name[1:]})"
+                if below.name == "dt":
+                    rate, hint = "velocity", ""
+                elif above.name[1:] in {"V", "U", "T", "L", "H", "W"}:
+                    hint = "leave it out: what an energy contributes is derived"
+                message = f"'{above.name}/{below.name}' is not a {rate} in {what}"
                 yield Diagnostic(message, above.span.to(below.span), hint)
             case Name() if id(node) in covered:
                 pass
@@ -97,11 +90,8 @@ def derivative_order(expression: Expression, scope: Scope) -> int:
 
 def depends_on_time(expression: Expression, scope: Scope) -> bool:
     """Whether t stands in an expression, or in a definition that it uses."""
-    names = (node.name for node in name_nodes(expression))
-    return any(
-        name == "t" or (name in scope.definitions and scope.definitions[name].time)
-        for name in names
-    )
+    moving = {"t", *(name for name, one in scope.definitions.items() if one.time)}
+    return any(node.name in moving for node in name_nodes(expression))
 
 
 def _order(node: Expression, scope: Scope) -> int:
@@ -343,11 +333,8 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         written = name + "'" * node.primes
         message = f"{written} is a {scope.kinds.get(name, 'quantity')}, not a function"
         hint = f"did you mean {written}*(…)?"
-        if scope.kinds.get(name) == "coordinate" and any(
-            isinstance(part, Name) and part.name == "t"
-            for each in node.arguments
-            for part in walk(each)
-        ):
+        of_time = any(part.name == "t" for part in name_nodes(*node.arguments))
+        if scope.kinds.get(name) == "coordinate" and of_time:
             hint = f"{written} is taken at the time t; there are no delays"
         elif scope.kinds.get(name) == "definition" and all(
             isinstance(each, Name) for each in node.arguments

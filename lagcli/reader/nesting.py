@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
+from lagcli.reader.automaton import Token
 from lagcli.reader.builder import mistake, span_of
 from lagcli.reader.limits import CALL_LEVELS, NESTING_LEVELS
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
-
-    from lagcli.reader.automaton import Token
 
 _OPERATORS = frozenset(
     {"_PLUS", "MINUS", "STAR", "SLASH", "_POWER", "EQUAL", "COMPARISON", "COMMA"}

@@ -5,13 +5,10 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
+from lagcli.diagnostics import Span
 from lagcli.reader.positions import Excerpt, offsets_of
-
-if TYPE_CHECKING:
-    from lagcli.diagnostics import Span
-    from lagcli.reader.text import SourceText
+from lagcli.reader.text import SourceText
 
 
 @dataclass(slots=True, eq=False, repr=False)
@@ -93,17 +90,6 @@ def size(node: Sequence | Mapping) -> int:
     return len(node.items if isinstance(node, Sequence) else node.entries)
 
 
-def entries_in(node: DocumentNode) -> Iterator[tuple[Scalar, DocumentNode]]:
-    """Every entry of every map, the outer ones first."""
-    if isinstance(node, Mapping):
-        for key, value in node.entries:
-            yield key, value
-            yield from entries_in(value)
-    elif isinstance(node, Sequence):
-        for item in node.items:
-            yield from entries_in(item)
-
-
 def nodes_in(node: DocumentNode) -> Iterator[DocumentNode]:
     """Every node of a document, the outer ones first."""
     yield node
@@ -114,3 +100,9 @@ def nodes_in(node: DocumentNode) -> Iterator[DocumentNode]:
         for key, value in node.entries:
             yield key
             yield from nodes_in(value)
+
+
+def entries_in(node: DocumentNode) -> Iterator[tuple[Scalar, DocumentNode]]:
+    """Every entry of every map, the outer ones first."""
+    for each in nodes_in(node):
+        yield from each.entries if isinstance(each, Mapping) else ()

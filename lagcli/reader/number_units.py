@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Container
 from fractions import Fraction
-from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.reader.habits import (
@@ -19,9 +19,6 @@ from lagcli.reader.habits import (
 )
 from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.regex import regex
-
-if TYPE_CHECKING:
-    from collections.abc import Container
 
 _COUNT = regex(r"([\d.]+(?:[eE][-+]?\d+)?)\s*(?![eE]\d+$)([^\W\d]\w*)")
 _ANGLE = regex("deg(/.*|)|rpm")

@@ -4,21 +4,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from lagcli.diagnostics import Diagnostic, Span
-from lagcli.expression import Name, walk
-from lagcli.problem_data import BracketQuestion, CanonicalTransformation
+from lagcli.expression import Expression, Name, walk
+from lagcli.problem_data import BracketQuestion, CanonicalTransformation, Symmetry
+from lagcli.reader.file_reader import FileReader
 from lagcli.reader.misshapen import FOUND, named_formulas, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import PHASE_SPACE, name_mistake
 from lagcli.record import replace
-
-if TYPE_CHECKING:
-    from lagcli.expression import Expression
-    from lagcli.problem_data import Symmetry
-    from lagcli.reader.file_reader import FileReader
 
 FUNCTION = PHASE_SPACE._replace(why="a function on phase space has momenta p_x, no velocities")
 BRACKETED = FUNCTION._replace(observables=True)

@@ -7,15 +7,12 @@ found again by reading the writing from left to right.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from collections.abc import Sequence
+from typing import Literal, NamedTuple
 
+from lagcli.diagnostics import Source, Span
 from lagcli.reader.regex import regex
 from lagcli.reader.text import SourceText
-
-if TYPE_CHECKING:
-    from collections.abc import Sequence
-
-    from lagcli.diagnostics import Source, Span
 
 Style = Literal["", "'", '"', "|", ">"]
 

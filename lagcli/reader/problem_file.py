@@ -5,10 +5,9 @@ from __future__ import annotations
 import re
 from functools import partial
 from pathlib import PurePath
-from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, ProblemError, Source, Span
-from lagcli.expression import name_nodes
+from lagcli.expression import Expression, name_nodes
 from lagcli.problem_data import Problem
 from lagcli.reader.compose import compose, without_wrong_texts
 from lagcli.reader.contacts import declare_contacts, read_contacts
@@ -35,11 +34,7 @@ from lagcli.reader.phase_space import (
     read_observables,
     read_transformations,
 )
-from lagcli.reader.quantities import (
-    declare_parameters,
-    read_coordinates,
-    read_parameters,
-)
+from lagcli.reader.quantities import declare_parameters, read_coordinates, read_parameters
 from lagcli.reader.questions import read_find, read_initial, read_simulation
 from lagcli.reader.regex import regex
 from lagcli.reader.restrictions import check_multipliers, declare_constraints, read_constraints
@@ -57,10 +52,6 @@ from lagcli.reader.undeclared import (
 )
 from lagcli.reader.value_checks import check_values, slips
 from lagcli.record import record, replace
-
-if TYPE_CHECKING:
-    from lagcli.expression import Expression
-
 
 #: A name that begins with x.
 _X = regex(r"(?<![^\W\d_])x")
@@ -114,9 +105,9 @@ def read_problem(source_name: str, data: bytes) -> ProblemReading:
 
     wrong, texts = without_foreign_lines(source.text)
     if not wrong:
-        from lagcli.reader.edits import on_lines
+        from lagcli.reader.edits import as_typed
 
-        found = tuple(on_lines(each, source) for each in reading.diagnostics)
+        found = tuple(as_typed(each, source) for each in reading.diagnostics)
         return replace(reading, diagnostics=found)
     others = (_read_lines(replace(source, text=text)).diagnostics for text in texts)
     errors = ([each for each in found if each.is_error] for found in others)
@@ -163,12 +154,13 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
             lambda text: _composed(text, alone=True),
             lambda each: any(first <= each.span.line <= last for first, last in lines),
         )
-    by_place = one_for_alike(one_for_cause(sorted(mistakes, key=lambda each: each.span)))
+    sections = [(key.span.line, key.label) for key, _ in entries]
+    starts = [line for line, _ in sections]
+    by_place = one_for_alike(one_for_cause(sorted(mistakes, key=lambda each: each.span)), starts)
     parameters = (source.text[v.start : v.end] for key, v in meant if key == "parameters")
     declared = one_for_undeclared(by_place, next(parameters, ""))
-    sections = [(key.span.line, key.label) for key, _ in entries]
     shaped = one_for_shapes(declared, sections)
-    found = one_for_habit(shaped, [line for line, _ in sections])
+    found = one_for_habit(shaped, starts)
     if re.fullmatch(r"[^\s<>:]+\.ya?ml", source.name):  # a command can be typed as it stands
         command = re.compile(r"(?<=lagcli )(\w+) FILE\b")
         found = tuple(

@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, TypedDict, cast
+from collections.abc import Collection, Iterator
+from typing import TypedDict, cast
 
+from lagcli.diagnostics import Span
 from lagcli.expression import FUNCTIONS
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.problem_data import Assumption, Coordinate, Parameter
+from lagcli.reader.assignments import assigned
 from lagcli.reader.constants import value_cycle
-from lagcli.reader.habits import (
-    advised,
-    is_constant,
-    is_open,
-    name_meant,
-    unit_behind,
-)
+from lagcli.reader.file_reader import FileReader
+from lagcli.reader.habits import advised, is_constant, is_open, name_meant, unit_behind
 from lagcli.reader.headings import without_headings
 from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, source_of, swept
@@ -26,12 +24,6 @@ from lagcli.reader.scope import VALUES, Kind, name_mistake
 from lagcli.reader.sign_meant import ASSUMPTIONS, NEUTRAL, sign_meant
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.record import replace
-
-if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator
-
-    from lagcli.diagnostics import Span
-    from lagcli.reader.file_reader import FileReader
 
 
 class _Said(TypedDict, total=False):
@@ -114,7 +106,8 @@ def read_parameters(
         else:
             attributes = _attributes(file, node, key, "parameter", _PARAMETER_ATTRIBUTES)
         value, before = None, len(file.diagnostics)
-        bare = getattr(attributes.get("value"), "value", "(")
+        given = attributes.get("value")
+        bare = getattr(given, "value", "(")
         is_free = bare not in file.scope.kinds and bare[:1] not in {"(", "["}
         if is_free and (sign := sign_meant(bare)):
             rest = (f", {k}: {source_of(v)}" for k, v in attributes.items() if k not in _ASSUMED)
@@ -123,9 +116,7 @@ def read_parameters(
         elif is_free and is_open(bare):
             hint = f"leave out what is not known: write {key.label}:"
             file.error(f"'{bare}' is not a value", attributes["value"].span, hint)
-        elif isinstance(given := attributes.get("value"), Scalar) and (
-            found := RANGE.fullmatch(given.value)
-        ):
+        elif isinstance(given, Scalar) and (found := RANGE.fullmatch(given.value)):
             hint = f"write {found[1]}; {swept(key.label, given)}"
             file.error(f"'{key.label}' has a range for its value", given.span, hint)
         elif given is not None and (pair := _in_order(given)):
@@ -231,20 +222,17 @@ def _declared(
         hint = state if section == "coordinates" and "{" not in given else f"write {{{given}}}"
         coordinates = "coordinates have no values; their state is initial"
         message = coordinates if hint is state else f"{section} with more than names are a map"
-        file.error(message, node.span, hint)
-        file.scope.refused.append("")
+        file.error(message, node.span, hint, refused="")
         return
     numbered = node.entries if isinstance(node, Mapping) else []
     if numbered and all(key.label.isdigit() for key, _ in numbered):
         listed = ", ".join(source_of(value) for _, value in numbered)
-        file.error(f"{section} have names, not numbers", node.span, f"write [{listed}]")
-        file.scope.refused.append("")
+        file.error(f"{section} have names, not numbers", node.span, f"write [{listed}]", refused="")
         return
     attributes = _PARAMETER_ATTRIBUTES if section == "parameters" else _COORDINATE_ATTRIBUTES
     if found := without_headings(node, attributes):
         message = f"'{found[0].label}' is not a name of {section}: names stand below it"
-        file.error(message, found[0].span, found[1])
-        file.scope.refused.append("")
+        file.error(message, found[0].span, found[1], refused="")
         return
     if isinstance(node, Mapping):
         own = file.of_section(file.entries(node, section), section, attributes)
@@ -280,8 +268,7 @@ def _declared(
             file.scope.refused += several
         elif section == "parameters" and (better := _without_primes(file, key)):
             hint = f"write {better}: a prime is a velocity"
-            file.error(f"'{key.label}' is not a name", key.span, hint)
-            file.scope.refused.append(key.label)
+            file.error(f"'{key.label}' is not a name", key.span, hint, refused=key.label)
         elif with_unit := _with_unit(key, value):
             file.error(f"the unit in '{key.label}' is not a part of its name", key.span, with_unit)
             file.scope.refused.append(key.label)
@@ -303,14 +290,12 @@ def _without_attributes(
     loose: dict[int, list[tuple[Scalar, str]]] = {}
     for key, value in entries:
         written = source_of(value) if key.label in _COORDINATE_ATTRIBUTES else ""
-        is_attribute = written and (
-            isinstance(value, Mapping) or written in ASSUMPTIONS
-            if key.label == "assume"
-            else unit_behind(f"1 {written}") == written
-            if key.label == "unit"
-            else not is_constant("x", written)
-        )
-        if is_attribute:
+        is_attribute = bool(written) and not is_constant("x", written)
+        if key.label == "assume":
+            is_attribute = isinstance(value, Mapping) or written in ASSUMPTIONS
+        elif key.label == "unit":
+            is_attribute = unit_behind(f"1 {written}") == written
+        if written and is_attribute:
             own = entries_of(value) or f"{key.label}: {written}"
             loose.setdefault(len(kept), []).append((key, own))
         else:
@@ -359,13 +344,14 @@ def _with_unit(key: Scalar, value: DocumentNode | None) -> str:
 
 def _pairs(node: DocumentNode, section: str) -> str:
     """`m: 1, k: 2` for `[m = 1, k = 2]`, `{m 1, k 2}` and a list of maps; else nothing."""
-    given = []
+    given: list[tuple[str, str]] = []
+    source: list[str] = []
     if node.text.source.text.startswith("[", node.start) and (named := by_its_name(node)):
         return named if "{" in named else ""
     if isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
-        relation = r"(\w+)(?:\s*(?:[-=]>|:?=|[:：]|→)\s*|\s+)([\d.]\S*)"
-        labels = "，".join(key.label for key, _ in node.entries).split("，")
-        given = [re.fullmatch(relation, label.strip()) for label in labels]
+        source = "，".join(key.label for key, _ in node.entries).split("，")
+        given = [one for label in source for one in assigned(label)]
+        given = given if all(re.match(r"[\d.]", value) for _, value in given) else []
     elif isinstance(node, Mapping) and len(node.entries) > 1 and section == "coordinates":
         numbers = [v for _, v in node.entries if isinstance(v, Scalar)]
         if len(numbers) == len(node.entries) and all(is_constant("x", v.value) for v in numbers):
@@ -376,17 +362,13 @@ def _pairs(node: DocumentNode, section: str) -> str:
         source = [_PRODUCT.sub(lambda m: re.sub("[ *]", "", m[0]), text) for text in source]
         source = [_with_sign(text) for text in source]  # r > 0
         is_map = section == "parameters" or any("{assume" in text for text in source)
-        given = [re.fullmatch(r"(\w+)(?:\(t\))?\s*[=:]\s*(\S.*?)\s*", x) for x in source]
-        given = [] if any(each and re.search(r"\(['\"]", each[2]) for each in given) else given
-        if any(given) and not all(given) and is_map:  # [m, g = 9.81]
-            parts = [
-                f"{each[1]}: {each[2]}" if each else text
-                for each, text in zip(given, source, strict=True)
-            ]
-            return ", ".join(parts) if all(re.match(r"\w+(: |$)", x) for x in parts) else ""
-    if not given or not all(given):
+        alone = {text: [(text, "")] for text in source if is_map and text.isidentifier()}
+        named_ = (text for text in source if text[:1] not in {"{", "["})
+        given = [one for text in named_ for one in assigned(text) or alone.get(text, [])]
+        given = [] if any(re.search(r"\(['\"]", value) for _, value in given) else given
+    if len(given) != len(source) or not any(value for _, value in given):
         return ""
-    return ", ".join(f"{each[1]}: {each[2]}" for each in given if each)
+    return ", ".join(f"{name}: {value}" if value else name for name, value in given)
 
 
 def _with_sign(text: str) -> str:
@@ -424,10 +406,9 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
         from lagcli.reader.latex_symbol import check_symbol
 
         check_symbol(file, text)
-    if "description" in attributes:
-        text = file.scalar(attributes["description"], "'description'")
-        if text is not None:
-            said["description"] = text.value
+    prose = attributes.get("description")
+    if prose is not None and (text := file.scalar(prose, "'description'")):
+        said["description"] = text.value
     if "assume" in attributes:
         given = attributes["assume"]
         sign = sign_meant(getattr(given, "value", source_of(given)))

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
 from lagcli.expression import ZERO, Expression, Name
 from lagcli.problem_data import (
@@ -16,6 +15,7 @@ from lagcli.problem_data import (
     Where,
 )
 from lagcli.reader.by_coordinate import by_name, state_meant
+from lagcli.reader.file_reader import FileReader
 from lagcli.reader.foreign.words import momentum_meant
 from lagcli.reader.habits import advised, is_angle, key_meant, meanings, name_meant
 from lagcli.reader.headings import PLACE, RATE, state_of_launch, state_without_headings
@@ -30,16 +30,11 @@ from lagcli.reader.misshapen import (
     source_of,
 )
 from lagcli.reader.names import derivative_order
-from lagcli.reader.nodes import Mapping, Scalar, Sequence
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.number_units import run_mistake, unit_mistake, with_radians
 from lagcli.reader.regex import regex
-from lagcli.reader.scope import INITIAL, NUMBERS, POSITION, QUESTION, Role
+from lagcli.reader.scope import INITIAL, NUMBERS, POSITION, QUESTION, Role, Scope
 from lagcli.reader.suggest import closest, did_you_mean
-
-if TYPE_CHECKING:
-    from lagcli.reader.file_reader import FileReader
-    from lagcli.reader.nodes import DocumentNode
-    from lagcli.reader.scope import Scope
 
 _QUESTION_ATTRIBUTES = ("where", "for", "value", "in_terms_of", "always", "reaches")
 #: The two keys of a question: what it is about, and what is wanted.
@@ -316,10 +311,8 @@ def _where(
     name = _unknown(file, unknown)
     if name is None:
         return []
-    if (
-        file.scope.kinds.get(name.name) not in {"coordinate", "parameter"}
-        and not file.scope.refused
-    ):
+    is_free = file.scope.kinds.get(name.name) in {"coordinate", "parameter"}
+    if not is_free and not file.scope.refused:
         known = ", ".join(file.scope.of_kind("coordinate"))
         message = f"'{name}' is not a coordinate, a velocity or a parameter"
         file.error(message, name.span, f"coordinates are {known}")
@@ -386,11 +379,9 @@ def _rewrite(
 def read_simulation(file: FileReader, node: DocumentNode) -> SimulationDefaults:
     """The defaults of the numerical run."""
     found = file.attributes(node, "simulation", _SIMULATION_ATTRIBUTES)
-    until = accuracy = method = None
-    if "until" in found:
-        until = _number(file, found["until"][1], "'until'")
-    if "accuracy" in found:
-        accuracy = _number(file, found["accuracy"][1], "'accuracy'")
+    until, accuracy = (_number(file, found[key][1], f"'{key}'") if key in found else None
+                       for key in ("until", "accuracy"))  # fmt: skip
+    method = None
     if "method" in found:
         text = file.scalar(found["method"][1], "'method'")
         method = text.value.strip() if text else None
@@ -403,28 +394,25 @@ def read_simulation(file: FileReader, node: DocumentNode) -> SimulationDefaults:
 
 
 def _number(file: FileReader, node: DocumentNode, what: str) -> Expression:
-    if what == "'until'" and isinstance(node, Scalar) and (end := range_end(node.value)):
-        hint = f"a motion begins at t = 0: write {end}"
-        file.error("'until' is one time, no range", node.span, hint)
-        return ZERO
-    if what == "'until'" and isinstance(node, Scalar) and (ends := _ENDS.fullmatch(node.value)):
-        stop = (
-            f'write a time; lagcli simulate FILE --stop-when "{difference(node.value)}" ends there'
-        )
+    wrong = _number_meant(node.value, what) if isinstance(node, Scalar) else None
+    if wrong is None:
+        return file.expression(node, what, NUMBERS)
+    file.error(wrong[0], node.span, wrong[1])
+    return ZERO
+
+
+def _number_meant(text: str, what: str) -> tuple[str, str] | None:
+    """What is wrong with the text of an end or an accuracy, and what to write; None for numbers."""
+    word = text.strip()
+    if what == "'until'" and (end := range_end(text)):
+        return "'until' is one time, no range", f"a motion begins at t = 0: write {end}"
+    if what == "'until'" and (ends := _ENDS.fullmatch(text)):
+        stop = f'lagcli simulate FILE --stop-when "{difference(text)}" ends there'
         only = ends[1].strip() in {"t", "time"}
-        file.error("'until' is a time", node.span, f"write {ends[2].strip()}" if only else stop)
-        return ZERO
-    word = node.value.strip() if isinstance(node, Scalar) else ""
+        return "'until' is a time", f"write {ends[2].strip() if only else f'a time; {stop}'}"
     if re.fullmatch(r"(?i:[-+.]*(?:inf|infinity|oo|∞|forever|unendlich|infini))", word):
-        file.error(f"{what} is a number", node.span, "there is no infinity: write 10")
-        return ZERO
-    if isinstance(node, Scalar) and re.fullmatch(
-        r"[^\W\d]{3,}(?:\s+[^\W\d]+)+", node.value.strip()
-    ):
+        return f"{what} is a number", "there is no infinity: write 10"
+    if re.fullmatch(r"[^\W\d]{3,}(?:\s+[^\W\d]+)+", word):
         usual = "1e-9" if "accuracy" in what else "10"
-        file.error(f"{what} is a number", node.span, f"write it in digits, as in {usual}")
-        return ZERO
-    if isinstance(node, Scalar) and (mistake := run_mistake(node.value, what)):
-        file.error(mistake[0], node.span, mistake[1])
-        return ZERO
-    return file.expression(node, what, NUMBERS)
+        return f"{what} is a number", f"write it in digits, as in {usual}"
+    return run_mistake(text, what)

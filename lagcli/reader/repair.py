@@ -5,30 +5,27 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Callable
-from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, Source
-from lagcli.expression import Equation, Expression, Sum
+from lagcli.expression import ZERO, Equation, Expression, Sum, terms_of
 from lagcli.problem_data import Inequality
 from lagcli.reader.clauses import of_clause
-from lagcli.reader.expressions import read_equation, read_expression, sides_of
+from lagcli.reader.expressions import formula_or_none, read_equation, read_expression, sides_of
 from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, square_of_speed
 from lagcli.reader.habits import COMMENT, comparisons_in, is_angle, name_meant
 from lagcli.reader.misshapen import FRICTION, as_equation, as_rayleigh, behind_words, is_sentence
-from lagcli.reader.momenta_meant import with_momenta, with_velocities
+from lagcli.reader.momenta_meant import has_velocity, with_momenta, with_velocities
 from lagcli.reader.names import name_mistakes, turning
+from lagcli.reader.nodes import Scalar
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.regex import regex
+from lagcli.reader.scope import Role, Scope
 from lagcli.reader.text import Mistake, SourceText
 from lagcli.reader.undeclared import BY_OTHERS, COORDINATE, UNDECLARED
 from lagcli.reader.velocity_quotients import multiplied_out
 from lagcli.record import replace
-
-if TYPE_CHECKING:
-    from lagcli.reader.nodes import Scalar
-    from lagcli.reader.scope import Role, Scope
 
 #: The letters of ẋ², and its dots.
 _LETTERS, _DOTS = regex(r"(?<!\w)[^\W\d][^\W²³]*"), regex("[\u0307\u0308]")
@@ -138,15 +135,10 @@ def with_whole(
         if added and what in {"T", "V", "L", "H"}:
             hint = f"write {node.value[: added.start()]}: a constant has no effect on the motion"
         return [replace(found[0], hint=hint)]
-    too_large = "the limit is" in found[0].hint
     in_lines = any(each.message.startswith("two lines without") for each in found)
     by_name = read is read_expression and "is not a derivative" in found[0].message
-    if (
-        too_large
-        or in_lines
-        or by_name
-        or all(each.hint.startswith("did you mean '") for each in found)
-    ):
+    are_slips = all(each.hint.startswith("did you mean '") for each in found)
+    if "the limit is" in found[0].hint or in_lines or by_name or are_slips:
         return found
     if is_sentence(node.value, scope.kinds):
         hint = "write a formula" if role.order > 0 else "write a number or a parameter"
@@ -353,12 +345,7 @@ def _energy_meant(
 def _hamiltonian_meant(text: str) -> str:
     """`m*(p_x/m)^2/2 + k*x^2/2` for `m*x'^2/2 + k*x^2/2`; nothing without squares of velocities."""
     source = SourceText.of(Source("", text))
-    try:
-        formula = read_expression(Excerpt.whole(source.source))
-    except Mistake:
-        return ""
-    terms = formula.terms if isinstance(formula, Sum) else (formula,)
-    moving = [each for each in terms if "'" in text[slice(*source.offsets(each.span))]]
+    moving = [each for each in terms_of(formula_or_none(text) or ZERO) if has_velocity(each)]
     kinetic = Sum(tuple(moving)) if moving[1:] else next(iter(moving), None)
     return "" if kinetic is None else with_momenta(text, kinetic, source)
 
@@ -376,11 +363,8 @@ def _with_energies(text: str, scope: Scope) -> str:
 
 def _is_read(text: str, scope: Scope, role: Role, what: str) -> bool:
     """Whether a text is a formula whose names are all known."""
-    try:
-        formula = read_expression(Excerpt.whole(Source("", text)))
-    except Mistake:
-        return False
-    return not any(True for _ in name_mistakes(formula, scope, role, what))
+    formula = formula_or_none(text)
+    return formula is not None and not any(True for _ in name_mistakes(formula, scope, role, what))
 
 
 def _exchanged(

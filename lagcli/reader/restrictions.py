@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import re
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
-from lagcli.expression import ZERO, Name, name_nodes
-from lagcli.problem_data import Constraint, pushing_sign
-from lagcli.reader.contacts import (
-    RESTITUTION,
-    Declared,
-    contacts_for,
-    declared,
-    read_restitution,
-)
+from lagcli.expression import ZERO, Expression, Name, name_nodes
+from lagcli.problem_data import Constraint, ForceKind, Inequality, OnLoss, pushing_sign
+from lagcli.reader.assignments import pieces
+from lagcli.reader.contacts import RESTITUTION, Declared, contacts_for, declared, read_restitution
 from lagcli.reader.expressions import signed_terms
+from lagcli.reader.file_reader import FileReader
+from lagcli.reader.friction_meant import FRICTION_WORD
 from lagcli.reader.habits import comparisons_in
-from lagcli.reader.misshapen import as_equation, is_sentence, pieces, source_of, texts_of
+from lagcli.reader.misshapen import as_equation, is_sentence, source_of, texts_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.regex import regex
@@ -25,14 +21,8 @@ from lagcli.reader.scope import QUESTION, STATE
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.velocity_quotients import multiplied_out, without_squares
 
-if TYPE_CHECKING:
-    from lagcli.expression import Expression
-    from lagcli.problem_data import ForceKind, Inequality, OnLoss
-    from lagcli.reader.file_reader import FileReader
-
 _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION,
                           "acts_as")  # fmt: skip
-_FRICTION = regex("fric|drag|reib|frott|attrit|roz|brems|wrijv|тре", re.IGNORECASE)
 _MULTIPLIER = r"(?:lambda|lam|Lambda|mu|λ|Λ|μ)_?\d?"
 _LAW = r"\((?P<{}>(?:[^()]|\([^()]*\))*)\)"
 #: A term with a multiplier, `+ lambda*(x - l)`.
@@ -141,8 +131,7 @@ def _is_refused(file: FileReader, key: Scalar, value: DocumentNode) -> bool:
     if equations[1:]:
         named = (f"{key.label}_{place}: {each}" for place, each in enumerate(equations, start=1))
         hint = f"each equation has its own name: {', '.join(named)}"
-        file.error(f"'{key.label}' has several equations", key.span, hint)
-        file.scope.refused.append("")
+        file.error(f"'{key.label}' has several equations", key.span, hint, refused="")
     return bool(equations[1:])
 
 
@@ -225,7 +214,7 @@ def _law_of_force(file: FileReader, node: DocumentNode, name: str) -> str:
     found = re.fullmatch(r"\s*([^\W\d]\w*)\s*=+\s*[-−]?\s*([^=<>]+?)\s*", written)
     if found is None or found[1] in file.scope.kinds or file.scope.refused:
         return ""
-    if not (_FRICTION.search(name) or re.fullmatch(r"F_?(?:R|f|fr|r)", found[1])):
+    if not (FRICTION_WORD.search(name) or re.fullmatch(r"F_?(?:R|f|fr|r)", found[1])):
         return ""
     along, size = next(iter(file.scope.of_kind("coordinate")), "x"), found[2]
     backwards = "" if re.search(rf"(?<!\w){along}'", size) else f"*sign({along}')"

@@ -4,17 +4,14 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
+from lagcli.diagnostics import Span
 from lagcli.expression import RESERVED
 from lagcli.reader.habits import name_meant
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
-    from lagcli.diagnostics import Span
 
 Kind = Literal[
     "coordinate", "parameter", "function", "definition", "multiplier", "contact force", "observable"

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from typing import TYPE_CHECKING
+from collections.abc import Iterable, Sequence
 
 from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
-from lagcli.expression import Name
+from lagcli.expression import Expression, Name
+from lagcli.problem_data import Problem
 from lagcli.reader.by_coordinate import state_meant
 from lagcli.reader.constants import value_cycle
 from lagcli.reader.expressions import read_expression
@@ -19,12 +20,6 @@ from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.text import Mistake, SourceText
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
-
-    from lagcli.expression import Expression
-    from lagcli.problem_data import Problem
 
 #: The primes of a velocity, as they may be typed.
 _PRIMES = str.maketrans("’′", "''")
@@ -73,11 +68,8 @@ def set_state(problem: Problem, settings: Iterable[str]) -> Problem:
         At the first setting that names no coordinate or velocity, or has no value.
     """
     scope = Scope(kinds={one.name: "parameter" for one in problem.parameters})
-    state = {
-        str(name): name
-        for one in problem.coordinates
-        for name in (Name(one.name), Name(one.name, 1))
-    }
+    names = [Name(one.name, primes) for one in problem.coordinates for primes in (0, 1)]
+    state = {str(name): name for name in names}
     initial = dict(problem.initial)
     for setting in settings:
         source = Source(f"--at {setting}", setting)
@@ -90,11 +82,10 @@ def _read(
     problem: Problem, source: Source, scope: Scope, names: Sequence[str], kind: str
 ) -> tuple[str, Expression]:
     """The name and the value of one setting; names are those of that kind."""
-    text = SourceText.of(source)
+    text, option = SourceText.of(source), source.name.split()[0]
     written, equals, value = source.text.partition("=")
     name = unicodedata.normalize("NFC", written.strip()).translate(_PRIMES)
     if not equals:
-        option = source.name.split()[0]
         apart = re.fullmatch(r"\s*([^\W\d]\w*)('*)\s*(?:[: ]\s*(\S+)\s*)?", written)
         hint = "write name=value"
         if apart is not None:
@@ -102,19 +93,13 @@ def _read(
             hint = f"write {option} " + (f'"{whole}"' if apart[2] else whole)
         raise ProblemError(source, (Diagnostic("an '=' is missing", text.span(0, 0), hint),))
     if re.search(r"[,;]\s*[^\W\d]\w*'*\s*=", value):
-        option = source.name.split()[0]
         each = " ".join(f"{option} {part.strip()}" for part in re.split("[,;]", source.text))
         message = "one option sets one value"
         raise ProblemError(source, (Diagnostic(message, text.span(0, 0), f"write {each}"),))
     if name not in names:
         known = f"known are {', '.join(names)}" if names else "the file declares none"
         meant = state_meant(name, [x for x in names if kind != "parameter" and x[-1] != "'"])
-        hint = (
-            f'write {source.name.split()[0]} "{meant}={value}"'
-            if meant
-            else did_you_mean(name, names)
-        )
-        hint = hint or known
+        hint = f'write {option} "{meant}={value}"' if meant else did_you_mean(name, names) or known
         message = f"there is no {kind} '{name}'"
         raise ProblemError(source, (Diagnostic(message, text.span(0, len(written)), hint),))
     start = len(written) + 1

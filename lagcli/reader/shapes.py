@@ -75,12 +75,11 @@ def formulas(what: str, role: Role = REDUCED, hint: str = "write [one, another]"
 
 def by_coordinate(what: str, role: Role = REDUCED) -> Shape:
     """Formulas by coordinate, which stands for the braces in `what`."""
-    return Shape(
-        FORMULAS,
-        lambda reader, node, path: read_by_coordinate(
-            reader.file, node, f"'{path[-1]}'", what, role
-        ),
-    )
+
+    def read(reader: ExpectReader, node: DocumentNode, path: Path) -> Any:
+        return read_by_coordinate(reader.file, node, f"'{path[-1]}'", what, role)
+
+    return Shape(FORMULAS, read)
 
 
 def by_name(item: Shape) -> Shape:

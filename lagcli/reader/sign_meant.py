@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection
 from fractions import Fraction
-from typing import TYPE_CHECKING, get_args
+from typing import get_args
 
 from lagcli.problem_data import Assumption
 from lagcli.reader.habits import SIGNS, habits, letters, number_and_unit, spellings
 from lagcli.reader.misshapen import RANGE, source_of, values_in
+from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.regex import regex
-
-if TYPE_CHECKING:
-    from collections.abc import Collection
-
-    from lagcli.reader.nodes import DocumentNode
 
 ASSUMPTIONS: tuple[str, ...] = get_args(Assumption)
 #: The strongest first.

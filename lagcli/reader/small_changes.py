@@ -9,9 +9,9 @@ import re
 from collections.abc import Collection, Mapping
 
 from lagcli.expression import FUNCTIONS
+from lagcli.reader.assignments import pieces
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary
-from lagcli.reader.misshapen import pieces
 from lagcli.reader.near import Near, near
 from lagcli.reader.regex import regex
 

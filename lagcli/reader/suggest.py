@@ -4,13 +4,10 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 from lagcli.notation.greek import BY_LETTER
 from lagcli.reader.habits import meanings
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 #: Names longer than this, and more names than these, are not compared.
 _LONGEST, _MOST = 60, 300

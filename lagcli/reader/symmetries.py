@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
 
+from lagcli.expression import Expression
 from lagcli.problem_data import Symmetry
+from lagcli.reader.file_reader import FileReader
 from lagcli.reader.habits import is_angle, name_meant
 from lagcli.reader.misshapen import as_list, source_of, texts_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
@@ -13,10 +14,6 @@ from lagcli.reader.regex import regex
 from lagcli.reader.scope import STATE
 from lagcli.reader.small_changes import is_discrete, moved, small_change
 from lagcli.reader.suggest import did_you_mean
-
-if TYPE_CHECKING:
-    from lagcli.expression import Expression
-    from lagcli.reader.file_reader import FileReader
 
 _REFLECTION = regex(r"(?:mirror|parity|reflection|inversion|spiegelung)", re.IGNORECASE)
 _CONTINUOUS = "leave it out: conserved quantities belong to continuous symmetries"

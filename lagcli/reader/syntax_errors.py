@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from itertools import pairwise
-from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import FUNCTIONS
+from lagcli.reader.automaton import Token, Unexpected
 from lagcli.reader.habits import (
     CASE,
     CASES,
@@ -21,19 +21,18 @@ from lagcli.reader.habits import (
     unit_behind,
     with_mixed_numbers,
 )
+from lagcli.reader.positions import Excerpt
 from lagcli.reader.regex import regex
-from lagcli.reader.strange_characters import END_VALUE, character_meant
 
-if TYPE_CHECKING:
-    from lagcli.reader.automaton import Token, Unexpected
-    from lagcli.reader.positions import Excerpt
-
+_END_VALUE = frozenset({"NUMBER", "NAME", "RPAR"})
 _BEGIN_VALUE = frozenset({"NUMBER", "NAME", "LPAR"})
 #: A number in powers of ten that is not written as one: 2.0e, 2e - 3, 1.5d-3; 6.67 x 10^-11.
 _EXPONENT = regex(r"([\d.]+)(?:\s*([eE])\s*|([dD])(?=[-+\d]))([-+]?)\s*(\d*)(?![\w(.'])")
 _TIMES_TEN = regex(r"([\d.]+)\s*[xX]\s*10\s*(?:\^|\*\*|[eE])?\s*[({]?\s*(-?)[\s+]*(\d+)")
 #: Before a factor of a denominator, as in p^2/2m, where 1/2m may be a half of m.
 _DENOMINATOR = regex(r"(?:[\w.]*[^\W\d][\w.']*|[)'²]|\^\s*\d)\s*/\s*$")
+
+_ONE_SIGN = "write one sign: each is a problem of its own"
 
 
 def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str) -> Diagnostic:
@@ -59,7 +58,7 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
         return _unexpected_character(error.place, tokens, excerpt)
     place = next(i for i, other in enumerate(tokens) if other.start_pos == token.start_pos)
     previous = tokens[place - 1] if place else None
-    if previous is not None and previous.type in END_VALUE and token.type in _BEGIN_VALUE:
+    if previous is not None and previous.type in _END_VALUE and token.type in _BEGIN_VALUE:
         following = tokens[place + 1] if place + 1 < len(tokens) else None
         if place >= 3 and tokens[place - 2].type == "_POWER" and tokens[place - 3] in FUNCTIONS:
             function = tokens[place - 3]
@@ -112,14 +111,28 @@ def _unexpected_character(at: int, tokens: list[Token], excerpt: Excerpt) -> Dia
         return Diagnostic(f"{shown} has no meaning in an expression", span, "leave it out")
     if character in "°˚":
         return Diagnostic("angles are in radians", span)
-    hint = character_meant(excerpt.value[at:], tokens) or meanings("characters").get(character, "")
+    hint = _character_meant(excerpt.value[at:], tokens) or meanings("characters").get(character, "")
     return Diagnostic(f"{shown} has no meaning in an expression", span, hint)
+
+
+def _character_meant(rest: str, tokens: list[Token]) -> str:
+    """What is done instead, where no formula is meant that could be written here."""
+    before = tokens[-1].type if tokens else ""
+    if before in _END_VALUE:
+        if re.match(r"[%!]\s*[A-Za-z]", rest):
+            return COMMENT
+        unit = re.match(r"\[([^\[\]]+)\]\s*$", rest)
+        if unit and unit_behind(f"1 {unit[1]}"):
+            return f"leave out '{unit[0].strip()}': units stand where names are declared"
+    elif rest[0] in "±∓":
+        return _ONE_SIGN
+    return next((hint for form, hint in habits()["signs_of_others"] if re.match(form, rest)), "")
 
 
 def _unexpected_end(tokens: list[Token], excerpt: Excerpt) -> Diagnostic:
     """The text ends too early: an open parenthesis, or an operator without its right side."""
     last = tokens[-1]
-    if last.type not in END_VALUE:
+    if last.type not in _END_VALUE:
         hint = f"write what follows, or leave out '{last}'"
         return Diagnostic(f"nothing follows '{last}'", _span(last, excerpt), hint)
     open_ = _open_parenthesis(tokens)
@@ -186,12 +199,8 @@ def _missing_product(
     if superscript(right):
         return Diagnostic("a power is written with '^'", span)
     after = str(right) if right.type != "LPAR" else "(…)"
-    if (
-        right.type == "NAME"
-        and following is not None
-        and following.type == "LPAR"
-        and (right.end_pos == following.start_pos)
-    ):
+    is_before = following is not None and right.end_pos == following.start_pos
+    if right.type == "NAME" and is_before and following and following.type == "LPAR":
         after += "(…)"
     message = f"a '*' is missing between '{left}' and '{right}'"
     unit = left.type == "NUMBER" and len(right) > 1 and unit_behind(f"1 {right}")
@@ -239,7 +248,7 @@ def _unexpected(
         return "a comma ends the equation", hint
     if several and start == "equation" and inside is None:
         return "two equations in one", "write each by itself, under its own name"
-    if token.type == "COMMA" and previous is not None and previous.type in END_VALUE:
+    if token.type == "COMMA" and previous is not None and previous.type in _END_VALUE:
         if CASES & {str(other) for other in before}:
             return "a formula has no cases", CASE
         if inside is not None and not _called(before):

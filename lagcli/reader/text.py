@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Iterable
+from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic, Source, Span
 from lagcli.reader.limits import FILE_BYTES
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
 
 BYTE_ORDER_MARK = b"\xef\xbb\xbf"
 
@@ -47,6 +45,10 @@ class SourceText(NamedTuple):
         """The offsets of the begin and the end of a stretch."""
         start = self.line_starts[span.line - 1] + span.column - 1
         return start, self.line_starts[span.end_line - 1] + span.end_column - 1
+
+    def written(self, span: Span) -> str:
+        """What the file has in a stretch."""
+        return self.source.text[slice(*self.offsets(span))]
 
     def span(self, start: int, end: int) -> Span:
         """The stretch from offset `start` up to, not including, `end`."""

@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
+from lagcli.diagnostics import Span
+from lagcli.expression import Expression
 from lagcli.problem_data import Known, KnownRow, Trajectory
+from lagcli.reader.assignments import assigned
+from lagcli.reader.file_reader import FileReader
 from lagcli.reader.misshapen import entries_of
 from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.nodes import Mapping as Map
 from lagcli.reader.scope import ALONG, CONSTANTS, MOTION, Role
 from lagcli.reader.suggest import did_you_mean
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-    from lagcli.diagnostics import Span
-    from lagcli.expression import Expression
-    from lagcli.reader.file_reader import FileReader
+from lagcli.record import record
 
 _KEYS = ("until", "tolerance", "rigorous", "at", "events")
 _ENERGY = "energy"
@@ -28,10 +25,11 @@ HAPPENINGS = (
 )  # fmt: skip
 
 
+@record
 class TrajectoryReader:
     """Reads the section.
 
-    Parameters
+    Attributes
     ----------
     file
         The names and the mistakes.
@@ -43,17 +41,10 @@ class TrajectoryReader:
         Where each expectation stands, which is added to.
     """
 
-    def __init__(
-        self,
-        file: FileReader,
-        contacts: list[str],
-        named: Mapping[str, Expression],
-        spans: dict[tuple[str, ...], Span],
-    ) -> None:
-        self.file = file
-        self.contacts = contacts
-        self.named = named
-        self.spans = spans
+    file: FileReader
+    contacts: list[str]
+    named: Mapping[str, Expression]
+    spans: dict[tuple[str, ...], Span]
 
     def read(self, node: DocumentNode) -> Trajectory:
         """The whole section; a column is an expression along the motion."""
@@ -63,28 +54,24 @@ class TrajectoryReader:
     def _read(self, node: DocumentNode) -> Trajectory:
         parts: dict[str, DocumentNode] = {}
         formulas = []
-        hint = "write x: cos(t)"
-        given = re.fullmatch(r"([^\W\d]\w*)(?:\(t\))?\s*=\s*([^=]+)", getattr(node, "value", ""))
-        if given:
-            hint = f"write {given[1]}: {given[2].strip()}"
+        given = assigned(getattr(node, "value", "")) or [("x", "cos(t)")]
+        hint = f"write {', '.join(map(': '.join, given))}"
         for key, value in self.file.entries(node, "'trajectory'", hint):
             self.spans["trajectory", key.label] = key.span
             if key.label in _KEYS:
                 parts[key.label] = value
             else:
                 formulas.append(self._known(key, value, MOTION))
+        words = ("t", "name", "what")
+        rigorous = "rigorous" in parts and self.file.yes_or_no(parts["rigorous"], "rigorous")
+        events = self._rows(parts["events"], "events", words) if "events" in parts else ()
         return Trajectory(
             formulas=tuple(formulas),
             rows=tuple(self._rows(parts["at"], "at", ("t",))) if "at" in parts else (),
-            events=(
-                tuple(self._rows(parts["events"], "events", ("t", "name", "what")))
-                if "events" in parts
-                else ()
-            ),
+            events=tuple(events),
             until=self._number(parts, "until"),
             tolerance=self._number(parts, "tolerance"),
-            rigorous="rigorous" in parts
-            and bool(self.file.yes_or_no(parts["rigorous"], "rigorous")),
+            rigorous=bool(rigorous),
         )
 
     def _number(self, parts: dict[str, DocumentNode], key: str) -> Expression | None:

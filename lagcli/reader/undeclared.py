@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 from bisect import bisect_right
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 from lagcli.diagnostics import Diagnostic
+from lagcli.reader.misshapen import with_entries
 from lagcli.reader.regex import regex
 from lagcli.record import replace
 
@@ -28,8 +29,6 @@ _NO_COORDINATE = regex(r"'(\w+)'*' (?:in (?:initial|the symmetry)|is not a param
 _QUOTED = regex(r"'[^ ]+'+(?=[ ,:;]|$)")
 #: Of the hints for one cause.
 _SHOWN = 3
-#: A longer list of parameters is not repeated.
-_LONGEST = 80
 _SHAPE = regex(r"^(?:an? |one of )\S.* must be an? (?:map|list), not an? (?:text|list|map)$")
 _SHAPE_OF_SECTION = regex(r"'?(\w+)'? must be an? (?:map|list)\b.*")
 _THE_KEY = "the key is "
@@ -56,12 +55,8 @@ def _once_by_name(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
     undeclared = (x for x in diagnostics if UNDECLARED in x.hint or COORDINATE in x.hint)
     names = (_NAME.fullmatch(each.message) for each in undeclared)
     unknown = {part for found in names if found for part in (found[1], found[1].removeprefix("p_"))}
-    kept = []
-    for each in diagnostics:
-        found = _NO_COORDINATE.match(each.message)
-        if found is None or found[1] not in unknown:
-            kept.append(each)
-    return kept
+    found_in = ((each, _NO_COORDINATE.match(each.message)) for each in diagnostics)
+    return [each for each, found in found_in if found is None or found[1] not in unknown]
 
 
 def one_for_cause(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
@@ -86,16 +81,20 @@ def one_for_cause(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
     return tuple(replace(x, hint=x.hint + "".join(lines.get(id(x), ()))) for x in kept)
 
 
-def one_for_alike(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
+def one_for_alike(
+    diagnostics: Sequence[Diagnostic], starts: Sequence[int]
+) -> tuple[Diagnostic, ...]:
     """The mistakes, with one for those of one map or list that have the same advice.
 
     Parameters
     ----------
     diagnostics
         By their place.
+    starts
+        The lines at which the sections begin.
     """
     kept: dict[tuple[str, str], Diagnostic] = {}
-    for each in _together(list(_with_value(diagnostics))):
+    for each in _together(_with_value(diagnostics), starts):
         wrong = _KEY.fullmatch(each.message)
         place = wrong["place"] if wrong else _ORDER.sub(r"\1 \3", each.message)
         same = wrong is None or place != "the problem" or each.hint.startswith("it is one sum")
@@ -157,20 +156,15 @@ def one_for_habit(
     starts
         The lines at which the sections begin.
     """
-    groups: list[list[Diagnostic]] = []
+    groups: list[tuple[int, list[Diagnostic]]] = []
     for each in diagnostics:
         section = bisect_right(starts, each.span.line)
-        alike = (
-            group
-            for group in groups
-            if bisect_right(starts, group[0].span.line) == section
-            and _has_same_cause(group[0], each)
-        )
+        alike = (group for at, group in groups if at == section and _has_same_cause(group[0], each))
         if (group := next(alike, None)) is None:
-            groups.append([each])
+            groups.append((section, [each]))
         else:
             group.append(each)
-    return tuple(map(_joined, groups))
+    return tuple(_joined(group) for _, group in groups)
 
 
 def _has_same_cause(one: Diagnostic, other: Diagnostic) -> bool:
@@ -188,16 +182,6 @@ def _has_same_cause(one: Diagnostic, other: Diagnostic) -> bool:
 
 def _joined(group: list[Diagnostic]) -> Diagnostic:
     """The first, with the advice of each, of three where there are more."""
-    keys = [(each, found) for each in group
-            if (found := _OTHER_KEY.fullmatch(f"{each.message}: {each.hint}"))]  # fmt: skip
-    if len(keys) == len(group) and len({found["key"] for _, found in keys}) > 1:
-        return _other_keys(keys)
-    moved = [_MOVED.fullmatch(f"{each.message}: {each.hint}") for each in group]
-    parts = [(each["hint"], each["entry"]) for each in moved if each]
-    if len(parts) == len(group) and len({hint for hint, _ in parts}) == 1:  # of one section
-        entries = dict.fromkeys(entry for _, entry in parts)
-        also = tuple((each.span, "this one too") for each in group[1:])
-        return replace(group[0], hint=f"{parts[0][0]}{', '.join(entries)}}}", related=also)
     hints = {group[0].hint: group[0].hint}
     lines: dict[str, list[str]] = {}
     names: list[str] = []
@@ -222,74 +206,64 @@ def _joined(group: list[Diagnostic]) -> Diagnostic:
     return replace(group[0], hint="; ".join([*list(hints.values())[:_SHOWN], *more]))
 
 
-def _with_value(diagnostics: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+def _with_value(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
     """A wrong key and the wrong shape of its value as one mistake."""
-    last: Diagnostic | None = None
+    kept: list[Diagnostic] = []
     for each in diagnostics:
-        meant = re.search(r"the key is (\w+)$", last.hint) if last is not None else None
-        begins = rf"'?{meant[1]}'? (?:must be|is one)\b" if meant else ""
-        within = last is not None and each.span.line == last.span.line
-        of_value = within and each.hint.startswith("write ") and not _KEY.match(each.message)
-        shape = re.match(begins, each.message) or of_value
-        if last is not None and meant and each.span == last.span:
-            last = each  # which says what to do with it
-            continue
-        if (
-            last is not None
-            and meant
-            and shape
-            and each.hint
-            and each.span.line - last.span.line in {0, 1}
-        ):
-            last = replace(last, hint=f"{last.hint}; {each.hint}")
-            continue
-        if last is not None:
-            yield last
-        last = each
-    if last is not None:
-        yield last
+        last = kept[-1] if kept else each
+        meant = re.search(r"the key is (\w+)$", last.hint) if kept else None
+        below = each.span.line - last.span.line
+        of_value = below == 0 and each.hint.startswith("write ") and not _KEY.match(each.message)
+        if meant and each.span == last.span:
+            kept[-1] = each  # which says what to do with it
+        elif meant and each.hint and below in {0, 1} and (
+            of_value or re.match(rf"'?{meant[1]}'? (?:must be|is one)\b", each.message)
+        ):  # fmt: skip
+            kept[-1] = replace(last, hint=f"{last.hint}; {each.hint}")
+        else:
+            kept.append(each)
+    return kept
 
 
-def _together(diagnostics: list[Diagnostic]) -> list[Diagnostic]:
-    """The mistakes, with one for all other words for keys, and for all entries of one section."""
-    groups: dict[tuple[str, str], list[tuple[Diagnostic, re.Match[str]]]] = {}
+def _together(diagnostics: list[Diagnostic], starts: Sequence[int]) -> list[Diagnostic]:
+    """The mistakes, with one for the other words for keys of a section, and for its entries."""
+    groups: dict[tuple[int, str, str], list[tuple[Diagnostic, re.Match[str]]]] = {}
     for each in diagnostics:
         said = f"{each.message}: {each.hint}"
-        found = _MOVED.fullmatch(said) or _OTHER_KEY.fullmatch(said)
-        if found and (found["hint"] != _THE_KEY or found["place"] == "the problem"):
-            groups.setdefault((found["place"], found["hint"]), []).append((each, found))
+        if found := _MOVED.fullmatch(said) or _OTHER_KEY.fullmatch(said):
+            section = bisect_right(starts, each.span.line) * (found["place"] != "the problem")
+            alike = (section, _QUOTED.sub("''", found["place"]), found["hint"])
+            groups.setdefault(alike, []).append((each, found))
     kept = {id(each): each for each in diagnostics}
-    for (place, hint), group in groups.items():
-        if group[1:]:
-            first = group[0][0]
+    for group in groups.values():
+        is_other = group[0][1]["hint"] == _THE_KEY
+        if group[1:] and not (is_other and len({found["key"] for _, found in group}) == 1):
+            kept[id(group[0][0])] = _of_keys(group, is_other=is_other)
             for each, _ in group[1:]:
                 del kept[id(each)]
-            if hint == _THE_KEY:
-                kept[id(first)] = _other_keys(group)
-                continue
-            keys = ", ".join(found["key"] for _, found in group)
-            entries = ", ".join(dict.fromkeys(found["entry"] for _, found in group))
-            message = f"unknown keys {keys} in {place}"
-            kept[id(first)] = replace(first, message=message, hint=f"{hint}{entries}}}")
     return [*kept.values()]
 
 
-def _other_keys(group: list[tuple[Diagnostic, re.Match[str]]]) -> Diagnostic:
-    """One mistake for other words for keys: which they are, where they stand, what they mean."""
+def _of_keys(group: list[tuple[Diagnostic, re.Match[str]]], *, is_other: bool) -> Diagnostic:
+    """One mistake for keys: which they are, where they stand, and what they mean or become."""
     places: dict[str, dict[str, str]] = {}
     for _, found in group:
         places.setdefault(found["place"], {})[found["key"]] = found["entry"]
     pairs = {key: meant for inner in places.values() for key, meant in inner.items()}
     listed = f"{', '.join(pairs)} in {' and '.join(places)}"
-    if any(inner != pairs for inner in places.values()):
+    if any(inner.keys() != pairs.keys() for inner in places.values()):
         listed = ", ".join(f"{', '.join(inner)} in {place}" for place, inner in places.items())
     lines = [each.span.line for each, _ in group]
+    entries = [found["entry"] for _, found in group]
     hint = f"the keys are {', '.join(map('{0[1]} for {0[0]}'.format, pairs.items()))}"
-    if len({*lines}) == len(lines):
-        also = (f"; in line {line} it is {found['entry']}"
-                for line, (_, found) in zip(lines[1:], group[1:], strict=True))  # fmt: skip
-        hint = f"{_THE_KEY}{group[0][1]['entry']}{''.join(also)}"
-    return replace(group[0][0], message=f"unknown keys {listed}", hint=hint)
+    if not is_other:
+        hint = f"{group[0][1]['hint']}{', '.join(dict.fromkeys(entries))}}}"
+    elif len({*lines}) == len(lines):
+        hint = _THE_KEY + "; in line ".join(
+            [entries[0], *map("{} it is {}".format, lines[1:], entries[1:])]
+        )
+    message = f"unknown key{'s' * (len(pairs) > 1)} {listed}"
+    return replace(group[0][0], message=message, hint=hint)
 
 
 def one_for_undeclared(
@@ -308,12 +282,9 @@ def one_for_undeclared(
     moving = {name: COORDINATE for each in diagnostics if (name := undeclared_velocity(each))}
     by_others = [each for each in diagnostics if BY_OTHERS in each.hint]
     moving = {each.message.split("'")[1]: each.hint for each in by_others} | moving
-    diagnostics = [
-        replace(each, hint=moving[named[1]])
-        if (named := _NAME.fullmatch(each.message)) and named[1] in moving
-        else each
-        for each in diagnostics
-    ]
+    named = ((each, _NAME.fullmatch(each.message)) for each in diagnostics)
+    hints = ((each, moving.get(found[1]) if found else None) for each, found in named)
+    diagnostics = [replace(each, hint=hint) if hint else each for each, hint in hints]
     kept: list[Diagnostic] = []
     reported: set[tuple[str, str]] = set()
     undeclared: dict[str, Diagnostic] = {}
@@ -352,9 +323,8 @@ def _declaration(parameters: str, names: list[str]) -> str:
     """The parameters with further names, or the lines to add; nothing for a long list."""
     if re.fullmatch(r"\w+(?:\s*,\s*\w+)*", parameters):  # a list without its brackets
         parameters = f"[{parameters}]"
-    begin, inner = parameters[:1] or "[", parameters[1:-1].strip()
-    listed = f"{begin}{inner}{', ' * bool(inner)}{', '.join(names)}{']' if begin == '[' else '}'}"
-    if begin in {"[", "{"}:
-        return f"parameters: {listed}" if len(listed) <= _LONGEST else ""
-    lines = ", ".join(f"'- {each}'" if begin == "-" else f"'{each}:'" for each in names)
-    return f"{lines} below 'parameters:'"
+    if parameters[:1] in {"", "[", "{"}:
+        whole = with_entries(parameters or "[]", ", ".join(names))
+        return f"parameters: {whole}" if whole else ""
+    form = "'- {}'" if parameters[:1] == "-" else "'{}:'"
+    return f"{', '.join(map(form.format, names))} below 'parameters:'"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from lagcli.reader.by_coordinate import coordinate_meant, state_meant
 from lagcli.reader.equations_meant import energies_of
@@ -40,11 +40,9 @@ from lagcli.reader.misshapen import (
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.potential_meant import GRAVITY, potential_meant
 from lagcli.reader.regex import regex
+from lagcli.reader.scope import Scope
 from lagcli.reader.sign_meant import ASSUMPTIONS, range_meant
 from lagcli.reader.suggest import closest, did_you_mean
-
-if TYPE_CHECKING:
-    from lagcli.reader.scope import Scope
 
 #: The likeness of a key and its misspelling: another word of as many letters is less like it.
 _NEAR = 0.7
@@ -203,12 +201,8 @@ def _meant_of_problem(
     is_slip = bool(closest(word, KEYS, _SLIP))
     if isinstance(value, Sequence) and shape and hint.startswith("write expect"):  # dof: [x, y]
         meant, hint = shape, f"the key is {shape}"
-    if (
-        shape
-        and not is_slip
-        and near != word.casefold()
-        and (not hint or hint[:8] == "did you " or (near in MAPS - {shape} and is_list))
-    ):
+    is_open = not hint or hint[:8] == "did you " or (near in MAPS - {shape} and is_list)
+    if shape and not is_slip and near != word.casefold() and is_open:
         meant, hint = shape, f"the key is {shape}"
     if energy_ := potential_meant(word, value, around, _coordinates(around)):
         return None, energy_
@@ -275,11 +269,8 @@ def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
     attribute = "mass" if word == "masses" else attribute or ""
     if attribute == "multiplier" and not all(x.isidentifier() and x not in _WISHES for x in values):
         return ""  # its formula
-    named = (
-        ("coordinates", "parameters")
-        if attribute in _SAID
-        else (SECTIONS.get(attribute, "contacts"),)
-    )
+    named = [SECTIONS.get(attribute, "contacts")]
+    named = ["coordinates", "parameters"] if attribute in _SAID else named
     parts, left = [], {*given}
     sections = ((key.label, node) for key, node in around.entries)
     for section, node in (each for each in sections if each[0] in named and each[0] in _FIRST):
@@ -323,11 +314,8 @@ def _answer_meant(word: str, written: str, scope: Scope) -> str:
         return ""
     place = f"equilibria: [{{at: {{{word}: {written}}}}}]"
     why = f"the acceleration {word}'' stands there by its coordinate"
-    return (
-        f"write {place}"
-        if _STATE.fullmatch(written)
-        else (f"write accelerations: {{{word}: {written}}}: {why}")
-    )
+    other = f"write accelerations: {{{word}: {written}}}: {why}"
+    return f"write {place}" if _STATE.fullmatch(written) else other
 
 
 def _state_meant(key: Scalar, written: str, around: Mapping) -> str:

@@ -6,15 +6,16 @@ Values are followed exactly where they are rational; others are looked at when t
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import partial
-from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.expression import (
     ONE,
     ZERO,
     Call,
+    Expression,
     Name,
     Negative,
     Number,
@@ -27,23 +28,18 @@ from lagcli.expression import (
     terms_of,
     walk,
 )
+from lagcli.problem_data import Problem
 from lagcli.reader.constants import rational_value
 from lagcli.reader.degrees_meant import degrees_meant
+from lagcli.reader.file_reader import FileReader
 from lagcli.reader.foreign.words import Vocabulary, momentum_meant, rate_meant
 from lagcli.reader.friction_slips import friction_slips
 from lagcli.reader.habits import is_angle
 from lagcli.reader.misshapen import FRICTION, as_rayleigh
+from lagcli.reader.momenta_meant import has_velocity
 from lagcli.reader.names import derivative_order
 from lagcli.reader.plain_sign import plain_sign
 from lagcli.reader.text import SourceText
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
-
-    from lagcli.expression import Expression
-    from lagcli.problem_data import Problem
-    from lagcli.reader.file_reader import FileReader
-
 
 _ODD = frozenset("sin tan sinh tanh asin atan asinh atanh sign".split())
 _EVEN = frozenset("abs cos cosh sec".split())
@@ -67,7 +63,8 @@ def slips(problem: Problem) -> list[Diagnostic]:
         hint = f"it drives the motion; {FRICTION}"
         found.append(_warning("the dissipation is negative", lost.span, hint))
     for term in terms_of(problem.potential or ZERO):
-        if _moves(term) and all(node.primes or node.name in signs for node in name_nodes(term)):
+        known = all(node.primes or node.name in signs for node in name_nodes(term))
+        if known and has_velocity(term):
             message = "a term of V with velocities and constants alone has no effect on the motion"
             found.append(_warning(message, term.span, FRICTION))
     coordinates = tuple(x.name for x in problem.coordinates)
@@ -231,12 +228,9 @@ def run_number(formula: Expression) -> float:
 
 def run_mistake(name: str, value: float) -> str:
     """What is wrong with an end or an accuracy; empty where nothing is."""
-    below, sentence = (
-        (math.inf, "the end must be a time after 0")
-        if name == "until"
-        else (1, "it lies between 0 and 1")
-    )
-    if 0 < value < below:
+    is_end = name == "until"
+    sentence = "the end must be a time after 0" if is_end else "it lies between 0 and 1"
+    if 0 < value < (math.inf if is_end else 1):
         return ""
     if name == "accuracy" and 3 <= value < 300 and value == int(value):
         return f"{sentence}, not {value:g}: write 1e-{value:g} for {value:g} digits"
@@ -265,10 +259,9 @@ def _check_dissipation(file: FileReader, problem: Problem) -> None:
         file.error("the dissipation contains no velocity", formula.span, FRICTION)
     elif _parity(formula, problem.definitions) == -1:
         message = "the dissipation changes its sign with the velocities"
-        start, end = SourceText.of(problem.source).offsets(formula.span)
-        whole = as_rayleigh(problem.source.text[start:end])
+        law = SourceText.of(problem.source).written(formula.span)
+        whole = as_rayleigh(law)
         rates = {node.name for node in name_nodes(formula) if node.primes}
-        law = problem.source.text[start:end]
         hint = f"a law of a force: write forces: {{{''.join(rates)}: {law}}}"
         hint = hint if len(rates) == 1 and not problem.forces else FRICTION
         file.error(message, formula.span, f"write {whole}: {FRICTION}" if whole else hint)
@@ -277,11 +270,7 @@ def _check_dissipation(file: FileReader, problem: Problem) -> None:
 def _check_momenta(file: FileReader, problem: Problem) -> None:
     """H has momenta p_q: a coordinate p beside q is another one, with a momentum p_p."""
     names = [one.name for one in problem.coordinates]
-    used = (
-        set()
-        if problem.hamiltonian is None
-        else {one.name for one in name_nodes(problem.hamiltonian)}
-    )
+    used = {one.name for one in name_nodes(problem.hamiltonian or ZERO)}
     for one in problem.coordinates:
         moved = momentum_meant(one.name, [name for name in names if name != one.name])
         if moved and one.name in used and f"p_{moved}" not in used:
@@ -301,15 +290,13 @@ def _check_potential(file: FileReader, problem: Problem) -> None:
     text = SourceText.of(problem.source)
 
     def written(parts: Iterable[Expression]) -> str:
-        each = (problem.source.text[slice(*text.offsets(part.span))] for part in parts)
+        each = (text.written(part.span) for part in parts)
         return " + ".join(each).replace("+ -", "- ")
 
     rest, moved = written(term for term in terms if term not in wrong), written(wrong)
-    inner = [
-        map(_moves, node.terms) for term in wrong for node in walk(term) if isinstance(node, Sum)
-    ]
+    sums = [node for term in wrong for node in walk(term) if isinstance(node, Sum)]
     rates = {node.name for term in wrong for node in name_nodes(term) if node.primes}
-    if any(len({*each}) > 1 for each in inner):
+    if any(len({*map(has_velocity, each.terms)}) > 1 for each in sums):
         hint = FRICTION
     elif len(rates) == 1 and any(_parity(term, problem.definitions) == -1 for term in wrong):
         hint = f"a law of a force: write forces: {{{''.join(rates)}: -{moved}}}"
@@ -318,10 +305,6 @@ def _check_potential(file: FileReader, problem: Problem) -> None:
         hint = f"friction has no potential: write dissipation: {given}{moved}"
         hint += f", and V: {rest}" if rest else " in place of V"
     file.error("a term of V is not linear in the velocities", wrong[0].span, hint)
-
-
-def _moves(formula: Expression) -> bool:
-    return any(node.primes for node in name_nodes(formula))
 
 
 def _is_misplaced(file: FileReader, term: Expression) -> bool:

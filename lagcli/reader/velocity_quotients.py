@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable
 from fractions import Fraction
 from itertools import product
-from typing import TYPE_CHECKING
 
 from lagcli.diagnostics import Source
 from lagcli.evaluation import FUNCTIONS, evaluated
@@ -14,6 +14,7 @@ from lagcli.expression import (
     ZERO,
     Call,
     Equation,
+    Expression,
     Negative,
     Number,
     Power,
@@ -27,13 +28,8 @@ from lagcli.reader.foreign.functions import bare_text
 from lagcli.reader.habits import is_angle
 from lagcli.reader.names import derivative_order
 from lagcli.reader.positions import Excerpt
+from lagcli.reader.scope import Scope
 from lagcli.reader.text import SourceText
-
-if TYPE_CHECKING:
-    from collections.abc import Iterable
-
-    from lagcli.expression import Expression
-    from lagcli.reader.scope import Scope
 
 _TWO = Number(Fraction(2))
 #: x' and y' by the speed, for a heading that is measured from the x or the y axis, either way.
@@ -48,7 +44,7 @@ def multiplied_out(equation: str, scope: Scope) -> str:
     text = SourceText.of(Source("", equation))
 
     def written(part: Expression) -> str:
-        return equation[slice(*text.offsets(part.span))]
+        return text.written(part.span)
 
     def moves(part: Expression) -> bool:
         return derivative_order(part, scope) > 0
@@ -101,7 +97,7 @@ def without_squares(name: str, written: str, others: Iterable[Equation], scope: 
         factors = [x for x in factors_of(_size(term)) if isinstance(x, Power)]
         if len(factors) < len(factors_of(_size(term))) or any(x.exponent != _TWO for x in factors):
             return ""
-        whole = "*".join(equation[slice(*text.offsets(x.base.span))] for x in factors)
+        whole = "*".join(text.written(x.base.span) for x in factors)
         return whole if re.search(r"\S\s*[-+]", whole) else bare_text(whole)
 
     groups: dict[bool, list[str]] = {True: [], False: []}

@@ -4,26 +4,15 @@ from __future__ import annotations
 
 import itertools
 import re
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from lagcli.diagnostics import Diagnostic
+from lagcli.reader.assignments import pieces
 from lagcli.reader.foreign.cases import without_cases
-from lagcli.reader.habits import (
-    CASE,
-    COMMENT,
-    KEYS,
-    MAPS,
-    PROGRAM,
-    colon_advice,
-    habits,
-    key_meant,
-)
+from lagcli.reader.habits import CASE, COMMENT, KEYS, MAPS, PROGRAM, colon_advice, habits, key_meant
 from lagcli.reader.headings import SECTIONS
-from lagcli.reader.misshapen import pieces
 from lagcli.reader.regex import regex
-
-if TYPE_CHECKING:
-    from lagcli.reader.text import SourceText
+from lagcli.reader.text import SourceText
 
 
 def explain(error: Exception, text: SourceText) -> Diagnostic:

@@ -201,3 +201,38 @@ def test_several_entries_for_one_are_lines_of_a_block_and_entries_of_braces(sect
     assert len(lines) == 2
     assert not errors("".join(f"\n  {each}" for each in lines))
     assert not errors(f" {{{proposed(f' {{{entry}}}')}}}")
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_an_entry_of_a_section_that_the_file_has_goes_there(seed):
+    draw = random.Random(seed)
+    name, value, rate = draw.choice(["gamma", "w0", "w1"]), draw.randrange(2, 9), draw.choice("xy")
+    begin = "coordinates: [x, y]\nT: m*(x'^2 + y'^2)/2\n"
+    for given, wrong, entry in (
+        ("parameters: {m: 1}", f"{name}: {value}", f"{name}: {value}"),
+        ("parameters: {m: 1}\ninitial: {x: 1}", f"v_y: {value}", f"y': {value}"),
+        ("parameters: {m: 1}\nforces: {x: -m}", f"F_y: {value}*m", f"y: {value}*m"),
+        ("parameters: {m: 1}\nforces: {x: -m}", f"F_x: m*{rate}", f"x: -m + m*{rate}"),
+    ):
+        block = re.sub(r": \{(\w+)", r":\n  \1", given).replace("}", "")
+        text = f"{begin}{wrong}\n{block}\n"
+        [only] = read_problem("p.yaml", text.encode()).diagnostics
+        section = block.split("\n")[-2]
+        assert only.hint.endswith(f"{section} write {entry}")
+        line = block.split("\n")[-1] + "\n"
+        typed = re.sub(rf"  {entry.partition(':')[0]}:.*\n|$", "", line) + f"  {entry}\n"
+        mended = f"{begin}{block}\n".replace(line, typed)
+        assert read_problem("p.yaml", mended.encode()).checked()
+        text = f"{begin}{wrong}\n{given}\n"
+        [only] = read_problem("p.yaml", text.encode()).diagnostics
+        whole = only.hint.partition("write all as ")[2]
+        key = whole.partition(":")[0]
+        mended = re.sub(rf"^{key}: .*", whole, f"{begin}{given}\n", flags=re.MULTILINE)
+        assert entry in whole
+        assert read_problem("p.yaml", mended.encode()).checked()
+
+
+def test_names_of_a_list_stay_beside_an_entry_with_a_value():
+    begin = "coordinates: [x]\nparameters: [m, k]\nT: m*x'^2/2\nV: k*x^2/2\n"
+    [only] = read_problem("p.yaml", f"{begin}c: 3\n".encode()).diagnostics
+    assert only.hint.endswith("write all as parameters: {m, k, c: 3}")

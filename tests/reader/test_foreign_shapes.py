@@ -262,7 +262,7 @@ HINTS = [
     (text(symmetries="rotation", coordinates="[r, phi]", T="m*(r'^2 + phi'^2)", V="k*r"),
      "write {rotation: {phi: 1}}"),
     (text(symmetries="time translation"), "write {time_translation: {t: 1}}"),
-    (text(stiffness="100 N/m", V="stiffness*x^2/2"), "{stiffness: {value: 100, unit: N/m}}"),
+    (text(stiffness="100 N/m", V="stiffness*x^2/2"), "g: 9.81, stiffness: {value: 100, unit: N/m}}"),
     (text(parameters="{m: mass of the bob, k: constant of the spring}"), "and so for k"),
     (text(T="m*x'^2/2 (* kinetic *)"), "a comment begins with '#'"),
     (text(**PENDULUM | {"T": "m*theta'^2", "V": "-m*g*l*COS(THETA)"}), "-m*g*l*cos(theta)?"),
@@ -696,7 +696,7 @@ def test_a_quantity_within_a_formula_stays_without_its_unit(unit):
 @pytest.mark.parametrize("unit", ["kN", "mm"])
 def test_a_quantity_that_would_be_converted_is_a_parameter(unit):
     hint = only_mistake(text(V=f"5 {unit} * x", parameters="{k: 1, M: 1}", T="M*x'^2")).hint
-    assert re.fullmatch(rf"write parameters: {{\w: {{value: 5, unit: {unit}}}}}", hint)
+    assert re.fullmatch(rf"write all as .*{{k: 1, M: 1, \w: {{value: 5, unit: {unit}}}}}", hint)
 
 
 @pytest.mark.parametrize("name", ["exp", "sin", "diff", "pi"])
@@ -811,7 +811,7 @@ def test_a_state_outside_of_initial_is_one_mistake(lines, hint):
 
 
 def test_a_constant_that_a_formula_uses_is_no_state():
-    assert "parameters: {x0: 2}" in messages(text(V="k*(x - x0)^2/2") + "x0: 2\n")[0]
+    assert "g: 9.81, x0: 2}" in messages(text(V="k*(x - x0)^2/2") + "x0: 2\n")[0]
 
 
 @pytest.mark.parametrize(

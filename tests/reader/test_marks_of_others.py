@@ -277,7 +277,10 @@ def test_sympy_and_placeholders(written, hint):
             "write initial: {theta: 30*pi/180}",
         ),
         (text(initial="{x: 1, at rest}"), "a velocity that is not given is 0"),
-        (text() + "l = 9.81 m\n", "write parameters: {l: {value: 9.81, unit: m}}"),
+        (
+            text() + "l = 9.81 m\n",
+            "write all as parameters: {m: 1, k: 2, g: 9.81, l: {value: 9.81, unit: m}}",
+        ),
         ("coordinates = {x, y}\n", "write coordinates: [x, y]"),
         (text(T="½ m x'²"), "(1/2)*m"),
         (text(symmetries="true"), "leave out the key"),

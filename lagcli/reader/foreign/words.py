@@ -196,13 +196,8 @@ def _rates(x: str) -> tuple[set[str], set[str]]:
     second |= {f"{dot}{x}" for dot in ("dd", "a", "a_", "ddot_", "ddot")}
     if numbered:
         first |= {f"{numbered[1]}{dot}{numbered[2]}" for dot in ("d", "_d", "dot", "_dot")}
-        letters = (
-            ("omega", "w")
-            if is_angle(x)
-            else ("i",)
-            if stem.rstrip("0123456789") == "q"
-            else ("v",)
-        )
+        other = "i" if stem.rstrip("0123456789") == "q" else "v"  # of a charge, of a length
+        letters = ("omega", "w") if is_angle(x) else (other,)
         first |= {f"{letter}{gap}{numbered[2]}" for letter in letters for gap in ("", "_")}
     if index:
         first |= {f"{stem}dot_{index}", f"{stem}dot{index}", f"{stem}_dot_{index}"}
