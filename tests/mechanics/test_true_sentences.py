@@ -433,14 +433,15 @@ def test_a_hamiltonian_has_one_form_in_all_steps(seed):
 
 
 def test_integrals_with_time_are_said_to_be_of_second_degree():
-    """A drive w(t) of two coordinates: the quadratic ones without time were not sought."""
+    """A drive w(t) of two coordinates: quadratic ones are sought without and with the time."""
     text = """
 coordinates: [x, y]
 parameters: {m: {assume: positive}, k: {assume: positive}}
 L: m*(x'^2 + y'^2)/2 - k*(x^2 - 2*y^2)*cos(t)
 """
     sentences = said(text, "Discovered symmetries", "discovered")
-    assert "second degree in the velocities with the same functions of time" in sentences
+    assert "second degree in the velocities without explicit time" in sentences
+    assert "also with the same functions of time in the coefficients" in sentences
 
 
 def test_a_gauge_of_the_file_that_is_wrong_is_named():
