@@ -320,7 +320,7 @@ class Naming:
             slope = moved[other].diff(one)  # of y_2 by x_1: the other particle's is opposite
             backward = not slope.could_extract_minus_sign()
             return sympy.S.NegativeOne if backward != (name[2] == "y") else sympy.S.One
-        plain = charge.transformation.time == 1 and not moved
+        plain = not moved and self.t not in charge.transformation.time.free_symbols
         if name in ("moving_energy", "damped_energy", "energy_exp") and not plain:
             return sympy.S.NegativeOne  # p.xi - h tau: the textbook's is h
         name = name.removesuffix(MOVING)
