@@ -82,7 +82,7 @@ class Listing:
         return self._system.is_continuous and is_continuous(charge.charge)
 
     def _without_constant(self, charge: NoetherCharge) -> NoetherCharge:
-        """Without a constant that G brings into Q."""
+        """Without a constant that G brings into Q, where that is shorter."""
         moving = (self._system.t, *self._system.q, *self._system.qdot)
         gauge = sympy.expand(charge.gauge or sympy.S.Zero)
         constant = gauge.as_independent(*moving, as_Add=True)[0]
@@ -90,7 +90,8 @@ class Listing:
             return charge
         sign = -1 if is_energy(charge.transformation) else 1  # of h + G
         Q = sympy.expand(charge.charge + sign * constant)
-        return replace(charge, gauge=gauge - constant, charge=Q)
+        longer = simplify(Q).count_ops() > simplify(charge.charge).count_ops()  # (x + b)^2
+        return charge if longer else replace(charge, gauge=gauge - constant, charge=Q)
 
     def _named(self, charge: NoetherCharge) -> tuple[str, NoetherCharge]:
         given = charge.transformation

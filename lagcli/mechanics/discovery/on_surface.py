@@ -44,7 +44,7 @@ def search_on_surface(
     if search.timed:
         setting.words.append(
             "along the displacements of constant momenta, and of the velocities of lengths "
-            "whose accelerations are free of angles, with functions of t or of the coordinates"
+            "whose accelerations are linear, with functions of t or of the coordinates"
         )
     known = all_are_known(setting)
     if known:

@@ -69,7 +69,7 @@ def special_cases(
     """One parameter at a time, then two; `search` makes the same search for another problem."""
     searched = discovery.unconstrained or discovery
     system = searched.system
-    if discovery.unsearched:
+    if discovery.unsearched or discovery.is_prescribed:
         return ()
     few = 0 < len(system.q) <= _MOST_COORDINATES
     if not few or not system.parameters:

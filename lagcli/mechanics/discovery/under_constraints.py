@@ -145,7 +145,7 @@ class UnderConstraints:
         return all(is_zero(relations.substitute(dot(row, field))) is True for row in rows)
 
     def _by_lengths(self) -> dict[Vector, Expr]:
-        """Those whose momenta are the x' of lengths with x'' made of lengths alone."""
+        """Those whose momenta are the x' of lengths with x'' linear in lengths and their x'."""
         motion = self.dynamics.motion
         if motion is None:
             return {}
@@ -153,7 +153,11 @@ class UnderConstraints:
         velocities = dict(zip(self.system.q, self.system.qdot, strict=True))
         others = {*self.kinds.angles, *(v for x, v in velocities.items() if x not in lengths)}
         rates = dict(zip(self.system.q, motion.accelerations, strict=True))
-        closed = [velocities[x] for x in self.kinds.lengths if free_of(rates[x], others)]
+        moving = [*velocities, *velocities.values()]
+        closed = [
+            velocities[x] for x in self.kinds.lengths
+            if free_of(rates[x], others) and _is_linear(rates[x], moving)
+        ]  # fmt: skip
         moved = any(e.drift != 0 for e in self.dynamics.constraints.equations)
         fields = {self._tangent(v): v for v in closed}  # p.e = v on A q' = 0
         return {e: dot(e, self.dynamics.lagrange.momenta) for e in fields} if moved else fields
@@ -358,6 +362,12 @@ class UnderConstraints:
 
     def _moved(self, changes: Sequence[Expr], factor: Expr, field: Vector) -> list[Expr]:
         return [x + factor * e for x, e in zip(changes, field, strict=True)]
+
+
+def _is_linear(formula: Expr, variables: Sequence[Expr]) -> bool:
+    """Whether it is a polynomial of first degree."""
+    polynomial = formula.is_polynomial(*variables)
+    return bool(polynomial and sympy.Poly(formula, *variables).total_degree() <= 1)
 
 
 def _monomial(term: Expr, q: Sequence[Expr]) -> Expr:
