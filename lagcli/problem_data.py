@@ -463,6 +463,14 @@ class Problem:
         return replace(self, parameters=tuple(changed))
 
     @property
+    def formulas(self) -> tuple[Expression, ...]:
+        """The energies, the definitions and the positions of the points."""
+        energies = (self.kinetic, self.potential, self.lagrangian, self.hamiltonian)
+        places = (axis for point in self.points for axis in point.position)
+        given = (formula for formula in energies if formula is not None)
+        return (*given, *self.definitions.values(), *places)
+
+    @property
     def bare(self) -> Problem:
         """The problem without candidates, questions, initial state and expectations."""
         return replace(self, find=(), symmetries=(), initial={}, expect=Expect())

@@ -126,9 +126,8 @@ def _term(term: Expr, x: Symbol) -> Expr | None:
         return constant * x ** (power + 1) / (power + 1)
     u = sympy.Dummy("u", real=True)
     of_log = Mul(*others).xreplace({sympy.log(x): u})
-    if u in of_log.free_symbols and free_of(
-        of_log, [x]
-    ):  # the integral of exp((n + 1) u) f(u) by u
+    if u in of_log.free_symbols and free_of(of_log, [x]):
+        # x^n f(log(x)) dx = exp((n + 1) u) f(u) du
         found = antiderivative(sympy.exp(sympy.expand((power + 1) * u)) * of_log, u, rules=False)
         return None if found is None else constant * _at_log(found, u, x)
     if not (power.is_Integer and power >= 0):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from fractions import Fraction
 from functools import cached_property
 
@@ -109,7 +109,7 @@ class Labels:
     def _turning(self) -> frozenset[str]:
         """The names that stand by themselves, or with others, in sines and cosines."""
         found: set[str] = set()
-        for formula in _formulas(self.problem):
+        for formula in self.problem.formulas:
             for node in walk(formula):
                 if isinstance(node, Call) and node.function in {"sin", "cos", "tan"}:
                     found.update(n.name for n in name_nodes(node) if not n.primes)
@@ -143,11 +143,3 @@ def _is_written(unit: Unit) -> bool:
     return (
         unit.number == 1 and bool(unit.factors) and all(p.denominator == 1 for _, p in unit.factors)
     )
-
-
-def _formulas(problem: Problem) -> Iterator[Expression]:
-    energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
-    yield from (formula for formula in energies if formula is not None)
-    yield from problem.definitions.values()
-    for point in problem.points:
-        yield from point.position

@@ -52,11 +52,9 @@ def _is_degrees(number: Fraction) -> bool:
 
 
 def _formulas(problem: Problem) -> Iterator[Expression]:
-    energies = problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian
-    yield from (formula for formula in energies if formula is not None)
-    yield from (*problem.definitions.values(), *problem.forces.values())
+    yield from (*problem.formulas, *problem.forces.values())
     equations = [one.equation for one in problem.constraints]
     for equation in (*equations, *(one.equation for one in problem.contacts)):
         yield from (equation.left, equation.right)
     for point in problem.points:
-        yield from (*point.position, *(point.force or ()))
+        yield from point.force or ()

@@ -305,10 +305,7 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
 
 def _rename(file: FileReader, problem: Problem) -> None:
     """Take the only unknown velocity for that of the only coordinate that nothing contains."""
-    energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
-    places = (axis for point in problem.points for axis in point.position)
-    formulas = [each for each in (*energies, *places, *problem.definitions.values()) if each]
-    used = {part.name for part in name_nodes(*formulas)}
+    used = {part.name for part in name_nodes(*problem.formulas)}
     unused = [x for x in file.scope.of_kind("coordinate") if x not in used]
     moving = {name for each in file.diagnostics if (name := undeclared_velocity(each))}
     if len(unused) == len(moving) == 1:

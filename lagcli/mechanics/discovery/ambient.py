@@ -138,14 +138,12 @@ def _of_warped(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
 
 def _of_all(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
     """Of the shortest functions of each coordinate, as many as may be tried."""
-    factors, joint = (
-        [
-            [sympy.S.One, *_along(x, metric, K)] if metric.is_cyclic(x) else functions_of(x, metric)
-            for x in metric.q
-        ],
-        _joint(metric),
+    joint = _joint(metric)
+    given = (
+        [sympy.S.One, *_along(x, metric, K)] if metric.is_cyclic(x) else _of_coordinate(x, metric)
+        for x in metric.q
     )
-    factors = [sorted(each, key=complexity) for each in factors]
+    factors = [sorted(each, key=complexity) for each in given]
     while True:
         plain = [[f for f in each if not _has_sums_below(f)] for each in factors]
         if prod(map(len, factors)) + len(joint[1:]) * prod(map(len, plain)) <= _MOST:
@@ -153,7 +151,7 @@ def _of_all(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
         max(factors, key=len).pop()
 
 
-def functions_of(x: Symbol, metric: Metric) -> list[Expr]:
+def _of_coordinate(x: Symbol, metric: Metric) -> list[Expr]:
     """Those of one coordinate that the metric suggests."""
     one = sympy.S.One
     parts = _parts(metric)

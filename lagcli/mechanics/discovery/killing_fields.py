@@ -46,7 +46,7 @@ class KillingFields:
     fields
         Killing vectors, and one that stretches the metric if any.
     number, isometries
-        At most so many are independent, and without one that stretches the metric.
+        Bounds from above for the independent ones, with and without one that stretches the metric.
     """
 
     def __init__(self, metric: Metric, allowed: Allowance) -> None:

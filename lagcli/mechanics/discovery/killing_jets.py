@@ -29,12 +29,11 @@ from lagcli.algebra import derivative
 from lagcli.mechanics.discovery.exact import ExactSolver
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
-from lagcli.mechanics.discovery.modular import PRIME, NoPoint, kernel_modulo, pivot_columns
+from lagcli.mechanics.discovery.modular import PRIME, kernel_modulo, pivot_columns
 from lagcli.mechanics.discovery.spectrum import roots_of
 from lagcli.mechanics.discovery.tree import Tree
 
 _ORDER = {1: 6, 2: 6, 3: 5, 4: 4, 5: 4, 6: 4}  # by the number of coordinates
-_TRIES = 20
 
 Monomial = tuple[int, ...]
 
@@ -51,7 +50,7 @@ class KillingJets:
 
     @cached_property
     def number(self) -> int:
-        """At most so many of them are independent, one that stretches the metric among them."""
+        """A bound from above for the independent ones, with one that stretches the metric."""
         return len(self._chosen)
 
     def along(self, x: Symbol) -> list[Expr] | None:
@@ -136,20 +135,12 @@ class KillingJets:
 
     def _series(self) -> dict[tuple[int, int], dict[Monomial, int]]:
         """Taylor coefficients of g_ij at a random point."""
-        for _ in range(_TRIES):
-            self.allowed.check()
-            try:
-                at = self._tree.at(self._tree.points.point())
-                return {
-                    place: {
-                        m: at(e) * pow(prod(map(factorial, m)), -1, PRIME) % PRIME
-                        for m, e in series.items()
-                    }
-                    for place, series in self._slopes.items()
-                }
-            except NoPoint:
-                continue
-        raise NoPoint
+        slopes = [(place, m, e) for place, each in self._slopes.items() for m, e in each.items()]
+        [values] = self._tree.rows([[e] for _, _, e in slopes], 1)
+        found: dict[tuple[int, int], dict[Monomial, int]] = {place: {} for place in self._slopes}
+        for (place, m, _), value in zip(slopes, values, strict=True):
+            found[place][m] = value * pow(prod(map(factorial, m)), -1, PRIME) % PRIME
+        return found
 
     def _rows(self) -> Iterator[dict[tuple[int, Monomial], int]]:
         """One for each component of the equations and order below N, by (i, a) of u."""

@@ -188,11 +188,13 @@ class Setting:
     @property
     def _of_momenta(self) -> list[Expr]:
         """exp(-integral of a) where p' = a(t) p, as of a top with a drag about its axis."""
+        if self.canonical:
+            return []
         system, lagrange = self.system, self.dynamics.lagrange
         pushes = zip(lagrange.lagrangian_forces, system.applied_forces, strict=True)
         found = []
         for p, push in zip(lagrange.momenta, (a + b for a, b in pushes), strict=True):
-            if self.canonical or p == 0 or not push.free_symbols & set(system.qdot):
+            if p == 0 or not push.free_symbols & set(system.qdot):
                 continue
             rate = simplify(push / p)
             if free_of(rate, (*system.q, *system.qdot)):
