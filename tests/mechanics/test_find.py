@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from random import Random
 
 import pytest
 
@@ -205,21 +206,62 @@ coordinates: {x: {}, z: {}}
 parameters: {m: POSITIVE, g: POSITIVE, u: POSITIVE, w: POSITIVE}
 T: m*(x'^2 + z'^2)/2
 V: m*g*z
-symmetries:
-  lift: {z: 1}
 initial: {x': u, z': w}
 find:
   asked: {where: z' = 0, for: z}
-  velocity: {value: z', in_terms_of: []}
+  range: {where: z = 0, for: x}
+  path: {value: z, in_terms_of: [x]}
+  velocity: {value: z', in_terms_of: [t]}
+  height: {value: z, in_terms_of: [t]}
 """
 
 
-def test_the_apex_of_a_projectile():
+def test_a_projectile():
     assert roots(PROJECTILE) == formulas("w^2/(2*g)")
-
-
-def test_a_charge_with_explicit_time_gives_the_velocity_as_a_function_of_it():
+    assert roots(PROJECTILE, "range") == formulas("0", "2*u*w/g")
+    assert value(PROJECTILE, "path") == formula("w*x/u - g*x^2/(2*u^2)")
     assert value(PROJECTILE, "velocity") == formula("w - g*t")
+    assert value(PROJECTILE, "height") == formula("w*t - g*t^2/2")
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_accelerations_that_depend_on_the_time_and_on_the_velocity(seed):
+    """x'' = sum a_k t^k - k x' + driving: the velocity, and without drag the place."""
+    rng = Random(seed)
+    a, b, n = rng.randint(1, 9), rng.randint(1, 9), rng.randint(1, 3)
+    drag = rng.choice(["0", "k"])
+    text = f"""
+coordinates: [x]
+parameters: {{m: POSITIVE, k: POSITIVE, F: {{}}, w: POSITIVE, v: {{}}, c: {{}}}}
+T: m*x'^2/2
+dissipation: m*({drag})*x'^2/2
+forces: {{x: m*({a}*t^{n} - {b} + F*cos(w*t))}}
+initial: {{x: c, x': v}}
+find:
+  velocity: {{value: x', in_terms_of: [x, t]}}
+  place: {{value: x, in_terms_of: [t]}}
+"""
+    gained = f"{a}*t^{n + 1}/{n + 1} - {b}*t + F*sin(w*t)/w"
+    assert value(text, "velocity") == formula(f"v + {gained} - ({drag})*(x - c)")
+    if drag == "0":
+        covered = f"{a}*t^{n + 2}/{(n + 1) * (n + 2)} - {b}*t^2/2 + F*(1 - cos(w*t))/w^2"
+        assert value(text, "place") == formula(f"c + v*t + {covered}")
+
+
+STOPPED = """
+coordinates: [x]
+parameters: {m: POSITIVE, k: POSITIVE, v: POSITIVE}
+T: m*x'^2/2
+dissipation: m*k*x'^2/2
+initial: {x': v}
+find:
+  asked: {where: x' = 0, for: x}
+"""
+
+
+def test_where_linear_drag_stops_a_body_it_comes_only_in_the_limit():
+    assert roots(STOPPED) == formulas("v/k")
+    assert answers(STOPPED)["asked"].note == "v/k is approached as t → ∞"
 
 
 STATIC = """

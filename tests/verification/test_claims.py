@@ -19,6 +19,7 @@ from lagcli.record import replace
 from lagcli.rewriting import rebuilt, rewritten
 from lagcli.statements.answers import Answers, Charge, ChargesSection
 from lagcli.statements.motions import Above, HamiltonJacobiSection, Verdict
+from lagcli.statements.questions import Rewritten
 from lagcli.verification import verified
 
 from .sheets import derived, each_spoiled, number
@@ -140,6 +141,36 @@ def test_ranges_that_hold_too_much_are_withheld(name: str) -> None:
                 found = verified(problem, sheet)
                 assert found.sections["find"].answers[question].ranges is None, (k, side)
                 assert not found.complete
+
+
+FALL = """
+coordinates: [x, y]
+parameters: {g: {assume: positive}, u: {assume: positive}, w: {assume: positive}, k: {assume: positive}}
+L: (x'^2 + y'^2)/2 - g*y
+dissipation: k*x'^2/2
+initial: {x': u, y': w}
+find:
+  landing: {where: y = 0, for: y'}
+  height: {value: y, in_terms_of: [t]}
+  speed: {value: x', in_terms_of: [x]}
+  stop: {where: x' = 0, for: x}
+"""
+
+
+@pytest.mark.parametrize("name", ["landing", "height", "speed", "stop"])
+def test_what_holds_along_the_motion_alone_is_examined_on_it(name: str) -> None:
+    problem = read_problem("fall.yaml", FALL.encode()).checked()
+    answers = statements(derive(problem)).answers(("find",))
+    assert verified(problem, answers) is answers
+    section = answers.sections["find"]
+    answer = section.answers[name]
+    if isinstance(answer, Rewritten):
+        wrong = replace(answer, value=Product((number(101, 100), answer.value)))
+    else:
+        spoiled = tuple(Product((number(101, 100), each)) for each in answer.solutions)
+        wrong = replace(answer, solutions=spoiled)
+    sheet = replace(answers, sections={"find": replace(section, answers={name: wrong})})
+    assert not verified(problem, sheet).complete
 
 
 @pytest.mark.parametrize("R", ["2", "3"])

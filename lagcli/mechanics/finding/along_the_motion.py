@@ -93,13 +93,8 @@ class AlongTheMotion:
             self.why_not = "the accelerations or multipliers in it are not determined"
         return replaced
 
-    def rewritten(
-        self, expression: Expr, keep: Sequence[Symbol], *, with_time: bool = False
-    ) -> Expr | None:
-        """The expression in the named quantities and parameters; None with `why_not`.
-
-        The time may be left in it only where it is requested.
-        """
+    def rewritten(self, expression: Expr, keep: Sequence[Symbol]) -> Expr | None:
+        """The expression in the named quantities and parameters; None with `why_not`."""
         self.why_not = ""
         subject = self.on_motion(expression)
         if subject is None:
@@ -108,7 +103,7 @@ class AlongTheMotion:
             return None
         subject = with_roots(subject, self.roots)
         named = [with_roots(s - formula, self.roots) for s, formula in self._named.items()]
-        for relations, remove in self.attempts(keep, with_time=with_time):
+        for relations, remove in self.attempts(keep):
             found = self.eliminated(subject, (*named, *relations), remove)
             if not found.complete:
                 continue
@@ -140,25 +135,21 @@ class AlongTheMotion:
         """The expression with symbols removed by the relations, within the time allowed."""
         return eliminate(expression, relations, remove, self.nonzero, work=self.work)
 
-    def attempts(
-        self, keep: Sequence[Symbol], *, with_time: bool
-    ) -> list[tuple[tuple[Expr, ...], list[Symbol]]]:
+    def attempts(self, keep: Sequence[Symbol]) -> list[tuple[tuple[Expr, ...], list[Symbol]]]:
         """Relations to use and symbols to remove: constraints first, explicit time last."""
         system = self.system
-        remove = [s for s in (*system.qdot[::-1], *system.q[::-1]) if s not in keep]
-        timeless = remove if system.t in keep else [*remove, system.t]
+        moving = (*system.qdot[::-1], *system.q[::-1], system.t)
+        remove = [s for s in moving if s not in keep]
         constraints, laws = (
             tuple(without_roots(each, self.roots) for each in relations)
             for relations in (self.level_set.constraints, self.level_set.laws)
         )
         still = tuple(law for law in laws if system.t not in law.free_symbols)
-        plans = [(constraints, timeless)]
+        plans = [(constraints, remove)]
         if still:
-            plans.append(((*constraints, *still), timeless))
+            plans.append(((*constraints, *still), remove))
         if len(still) < len(laws):
-            plans.append(((*constraints, *laws), timeless))
-        if with_time and system.t not in keep:
-            plans += [(relations, remove) for relations, _ in plans]
+            plans.append(((*constraints, *laws), remove))
         return plans
 
     @property

@@ -46,7 +46,7 @@ def _rewritten(along: AlongTheMotion, question: Rewrite) -> Rewritten:
     system = along.system
     subject = system.build(question.value)
     keep = [system.symbol_of(str(name)) for name in question.in_terms_of]
-    value = along.rewritten(subject, keep, with_time=True)
+    value = along.rewritten(subject, keep)
     if value is None:
         return _up_to_sign(along, subject, keep)
     tree, shown = along.tree(value), along.tree(subject)

@@ -53,7 +53,11 @@ class LevelSet:
         if self.initial is None:
             return ()
         laws = self._since_start(
-            [*self._integrals_of_constraints(), *self.noether.conserved_quantities()]
+            [
+                *self._integrals_of_constraints(),
+                *self.noether.conserved_quantities(),
+                *self._integrals_of_accelerations(),
+            ]
         )
         laws += self._since_start(self._integrals_of_laws(laws))
         return tuple(sorted(laws, key=lambda law: not free_of(law, [self.system.t])))
@@ -70,8 +74,20 @@ class LevelSet:
         ]
         return [F for F in found if F is not None]
 
+    def _integrals_of_accelerations(self) -> list[Expr]:
+        """q' - B where q'' = dB/dt: y' + g t of a fall, x' + k x of a drag -m k x'."""
+        system, found = self.system, []
+        for acceleration, rate in zip(system.qddot, system.qdot, strict=True):
+            formula = self.dynamics.on_motion(acceleration)
+            if formula is None or formula == 0:
+                continue
+            velocity = boundary_term(formula, system, rules=False)
+            if velocity is not None:
+                found.append(rate - velocity)
+        return found
+
     def _integrals_of_laws(self, laws: Sequence[Expr]) -> list[Expr]:
-        """F(q) with dF/dt = Q - Q(initial): the centre of mass that stays where it is."""
+        """F(q, t) with dF/dt = Q - Q(initial): where the centre of mass is."""
         velocities = self.system.qdot
         linear = [
             law
@@ -80,7 +96,7 @@ class LevelSet:
             and all(free_of(law.diff(v), velocities) for v in velocities)
         ]
         found = [boundary_term(law, self.system) for law in linear]
-        return [F for F in found if F is not None and free_of(F, [self.system.t])]
+        return [F for F in found if F is not None]
 
     def _since_start(self, quantities: Sequence[Expr]) -> list[Expr]:
         """Q - Q(initial), where that says something."""

@@ -14,6 +14,7 @@ import mpmath
 from mpmath import mpf
 from sympy import Expr, Rational, Symbol
 
+from lagcli.algebra import is_zero
 from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.mechanics.finding.along_the_motion import AlongTheMotion
 from lagcli.mechanics.finding.reach import LineOfMotion, Reach, real_value
@@ -78,7 +79,7 @@ class Passing:
     @cached_property
     def assumed(self) -> list[Expr]:
         """x >= 0 of each other coordinate that has a sign by assumption and is a function of u."""
-        relations, remove = self.along.attempts([self.u], with_time=False)[0]
+        relations, remove = self.along.attempts([self.u])[0]
         found = []
         for x in self.system.q:
             if x is self.u or not relations or not (x.is_nonnegative or x.is_nonpositive):
@@ -136,6 +137,7 @@ class Passing:
         for passage, example in partly:
             which = (*self._named(passage), " ") if apart else ()
             self.notes.append((*which, _PARTLY, *example))
+        self.notes += self._approached(kept)
         self.notes += self.undecided
         if passages and not kept:
             if not decided:
@@ -144,6 +146,17 @@ class Passing:
             tested = "values of the file" if len(self._draws) == 1 else "tested parameters"
             self.notes.append(f"with the {tested} the motion reaches no root of the equation")
         return kept
+
+    def _approached(self, passages: Sequence[Passage]) -> list[Remark]:
+        """Double roots of w: dt = du/sqrt(w) diverges there."""
+        if self.square is None or self.starts_at_equilibrium:
+            return []
+        slope = self.square.diff(self.u)
+        return [
+            (*self._named(each), " is approached as ", self.system.t, " → ∞")
+            for each in passages
+            if all(is_zero(f.xreplace({self.u: each.place})) for f in (self.square, slope))
+        ]
 
     def _possible_if_real(self, passage: Passage, draws: Sequence[int]) -> bool:
         """Whether the draws left out, up to the last, are those with which the answer is not real.

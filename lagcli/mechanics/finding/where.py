@@ -180,7 +180,7 @@ class WhereSearch:
         equation = self.along.on_motion(self.equation)
         if equation is None:
             return None
-        for relations, remove in self.along.attempts([v], with_time=False):
+        for relations, remove in self.along.attempts([v]):
             left = self.along.eliminated(v, (*relations, equation), remove)
             for relation in (*left.relations, v - left.expression):
                 present = relation.free_symbols

@@ -1,10 +1,10 @@
 """Values of a parameter with which a condition lasts or a place is reached: motions beside bounds.
 
-Beside each printed bound the motion is integrated from the initial state, by the rule of Runge
-and Kutta of fourth order.  A condition that fails within a range, or a place that is reached
-outside of it, refutes the answer; so does, for one degree of freedom and no time in L, what does
-not come to pass until a coordinate has turned back twice, or has gone round twice.  That an
-equation holds nowhere on the way is refuted by a motion on which its sides pass each other.
+Beside each printed bound the motion is integrated from the initial state.  A condition that
+fails within a range, or a place that is reached outside of it, refutes the answer; so does, for
+one degree of freedom and no time in L, what does not come to pass until a coordinate has turned
+back twice, or has gone round twice.  That an equation holds nowhere on the way is refuted by a
+motion on which its sides pass each other.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from lagcli.verification.examination import Examination
 from lagcli.verification.linear import Unclear, size, solve
 from lagcli.verification.phase_points import Environment
 from lagcli.verification.states import State
+from lagcli.verification.stepped_motion import SteppedMotion
 
 _STEP, _STEPS = arb(1) / 10, 150
 #: Relative distance from a bound; the rule is right to some 1e-4 on the way.
@@ -122,7 +123,7 @@ class PassingMotion:
     def __init__(
         self, x: Examination, start: Environment, question: Lasting | Reaching | Where
     ) -> None:
-        self.x, self.environment, self.question = x, dict(start), question
+        self.x, self.motion, self.question = x, SteppedMotion(x.reference, start), question
         reference, program = x.reference, x.reference.program
         self.names = reference.names
         held = [c.holds_while for c in x.problem.constraints if c.holds_while is not None]
@@ -158,10 +159,10 @@ class PassingMotion:
         """
         lasting, turns = isinstance(self.question, Lasting), [0] * len(self.names)
         before: list[float] = []
-        begun = dict(self.environment)
+        begun = dict(self.motion.environment)
         for number in range(_STEPS):
-            state = State(self.x.reference, dict(self.environment))
-            rates = self._rates(state)
+            state = self.motion.state
+            rates = self.motion.rates(state)
             values = [float(state.at(p).mid()) for p in (self.sought, *self.ends)]
             if number == 0 and all(size(r) < _MOVES for r in rates):
                 raise Unclear  # at rest where it starts
@@ -171,43 +172,22 @@ class PassingMotion:
                 return True
             if any(v < -1e-4 for v in values[1:]):
                 return lasting
-            speeds = [float(self.environment[n, 1].mid()) for n in self.names]
+            speeds = [float(state.environment[n, 1].mid()) for n in self.names]
             for k, (a, b) in enumerate(zip(before[1:], speeds, strict=False)):
                 turns[k] += a * b < 0 and min(abs(a), abs(b)) > _MOVES
             if self.periodic and (max(turns) > 1 or (lasting and self._gone_round(begun, rates))):
                 return lasting
             before = [values[0], *speeds]
-            self._advance(rates)
+            self.motion.advance(_STEP, rates)
         return None
 
     def _gone_round(self, begun: Environment, rates: Sequence[arb]) -> bool:
         """Whether an angle has grown or fallen by two turns; only of one is the motion the same."""
+        now = self.motion.environment
         for name in self.names:
-            gap = self.environment[name, 0] - begun[name, 0]
+            gap = now[name, 0] - begun[name, 0]
             if size(gap) > 4 * pi:
-                back = {(name, 0): self.environment[name, 0] - 2 * gap.sgn() * arb.pi()}
-                there = State(self.x.reference, {**self.environment, **back})
-                return all(
-                    size(a - b) < _MOVES for a, b in zip(self._rates(there), rates, strict=True)
-                )
+                back = {(name, 0): now[name, 0] - 2 * gap.sgn() * arb.pi()}
+                there = self.motion.rates(State(self.x.reference, {**now, **back}))
+                return all(size(a - b) < _MOVES for a, b in zip(there, rates, strict=True))
         return False
-
-    def _rates(self, state: State) -> list[arb]:
-        """q' and q''."""
-        return [*state.laws.velocities, *state.laws.accelerations]
-
-    def _advance(self, first: list[arb]) -> None:
-        """One step."""
-        keys = [(n, primes) for primes in (0, 1) for n in self.names]
-        slopes = [first]
-        for part in (arb("0.5"), arb("0.5"), arb(1)):
-            there = dict(self.environment)
-            for key, rate in zip(keys, slopes[-1], strict=True):
-                there[key] = (there[key] + part * _STEP * rate).mid()
-            there["t", 0] = there["t", 0] + part * _STEP
-            slopes.append(self._rates(State(self.x.reference, there)))
-        for key, (a, b, c, d) in zip(keys, zip(*slopes, strict=True), strict=True):
-            self.environment[key] = (
-                self.environment[key] + (a + 2 * b + 2 * c + d) * _STEP / 6
-            ).mid()
-        self.environment["t", 0] = self.environment["t", 0] + _STEP

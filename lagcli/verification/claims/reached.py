@@ -15,6 +15,7 @@ from lagcli.verification.newton import settled
 from lagcli.verification.phase_points import Environment
 from lagcli.verification.program import Key
 from lagcli.verification.states import State, values_of_the_file
+from lagcli.verification.stepped_motion import SteppedMotion
 from lagcli.verification.sweeps import column
 
 _STEPS = 60
@@ -113,6 +114,17 @@ class Reached:
             moments = [("t", 0)] if pinned else []
             if self._solved(there, places, [*self.everything, *moments]):
                 yield State(self.reference, there)
+
+    def passed(self, known: Environment, step: arb, steps: int) -> Iterator[State]:
+        """States of the motion from the initial one."""
+        start = self.initial(known)
+        if start is None:
+            return
+        motion = SteppedMotion(self.reference, start)
+        for _ in range(steps):
+            state = motion.state
+            yield state
+            motion.advance(step, motion.rates(state))
 
     def _solved(self, environment: Environment, places: Sequence[int], free: Sequence[Key]) -> bool:
         return settled(
