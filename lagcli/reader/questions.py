@@ -54,7 +54,7 @@ _ENDS = regex(r"([^<>=≤≥]+)(?:[<>=]=?|≤|≥)([^<>=≤≥]+)")
 
 #: What a question can be answered for.
 _UNKNOWN = Role(
-    order=1, time=False, why="a question is about a coordinate, a velocity or a parameter"
+    order=1, why="a question is about a coordinate, a velocity, a parameter or the time"
 )
 _VARIABLE = Role(order=1, momenta=True, why="velocities are removed, accelerations never needed")
 
@@ -303,18 +303,13 @@ def _where(
         message = f"the acceleration {unknown.value.strip()} cannot stand in 'for'"
         file.error(message, unknown.span, hint)
         return []
-    if isinstance(unknown, Scalar) and unknown.value.strip() == "t":
-        end = difference(source_of(where))
-        hint = f'the time of an event comes from a run: lagcli simulate FILE --stop-when "{end}"'
-        file.error("the time cannot stand in 'for'", unknown.span, f"leave it out; {hint}")
-        return []
     name = _unknown(file, unknown)
     if name is None:
         return []
-    is_free = file.scope.kinds.get(name.name) in {"coordinate", "parameter"}
+    is_free = name.name == "t" or file.scope.kinds.get(name.name) in {"coordinate", "parameter"}
     if not is_free and not file.scope.refused:
         known = ", ".join(file.scope.of_kind("coordinate"))
-        message = f"'{name}' is not a coordinate, a velocity or a parameter"
+        message = f"'{name}' is not a coordinate, a velocity, a parameter or the time"
         file.error(message, name.span, f"coordinates are {known}")
     return [Where(name=key.label, equation=equation, unknown=name, span=key.span)]
 

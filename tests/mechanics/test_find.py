@@ -213,6 +213,7 @@ find:
   path: {value: z, in_terms_of: [x]}
   velocity: {value: z', in_terms_of: [t]}
   height: {value: z, in_terms_of: [t]}
+  flight: {where: z = 0, for: t}
 """
 
 
@@ -222,6 +223,7 @@ def test_a_projectile():
     assert value(PROJECTILE, "path") == formula("w*x/u - g*x^2/(2*u^2)")
     assert value(PROJECTILE, "velocity") == formula("w - g*t")
     assert value(PROJECTILE, "height") == formula("w*t - g*t^2/2")
+    assert roots(PROJECTILE, "flight") == formulas("0", "2*w/g")
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -246,6 +248,32 @@ find:
     if drag == "0":
         covered = f"{a}*t^{n + 2}/{(n + 1) * (n + 2)} - {b}*t^2/2 + F*(1 - cos(w*t))/w^2"
         assert value(text, "place") == formula(f"c + v*t + {covered}")
+
+
+def test_times_before_the_start_are_left_out():
+    text = """
+coordinates: [s]
+parameters: {m: POSITIVE, g: POSITIVE, h: POSITIVE, u: POSITIVE}
+T: m*s'^2/2
+V: m*g*s
+initial: {s: h, s': u}
+find:
+  asked: {where: s = 0, for: t}
+"""
+    assert roots(text) == formulas("(u + sqrt(u^2 + 2*g*h))/g")
+
+
+def test_a_time_that_no_formula_gives_is_left_to_a_run():
+    text = """
+coordinates: [theta]
+parameters: {g: POSITIVE}
+L: theta'^2/2 + g*cos(theta)
+initial: {theta: 1}
+find:
+  asked: {where: theta = 0, for: t}
+"""
+    assert roots(text) is None
+    assert "simulate --stop-when" in answers(text)["asked"].note
 
 
 STOPPED = """

@@ -289,9 +289,6 @@ SLIPS = [
     # a product without stars, all of it names of the file
     ("T: J*x'^2/2\nV: k*x^2\nparameters:\n  k: 1\n  m: 1\n  l: 1\n  J: 1/3 m l^2\n", 10,
      "did you mean 1/3*m*l^2?"),
-    # when, instead of where
-    ("T: m*x'^2/2\nfind: {when: {where: x = 2, for: t}}\n", 5,
-     'leave it out; the time of an event comes from a run: lagcli simulate p --stop-when "x - 2"'),
 ]  # fmt: skip
 
 

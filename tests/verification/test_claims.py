@@ -151,13 +151,14 @@ dissipation: k*x'^2/2
 initial: {x': u, y': w}
 find:
   landing: {where: y = 0, for: y'}
+  flight: {where: y = 0, for: t}
   height: {value: y, in_terms_of: [t]}
   speed: {value: x', in_terms_of: [x]}
   stop: {where: x' = 0, for: x}
 """
 
 
-@pytest.mark.parametrize("name", ["landing", "height", "speed", "stop"])
+@pytest.mark.parametrize("name", ["landing", "flight", "height", "speed", "stop"])
 def test_what_holds_along_the_motion_alone_is_examined_on_it(name: str) -> None:
     problem = read_problem("fall.yaml", FALL.encode()).checked()
     answers = statements(derive(problem)).answers(("find",))

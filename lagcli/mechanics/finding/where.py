@@ -52,12 +52,14 @@ class WhereSearch:
             roots = self._coordinate()
         elif self.unknown in self.system.qdot:
             roots = self._velocity()
+        elif self.unknown == self.system.t:
+            roots = self._time()
         else:
             roots = self._parameter()
         if roots is None:
             return self._answer(None, [self.along.why_not])
         bounds = [*real_where(roots)]
-        if self.unknown.is_nonnegative:
+        if self.unknown.is_nonnegative or self.unknown == self.system.t:
             bounds += positive_where(roots)
         return self._answer(roots, [*bounds, *self.notes, *self.along.notes])
 
@@ -188,6 +190,22 @@ class WhereSearch:
                     found = self._roots(relation, v)
                     return None if found is None else self._sorted(list(found.values))
         return self._with_coordinates([v])
+
+    def _time(self) -> list[Expr] | None:
+        """The roots t >= 0, where the motion is known as a function of the time."""
+        t = self.unknown
+        formula = self.along.rewritten(self.equation, [t])
+        found = None if formula is None else self._roots(formula, t)
+        if found is None:
+            self.along.why_not += "; the time of an event in a run: lagcli simulate --stop-when"
+            return None
+        if found.angle:
+            self.notes.append("whole periods later as well")
+        return self._sorted([root for root in found.values if self._may_be_later(root)])
+
+    def _may_be_later(self, time: Expr) -> bool:
+        numbers = (real_value(time, values) for values in self._choices)
+        return any(number is not None and number > -_EXACTLY for number in numbers)
 
     def _parameter(self) -> list[Expr] | None:
         """A value for the whole motion, else for the start, else one for each place."""

@@ -155,7 +155,7 @@ def _is_root(
 ) -> bool:
     """Whether the equation holds where the unknown has the value of the root."""
     key = (question.unknown.name, question.unknown.primes)
-    if key not in reached.everything:
+    if key not in {*reached.everything, ("t", 0)}:
         return True
     program = x.reference.program
     unknown = program.symbol(*key)
