@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 from fractions import Fraction
+from random import Random
 
 import pytest
 import sympy as sp
@@ -13,7 +14,7 @@ from sympy import Expr, Symbol, cos, exp, sin, sqrt, tan
 from lagcli.algebra import shape, simplify, to_expression
 from lagcli.algebra.build import unspecified
 from lagcli.algebra.writing import Writer
-from lagcli.expression import Call, Power, Quotient, operation_count, walk
+from lagcli.expression import Call, Power, Quotient, Sum, operation_count, walk
 from lagcli.formatters.grammar import to_grammar
 from lagcli.reader import parse_text
 
@@ -296,3 +297,22 @@ def test_a_root_above_a_factor_of_its_own_has_no_fraction_inside(split, other, s
     for below in (2.5, 3.5):
         at = {r: below, k: 1.2, x: 0.7, y: 0.2, theta: 0.4, m: 2, dx: 5}
         assert abs((expression - simplify(expression)).xreplace(at).evalf()) < 1e-12
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_pair_potentials_stay_apart(seed):
+    """Of f (a/(x − y)² + b/(y − z)² + …) no pole is brought over the others' denominators."""
+    rng = Random(seed)
+    x, y, z, w = (Symbol(n, real=True) for n in "xyzw")
+    pairs = [(x, y), (y, z), (z, x), (x + y, w), (w, 2 * z)][: rng.randint(2, 4)]
+    above = [rng.choice([1, 1, x + y, y * z, x - z]) for _ in pairs]
+    poles = sum(
+        rng.randint(1, 3) * n / (p - q) ** 2 for n, (p, q) in zip(above, pairs, strict=True)
+    )
+    front = rng.choice([1, g, g * cos(t), g * (x + y + z) * sin(t)])
+    whole = simplify(sp.together(poles * front))
+    shown = to_expression(whole)
+    below = [node.denominator for node in walk(shown) if isinstance(node, Quotient)]
+    bases = [each.base if isinstance(each, Power) else each for each in below]
+    assert len(bases) >= len(pairs)
+    assert all(isinstance(base, Sum) for base in bases), shown

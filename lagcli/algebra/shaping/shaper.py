@@ -89,7 +89,8 @@ class Shaper:
         above = self.factored.of(element.numerator)
         below = self.factored.of(element.denominator, below=True)
         best: PlannedProduct | PlannedSum = self._joined(above, below)
-        apart = (*self._by_roots(element), *self._by_powers(element)) if divide else ()
+        ways = (self._by_roots, self._by_powers, self._by_poles) if divide else ()
+        apart = (candidate for way in ways for candidate in way(element))
         for candidate in (*self._spread(element, below), *apart):
             if candidate.score < best.score:
                 best = candidate
@@ -158,6 +159,58 @@ class Shaper:
                 below = [element.denominator / factor**k for k in range(len(digits) + 1)]
                 pairs = zip([*digits, rest], below, strict=True)
                 yield self.together(field.element(n, d) for n, d in pairs if n != 0)
+
+    def _by_poles(self, element: Element) -> Iterator[PlannedProduct]:
+        """g (1/(x − y)² + 1/(y − z)²): partial fractions, each pole f = x − a(y, …) alone."""
+        ring, field = self.field.ring, self.field
+        factors = [*factorization(element.denominator)[1]]
+        poles = [(f, e, *pole) for f, e in factors if (pole := self._pole(f))]
+        if len(poles) < 2:
+            return
+        below = ring.one
+        for f, exponent, *_ in poles:
+            below *= f**exponent
+        content = element.numerator.term_content()
+        sums = [f for f, _ in factorization(element.numerator)[1] if len(f) > 1]
+        for common in (content, *(content * f for f in sums)):
+            parts = self._at_poles(element.numerator / common, below, poles)
+            if parts is not None:
+                outside = field.element(common, element.denominator / below)
+                front = as_product(self.atoms, self.plan(outside, divide=False))
+                apart = [*front.parts, (self.together(parts), 1)]
+                yield product(self.atoms, front.coefficient, apart)
+
+    def _at_poles(
+        self, above: Poly, below: Poly, poles: Iterable[tuple[Poly, int, int, Poly]]
+    ) -> list[Element] | None:
+        """N/(f^k D) at x = a is (N/D)(x = a)/f^k; None where that is no polynomial over f^k."""
+        ring, field = self.field.ring, self.field
+        parts: list[Element] = []
+        for f, exponent, x, place in poles:
+            numerator = ring.zero
+            for power in range(exponent, 0, -1):
+                rest = below / f**power
+                top, bottom = (ring.compose(p, {x: place}) for p in (above, rest))
+                at_pole, remainder = divmod(top, bottom)
+                if remainder != 0:
+                    return None
+                numerator += at_pole * f ** (exponent - power)
+                above, below = (above - at_pole * rest) / f, below / f
+            if numerator != 0:
+                parts.append(field.element(numerator, f**exponent))
+        return parts if above == 0 else [*parts, field.polynomial(above)]
+
+    def _pole(self, factor: Poly) -> tuple[int, Poly] | None:
+        """x and a of a factor ±(x − a) of letters alone."""
+        ring = self.field.ring
+        used = ring.used(factor)
+        if len(factor) < 2 or any(self.field.generators[g].kind != "symbol" for g in used):
+            return None
+        for g in used:
+            slope = ring.derivative(factor, g)
+            if slope in (ring.one, -ring.one):
+                return g, ring.generator(g) - factor / slope
+        return None
 
     def _by_velocities(self, element: Element) -> Iterator[PlannedProduct | PlannedSum]:
         """M r'²/(r (r − 2 M)) + (r − 2 M) φ'²: the velocities apart where a sum cancels.
