@@ -17,6 +17,7 @@ from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.point import with_gauge
 from lagcli.mechanics.discovery.relation import Relation
+from lagcli.mechanics.discovery.scaling import content_of
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 
 Vector = tuple[Expr, ...]
@@ -127,6 +128,8 @@ def integral_of(noether: Noether, eta: Vector, whole: Expr, gauge: Expr) -> Noet
     """Q where dQ/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) identically: then 0 on the motion."""
     left_sides = noether.dynamics.lagrange.left_sides
     system = noether.system
+    content = content_of([*eta, whole], frozenset(system.parameters) - _masses(noether))
+    eta, whole, gauge = tuple(simplify(e / content) for e in eta), whole / content, gauge / content
     left = system.total_derivative(whole) - dot(eta, left_sides)
     if not _vanishes(left, {system.t, *system.q, *system.parameters}):
         return None
@@ -141,6 +144,13 @@ def integral_of(noether: Noether, eta: Vector, whole: Expr, gauge: Expr) -> Noet
         verified="exact",
         broken_by="",
     )
+
+
+def _masses(noether: Noether) -> set[Expr]:
+    """Letters of which an inertia is a multiple: p_x p_y is m² x' y'."""
+    inertia = (row[j] for j, row in enumerate(noether.dynamics.lagrange.mass_matrix))
+    factors = (f for m in inertia for f in sympy.Mul.make_args(simplify(m)))
+    return {factor.as_base_exp()[0] for factor in factors}
 
 
 def _vanishes(formula: Expr, still: set[Symbol]) -> bool:

@@ -31,12 +31,15 @@ def scaled(values: Sequence[Expr], constants: AbstractSet[Symbol]) -> tuple[Expr
 
 def _without_content(values: Sequence[Expr], constants: AbstractSet[Symbol]) -> tuple[Expr, ...]:
     """The values simplified, over what divides all their coefficients."""
+    content = content_of(values, constants)
+    return tuple(simplify(v if content.is_Number else v / content) for v in values)
+
+
+def content_of(values: Sequence[Expr], constants: AbstractSet[Symbol]) -> Expr:
+    """What divides all coefficients of the values over a common denominator."""
     field = Field(values)
     tops = over_common_denominator(field, [field(v) for v in values])
-    content = field.polynomial_to_sympy(_content(field, tops, constants))
-    if content.is_Number:
-        return tuple(map(simplify, values))
-    return tuple(simplify(v / content) for v in values)
+    return field.polynomial_to_sympy(_content(field, tops, constants))
 
 
 def _content(field: Field, tops: Sequence[Poly], constants: AbstractSet[Symbol]) -> Poly:
