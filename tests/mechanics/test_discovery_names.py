@@ -515,3 +515,20 @@ def test_momenta_about_an_axis_are_those_of_cartesian_coordinates(name):
         at = numbers | dict.fromkeys((*system.parameters, t), sympy.Rational(6, 5))
         for key, formula in expected.items():
             assert abs((found[key] - formula).subs(at).evalf(30)) < 1e-20
+
+
+@pytest.mark.parametrize("sign", ["+", "-"])
+def test_keplers_problem_on_a_curved_plane_names_its_runge_lenz_vector(sign):
+    """Of curvature ±4 in stereographic coordinates, V = -k cot(chi)/2 or -k coth(chi)/2."""
+    other = "-" if sign == "+" else "+"
+    found = names_of(
+        f"{{coordinates: [x, y], parameters: {{k: {POS}}}, "
+        f"L: \"(x'^2 + y'^2)/(2*(1 {sign} x^2 {sign} y^2)^2)"
+        f' + k*(1 {other} x^2 {other} y^2)/(2*sqrt(x^2 + y^2))"}}'
+    )
+    assert {"energy", "L_z", "runge_lenz_x", "runge_lenz_y"} == set(found)
+    x, y = sympy.symbols("x y", real=True)
+    still = {s: 0 for s in found["runge_lenz_x"].charge.free_symbols if s.name.endswith("'")}
+    at_rest = found["runge_lenz_x"].charge.xreplace(still)
+    ratio = sympy.simplify(at_rest * sympy.sqrt(x**2 + y**2) / x)
+    assert ratio.subs(sympy.Symbol("k", positive=True), 1) < 0

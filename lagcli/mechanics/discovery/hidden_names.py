@@ -71,8 +71,9 @@ class HiddenNames:
         for name, x in self.axes:
             ratios = (self._constant_ratio(S, x * part) for part in parts)
             ratio = next((r for r in ratios if r is not None), None)
-            if ratio is not None and self._cartesian is not None:
-                return f"runge_lenz_{name}", self._cartesian.mass / ratio
+            if ratio is not None:
+                mass = sympy.S.One if self._cartesian is None else self._cartesian.mass
+                return f"runge_lenz_{name}", mass / ratio
         return self._of_tensor(charge.charge)
 
     def _of_tensor(self, Q: Expr) -> tuple[str, Expr]:
@@ -181,15 +182,23 @@ class HiddenNames:
         return None if ratio.free_symbols & set(state) or ratio == 0 else ratio
 
     def _axes(self, kinds: Kinds) -> Sequence[tuple[str, Expr]]:
-        """Cartesian coordinates, with their names, where V is a function of r alone."""
+        """Cartesian coordinates, with their names, where V is a function of r alone.
+
+        In a curved space x, y and z of the file are as good.
+        """
         found, V = self._cartesian, self.V
-        if found is None or len(found.X) < 2 or is_zero(V) is True:
+        own, names, X = self.q, tuple(x.name for x in self.q), self.q
+        if found is not None:
+            own, names, X = found.q, found.names, found.X
+        elif not {*names} <= {*"xyz"}:
+            return ()
+        if len(X) < 2 or is_zero(V) is True:
             return ()
         if kinds.angles:
             central = V.free_symbols.isdisjoint(kinds.angles)
         else:
+            turned = combinations(zip(own, X, strict=True), 2)
             central = all(
-                is_zero(V.diff(q) * y - V.diff(p) * x) is True
-                for (p, x), (q, y) in combinations(zip(found.q, found.X, strict=True), 2)
+                is_zero(V.diff(q) * x - V.diff(p) * y) is True for (p, x), (q, y) in turned
             )
-        return list(zip(found.names, found.X, strict=True)) if central else ()
+        return list(zip(names, X, strict=True)) if central else ()
