@@ -54,44 +54,45 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
             return None
         return _terms(check_dimensions(_with_usual_units(other) if is_usual else other, MISTAKES))
 
-    def only(places: list[_Place], remaining: list[str]) -> _Place | None:
-        """The only place with which these terms are left; None for none, several, very many."""
-        fitting = (each for each in places if left(each) == remaining)
-        few = [] if len(places) * len(text.source.text) > _TRIED else list(islice(fitting, 2))
-        return few[0] if len(few) == 1 else None
+    def fitting(places: list[_Place], remaining: list[str], most: int = 1) -> list[_Place]:
+        """The places with which these terms are left; none where they are more, or very many."""
+        found = (each for each in places if left(each) == remaining)
+        few = [] if len(places) * len(text.source.text) > _TRIED else [*islice(found, most + 1)]
+        return few if len(few) <= most else []
 
-    def factor(mistake: Diagnostic, places: list[_Place], remaining: list[str]) -> _Place | None:
+    def factor(mistake: Diagnostic, places: list[_Place], remaining: list[str]) -> list[_Place]:
         term = text.written(mistake.span)
-        groups = [_squares(places, term, problem), places]
+        within = [each for each in places if each[0] < each[1]]
+        groups, most = [_squares(places, term, problem), within, places], 2
         if _is_energy(mistake):
             moving = {each.name for each in problem.coordinates} | {*problem.definitions}
-            is_constant = not _words(term) & moving
-            groups = _with_coordinate(problem, text, mistake) if is_constant else groups
+            if not _words(term) & moving:
+                groups, most = _with_coordinate(problem, text, mistake), 1
             if "'" in term:  # m*phi'^2/2 of m*l^2*phi'^2/2
                 begin = text.offsets(mistake.span)[0]
                 quantities = (*problem.coordinates, *problem.parameters)
                 others = (each.name for each in quantities if each.name not in _words(term))
                 groups.append([(begin, begin, f"{other}^2*") for other in others])
-        return next((found for each in groups if (found := only(each, remaining))), None)
+        return next((found for each in groups if (found := fitting(each, remaining, most))), [])
 
     primes = _other_primes(problem, text, found)
     begin, stop = text.offsets(found[0].span)
     within = [each for each in primes if begin <= each[0] and each[1] <= stop]
     # x' = R*theta: a prime more on one side fits as one less on the other does
-    place = only(primes, []) or (None if found[1:] else only(within, []))
+    places = fitting(primes, []) or ([] if found[1:] else fitting(within, []))
     units = wrong_units(problem, found[0])
-    if units[1:] and place is None:
+    if units[1:] and not places:
         return units
     unit = units[0] if units else None
     is_name = unit is not None and text.source.text[begin:stop] == unit.message.split("'")[1]
-    if unit is not None and place is None and _is_usual(unit) and not is_name:
+    if unit is not None and not places and _is_usual(unit) and not is_name:
         return units
     if not found[1:]:
-        if place is not None:
-            return [_with_term(found[0], place, text)]
-        place = factor(found[0], _other_factors(problem, text, found[0]), [])
-        return [_with_term(found[0], place, text, unit)]
-    causes = [] if place is None else [_prime_elsewhere(found[0], place, text)]
+        if places:
+            return [_with_term(found[0], places, text)]
+        places = factor(found[0], _other_factors(problem, text, found[0]), [])
+        return [_with_term(found[0], places, text, unit)]
+    causes = [_prime_elsewhere(found[0], place, text) for place in places]
     known = causes if unit is None else [*causes, unit]
     if len(known) == 1:
         return known
@@ -99,8 +100,8 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
         others = _terms([*found[:number], *found[number + 1 :]])
         term = text.written(each.span)
         is_bare = not any(re.search(rf"\b{one.name}\b", term) for one in problem.parameters)
-        places = _other_factors(problem, text, each)
-        powers = [place for place in places if is_bare or place[0] != place[1]]
+        factors = _other_factors(problem, text, each)
+        powers = [place for place in factors if is_bare or place[0] != place[1]]
         found[number] = _with_term(each, factor(each, powers, others), text)
     return found
 
@@ -128,9 +129,9 @@ def _prime_elsewhere(first: Diagnostic, place: _Place, text: SourceText) -> Diag
 
 
 def _with_term(
-    mistake: Diagnostic, place: _Place | None, text: SourceText, unit: Diagnostic | None = None
+    mistake: Diagnostic, places: list[_Place], text: SourceText, unit: Diagnostic | None = None
 ) -> Diagnostic:
-    """The mistake with its term, or with the unit, as it fits.
+    """The mistake with its term, in one way or two, or with the unit, as it fits.
 
     A unit that the quantity has in most books comes before another term, any other one after.
     """
@@ -138,9 +139,11 @@ def _with_term(
         return mistake
     begin, stop = text.offsets(mistake.span)
     written = text.source.text
-    fitting = ""
-    if place is not None and begin <= place[0] <= place[1] <= stop:
-        fitting = written[begin : place[0]] + place[2] + written[place[1] : stop]
+    fitting = " or ".join(
+        written[begin:first] + better + written[last:stop]
+        for first, last, better in places
+        if begin <= first <= last <= stop
+    )
     if unit is not None and (not fitting or _is_usual(unit)):
         given = written[slice(*text.offsets(unit.span))]
         quantity = unit.message.split("'")[1]
@@ -188,7 +191,9 @@ def _other_factors(problem: Problem, text: SourceText, mistake: Diagnostic) -> l
         r"(?P<rest>(?:\s*(?:\^|\*\*)\s*(?P<power>\d+))?)(?![\w.^]))"
     )
     term = text.source.text[start:end]
-    others = (one.name for one in problem.parameters if not re.search(rf"\b{one.name}\b", term))
+    has_arm = _is_energy(mistake) or "a torque (N m)" in mistake.message
+    moving = [one for one in problem.coordinates if has_arm and one.unit != "rad"]
+    others = [x.name for x in (*problem.parameters, *moving) if x.name not in _words(term)]
     places = [(start, start, f"{other}*") for other in others]
     for each in factor.finditer(text.source.text, start, end):
         power, base = int(each["power"] or 1), each["base"]

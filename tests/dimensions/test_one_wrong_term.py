@@ -169,7 +169,46 @@ def test_a_coordinate_is_added_to_constants_only_where_no_other_fits():
     [only] = errors(turning)
     assert only.hint.startswith("write l^2*m*phi'^2/2: ")
     [only] = errors(turning.replace("l: {unit: m}", "l: {unit: m}, R: {unit: m}"))
-    assert only.hint.startswith("an area (m^2) is missing")
+    assert only.hint.startswith("write l^2*m*phi'^2/2 or R^2*m*phi'^2/2: an area (m^2)")
+
+
+LENGTHS = [
+    ("m*g*cos(theta)", ""),
+    ("sin(theta)*m*g", ""),
+    ("k*a", "forces: {theta: -F*sin(theta)}"),
+]
+
+
+@pytest.mark.parametrize("lengths", [(), ("a",), ("a", "b")])
+@pytest.mark.parametrize("r", ["r", "s", "x"])
+@pytest.mark.parametrize(("term", "force"), LENGTHS)
+def test_a_length_that_may_be_a_coordinate_is_not_taken_for_a_parameter(term, force, r, lengths):
+    file = (
+        f"coordinates: {{{r}: {{unit: m}}, theta: {{unit: rad}}}}\nparameters: {{m: {{unit: kg}}, "
+        "g: {unit: m/s^2}, F: {unit: N}, k: {unit: N}"
+        + "".join(
+            f", {each}: {{unit: m}}" for each in {*lengths, *term.replace("k*", "")} & {*"ab"}
+        )
+        + f"}}\nT: m*({r}'^2 + {r}^2*theta'^2)/2\nV: m*g*{r} + {term}\n{force}\n"
+    )
+    [only] = errors(file)
+    wrong = "F*sin(theta)" if force else term
+    named = re.findall(rf"\b(\w)\*{re.escape(wrong)}", only.hint)
+    fitting = [*sorted({*lengths, *term.replace("k*", "")} & {*"ab"}), r]
+    assert sorted(named) == (sorted(fitting) if len(fitting) < 3 else [])
+    for each in named:
+        assert errors(file.replace(wrong, f"{each}*{wrong}")) == []
+
+
+@pytest.mark.parametrize("others", ["", ", a: {unit: m}", ", a: {unit: m}, b: {unit: m}"])
+@pytest.mark.parametrize("r", ["r", "s", "l"])
+def test_a_power_of_what_the_term_has_comes_before_another_length(r, others):
+    x, length = ("x", ", l: {unit: m}") if r == "l" else (r, "")
+    [only] = errors(
+        f"coordinates: {{{x}: {{unit: m}}, theta: {{unit: rad}}}}\n"
+        f"parameters: {{m: {{unit: kg}}{length}{others}}}\nT: m*({x}'^2 + {r}*theta'^2)/2\n"
+    )
+    assert only.hint.startswith(f"write {r}^2*theta'^2: a length (m) is missing")
 
 
 def test_a_factor_too_many_is_left_out_with_its_sign():
