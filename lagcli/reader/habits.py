@@ -57,7 +57,7 @@ _NUMBER = regex(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?(/\d+)?")
 _WITH_UNIT = regex(
     r"[-+]?[\d.]+(?:[eE][-+]?\d+|/\d+)?\s*(?:[,;]\s+)?"
     r"(?P<unit>(?:[kmcµunp]?(?:m|g|s|N|J|W|Hz|A|V|K|C|T|Pa|F|H|Wb|Ω|ohm)"
-    r"|rad|deg|rpm|min|h|mol)(?:[ \^*/·⋅²³].*)?)"
+    r"|rad|deg|rpm|min|h|mol|1/min|1/s|turn)(?:[ \^*/·⋅²³].*)?)"
 )
 #: Symbols of units with their powers, strung together: `ms-2`, `kg m2 s-2`.
 _SYMBOL = regex(r"(kg|mol|rad|Pa|Hz|[mgsNJWKAVC])(-?)(\d?)")
@@ -257,6 +257,7 @@ def spoken_unit(text: str) -> str:
         parts = [f"{'*/'[sign == '-']}{name}{f'^{power}' if power not in {'', '1'} else ''}"
                  for name, sign, power in _SYMBOL.findall(text)]  # fmt: skip
         return re.sub(r"^/", "1/", "".join(parts).lstrip("*"))
+    text = re.sub(r"^(?:U|Umdr\.?|r)(?=/min$)|^U(?=/s$)", "turn", text)
     table = meanings("units")
     words = re.sub(
         r"[^\W\d_²³]+", lambda m: table.get(m[0].casefold(), m[0]), " ".join(text.split())

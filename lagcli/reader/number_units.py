@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Container
 from fractions import Fraction
+from math import pi
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.reader.habits import (
     habits,
+    is_angle,
     is_unit,
     meanings,
     number_and_unit,
@@ -21,7 +23,9 @@ from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.regex import regex
 
 _COUNT = regex(r"([\d.]+(?:[eE][-+]?\d+)?)\s*(?![eE]\d+$)([^\W\d]\w*)")
-_ANGLE = regex("deg(/.*|)|rpm")
+_ANGLE = regex(r"(?:deg|rpm|turn)(?:[/*].*)?")
+#: Of an angle, turns in a time.
+_TURNS = regex(r"min\^-1|1/min|Hz")
 #: A quantity within a formula: the 9.81 m/s² of `m*9.81 m/s²*x`.
 _UNIT_WITHIN = regex(
     r"([\d.]+)\s+((?:[A-Za-z]+\s)?[A-Za-z]+(?:/[A-Za-z]+(?:\^?-?\d|[²³])?)+"
@@ -91,12 +95,12 @@ def in_digits(text: str, names: Container[str] = ()) -> str:
 
 
 def unit_mistake(
-    text: str, names: Container[str] = (), *, declared: bool = False
+    text: str, names: Container[str] = (), *, declared: bool = False, what: str = ""
 ) -> tuple[str, str] | None:
     """What is wrong with `10 kg`, and what to write; None where no unit stands behind a number.
 
     Numbers are in the units of the file, whose names may be letters that are units as well;
-    a parameter is declared with its own.
+    a parameter is declared with its own.  The rate of an angle is no number of turns.
     """
     number, unit = number_and_unit(text.replace("°", " deg"))
     if not unit:
@@ -112,11 +116,11 @@ def unit_mistake(
         hint = f"write {{value: {number}, unit: {unit}}}"
     elif unit in {"min", "h"}:
         hint = f"write {number}*{60 if unit == 'min' else 3600} for seconds"
-    if angle := _ANGLE.fullmatch(unit):
-        per = "/s" if unit == "rpm" else angle[1]
-        value = f"{number}*pi/{30 if unit == 'rpm' else 180}"
-        if declared and per:
-            value = f"{{value: {value}, unit: rad{per}}}"
+    rate = re.fullmatch("the initial '(.+)''", what)
+    turns = "turn*" * bool(rate and is_angle(rate[1]) and _TURNS.fullmatch(unit))
+    if value := _with_pi(number, turns + unit):
+        per = base.partition("/")[2]
+        value = f"{{value: {value}, unit: rad/{per}}}" if declared and per else value
         hint = f"angles are in radians: write {value}"
     if unit in names:
         hint += f"; the product is {number}*{unit}"
@@ -144,7 +148,7 @@ def unit_in_formula(
     unit = unit_behind(text)
     is_product = " " in unit and all(w in names for w in re.findall(r"[^\W\d]\w*", unit))
     if unit and ((is_number and not is_product) or is_unit(unit)):
-        return unit_mistake(text, names, declared=declared)
+        return unit_mistake(text, names, declared=declared, what=what)
     if (unit := unit_at_end(text)) and is_unit(unit):
         number = text.removesuffix(f"({unit})").removesuffix(unit).strip()
         hint = f"write {number}: numbers are in the units of the file"
@@ -186,6 +190,16 @@ def _in_base_units(text: str) -> tuple[float, str]:
     )
 
 
+def _with_pi(number: str, unit: str) -> str:
+    """`120*pi/30` for 120 rpm, `4*pi` for 2 turn/s; nothing for what is no angle."""
+    factor, base = _in_base_units(unit)
+    part = Fraction(factor / pi).limit_denominator(1_000_000)
+    if not _ANGLE.fullmatch(unit) or base[0] != "1" or not _NUMBER.fullmatch(number):
+        return ""
+    times = number if part.numerator == 1 else f"{float(Fraction(number) * part.numerator):.10g}"
+    return f"{times}*pi" + f"/{part.denominator}" * (part.denominator > 1)
+
+
 def in_unit(text: str, unit: str) -> tuple[str, str] | None:
     """What is wrong with `500 g` beside its unit kg, and what to write; None without a unit."""
     number, own = number_and_unit(in_digits(text).replace("°", " deg"))
@@ -194,11 +208,11 @@ def in_unit(text: str, unit: str) -> tuple[str, str] | None:
     message = f"the unit '{own}' cannot stand behind a number"
     if own == unit:
         return message, f"write {number}"
-    if _ANGLE.fullmatch(own) and unit.startswith("rad"):
-        return message, f"angles are in radians: write {number}*pi/{30 if own == 'rpm' else 180}"
     (factor, base), (other, same) = _in_base_units(own), _in_base_units(unit)
     if base != same:
         return message, f"write a number of {unit}, which {own} is not, or unit: {own}"
+    if unit.startswith("rad") and other == 1 and (value := _with_pi(number, own)):
+        return message, f"angles are in radians: write {value}"
     return message, f"write {float(Fraction(number)) * factor / other:.10g}"
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from fractions import Fraction
 
 import pytest
@@ -74,3 +76,48 @@ def test_a_value_with_its_unit_or_its_uncertainty(written, meant):
     assert [each.hint for each in read_problem("p.yaml", text.encode()).diagnostics] == (
         [meant] if meant else []
     )
+
+
+#: Units of the rate of an angle, and the radians per second of each.
+TURNS = {
+    "rpm": math.pi / 30, "RPM": math.pi / 30, "min^-1": math.pi / 30, "1/min": math.pi / 30,
+    "U/min": math.pi / 30, "r/min": math.pi / 30, "rev/min": math.pi / 30, "Hz": 2 * math.pi,
+    "rev/s": 2 * math.pi, "turns/s": 2 * math.pi, "rps": 2 * math.pi, "U/s": 2 * math.pi,
+    "deg/s": math.pi / 180, "°/s": math.pi / 180, "deg/min": math.pi / 10800,
+    "rev/h": math.pi / 1800, "1/s": 1, "s^-1": 1, "rad/s": 1,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("number", ["120", "1.5", "2", "0.3", "2e2"])
+@pytest.mark.parametrize("unit", TURNS)
+@pytest.mark.parametrize("x", ["phi", "theta_1"])
+def test_the_rate_of_an_angle_is_in_radians(number, unit, x):
+    text = f"coordinates: [{x}]\nparameters: {{J: 2}}\nT: J*{x}'^2/2\ninitial: {{{x}': {{}}}}\n"
+    [only] = read_problem("p.yaml", text.replace("{}", f"{number} {unit}").encode()).diagnostics
+    meant = re.search(r"write ([^:,;]*)", only.hint)[1]
+    right = read_problem("p.yaml", text.replace("{}", meant).encode())
+    assert right.diagnostics == ()
+    value = eval(meant, {"pi": math.pi})
+    assert value == pytest.approx(float(number) * TURNS[unit], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("3 rpm", "{value: 3*pi/30, unit: rad/s}"), ("3 deg/m", "{value: 3*pi/180, unit: rad/m}"),
+        ("2 rev/min", "{value: 2*pi/30, unit: rad/s}"), ("3 deg", "3*pi/180"),
+        ("3 N*m/deg", "{value: 3, unit: N*m/deg}"), ("2 min^-1", "{value: 2, unit: min^-1}"),
+    ],
+)  # fmt: skip
+def test_a_parameter_with_an_angle_in_its_unit(written, meant):
+    text = f"coordinates: [x]\nparameters: {{m: 2, c: {written}}}\nT: m*x'^2/2\n"
+    [only] = read_problem("p.yaml", text.encode()).diagnostics
+    assert only.hint.removeprefix("angles are in radians: ") == f"write {meant}"
+    assert read_problem("p.yaml", text.replace(written, meant).encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize("unit", ["min^-1", "1/min", "Hz"])
+def test_the_rate_of_a_length_has_no_turns(unit):
+    text = f"coordinates: [x]\nparameters: {{m: 2}}\nT: m*x'^2/2\ninitial: {{x': 3 {unit}}}\n"
+    [only] = read_problem("p.yaml", text.encode()).diagnostics
+    assert "pi" not in only.hint
