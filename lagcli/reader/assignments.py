@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from itertools import accumulate
+
 from lagcli.reader.regex import regex
 
 _NAME = r"(?<![\w.'])[^\W\d]\w*'*"
@@ -26,12 +29,16 @@ def assigned(text: str) -> list[tuple[str, str]]:
     return [(name, pieces(value, ",;，")[0].strip()) for name, value in found]
 
 
+def levels(text: Iterable[str]) -> list[int]:
+    """How many brackets are open behind each character."""
+    return [*accumulate((each in {*"([{"}) - (each in {*")]}"}) for each in text)]
+
+
 def pieces(text: str, signs: str) -> list[str]:
     """What stands between signs that stand outside of brackets."""
-    parts, depth = [""], 0
-    for each in text:
-        depth += ("([{".find(each) >= 0) - (")]}".find(each) >= 0)
-        if depth == 0 and each in signs and parts[-1].strip():
+    parts = [""]
+    for each, level in zip(text, levels(text), strict=True):
+        if level == 0 and each in signs and parts[-1].strip():
             parts.append("")
         else:
             parts[-1] += each

@@ -66,7 +66,7 @@ def _mend(
             piece = rest[last + 1]
             if not isinstance(piece, Scalar) or piece.style:
                 break
-            open_ += piece.value.count("(") - piece.value.count(")")
+            open_ += _unclosed(piece)
             last += 1
         if last > i and open_ == 0:
             from lagcli.reader.foreign.vectors import components

@@ -11,8 +11,9 @@ from functools import partial
 from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic, Source
-from lagcli.expression import Call, Expression, Name, Number, Power, Sum, name_nodes, walk
+from lagcli.expression import Call, Expression, Sum, name_nodes, walk
 from lagcli.reader.plain_sign import plain_sign
+from lagcli.reader.regex import balanced
 from lagcli.reader.text import SourceText
 
 _warning = partial(Diagnostic, severity="warning")
@@ -24,19 +25,7 @@ def friction_slips(
     signs: Mapping[str, int],
     source: Source,
 ) -> Iterator[Diagnostic]:
-    """A warning for each force that drives where friction would brake, or brakes another motion.
-
-    Parameters
-    ----------
-    forces
-        By coordinate.
-    coordinates
-        Their names.
-    signs
-        Of the parameters: 1, 0 or -1.
-    source
-        The file.
-    """
+    """A warning for each force that drives where friction would brake, or brakes another motion."""
     laws = {x: [*_laws(force, coordinates, signs)] for x, force in forces.items()}
     for x, found in laws.items():
         own = [law for law in found if law.along == x]
@@ -60,7 +49,7 @@ def _opposite(term: Expression, text: SourceText) -> str:
     """`: -mu*m*g*sign(x')`, the term with the other sign; nothing where a parenthesis is cut."""
     written = text.written(term.span)
     other = written[1:].strip() if written[0] == "-" else f"-{written}"
-    return f": {other}" if written.count("(") == written.count(")") else ""
+    return f": {other}" if balanced(written) else ""
 
 
 class _Law(NamedTuple):
@@ -83,31 +72,10 @@ def _laws(
         if len(rates) != 1 or not known or not rates <= {*coordinates}:
             continue
         [along] = rates
-        forward, backward = _sign(term, signs, 1), _sign(term, signs, -1)
+        forward, backward = (plain_sign(term, signs, {}, rate) for rate in (1, -1))
         if forward and forward == -backward:
             dry = any(isinstance(node, Call) and node.function == "sign" for node in walk(term))
             yield _Law(term, along, forward, dry)
-
-
-def _sign(term: Expression, signs: Mapping[str, int], velocity: int) -> int:
-    """The sign of a term where all velocities have this one; 0 where that is not plain to see."""
-
-    def other(node: Expression, parts: list[int]) -> int:
-        match node:
-            case Name(name=name, primes=primes):
-                return velocity if primes else signs.get(name, 0)
-            case Power(exponent=Number(value=power)) if power.denominator == 1:
-                return int(parts[0] ** abs(power))
-            case Call(function=function) if function in {"sign", "tanh", "atan"}:
-                return parts[0]
-            case Call(function="abs"):
-                return abs(parts[0])
-            case Call(function="cos" | "sin" | "tan"):
-                return 1 if parts[0] == 1 else 0  # of an angle of a slope
-            case _:
-                return 0
-
-    return plain_sign(term, other)
 
 
 def _rates(force: Expression) -> set[str]:

@@ -25,6 +25,11 @@ def outside(text: str) -> str:
     return text
 
 
+def balanced(text: str) -> bool:
+    """Whether each parenthesis is closed that is opened, and no other."""
+    return not {"(", ")"} & {*outside(text)}
+
+
 def regex(source: str, flags: int = 0) -> re.Pattern[str]:
     """The pattern, not compiled yet."""
     return cast("re.Pattern[str]", _Pattern(source, flags))

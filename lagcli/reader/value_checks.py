@@ -44,22 +44,22 @@ from lagcli.reader.text import SourceText
 _ODD = frozenset("sin tan sinh tanh asin atan asinh atanh sign".split())
 _EVEN = frozenset("abs cos cosh sec".split())
 _warning = partial(Diagnostic, severity="warning")
-_SIGNS = {"positive": Fraction(1), "negative": Fraction(-1)}
+_SIGNS = {"positive": 1, "negative": -1}
 
 
 def slips(problem: Problem) -> list[Diagnostic]:
     """Warnings of what is legitimate, and mostly a slip: no inertia, energies of the wrong sign."""
-    signs = _signs(problem, _known(problem))
+    signs = _signs(problem, _known(problem), 1)
     kinetic, lost = problem.kinetic, problem.dissipation
     found = [] if kinetic is None else _without_inertia(problem, kinetic)
     if kinetic is not None and _parity(kinetic, problem.definitions) == -1:
         hint = "a kinetic energy is of second degree in them, as in m*x'^2/2"
         found.append(_warning("T changes its sign with the velocities", kinetic.span, hint))
-    elif kinetic is not None and _sign(kinetic, problem.definitions, signs) == -1:
+    elif kinetic is not None and plain_sign(kinetic, signs, problem.definitions) == -1:
         hint = "a kinetic energy is positive, as in m*x'^2/2"
         found.append(_warning("T is negative", kinetic.span, hint))
     found += [] if kinetic is None else _turned_terms(kinetic)
-    if lost is not None and _sign(lost, problem.definitions, signs) == -1:
+    if lost is not None and plain_sign(lost, signs, problem.definitions) == -1:
         hint = f"it drives the motion; {FRICTION}"
         found.append(_warning("the dissipation is negative", lost.span, hint))
     for term in terms_of(problem.potential or ZERO):
@@ -106,31 +106,10 @@ def _base_of_square(node: Expression) -> Name | None:
     return None
 
 
-def _signs(problem: Problem, known: Mapping[str, Fraction]) -> dict[str, int]:
-    """Of the parameters: one of which nothing is known counts as positive, as a mass is."""
-    signs = {p.name: -1 if p.assume == "negative" else 1 for p in problem.parameters}
+def _signs(problem: Problem, known: Mapping[str, Fraction], other: int) -> dict[str, int]:
+    """Of the parameters; `other` where nothing is known."""
+    signs = {p.name: _SIGNS.get(p.assume, other) for p in problem.parameters}
     return signs | {name: (value > 0) - (value < 0) for name, value in known.items()}
-
-
-def _sign(
-    formula: Expression, definitions: Mapping[str, Expression], signs: Mapping[str, int]
-) -> int:
-    """1 or -1 for what is never negative or never positive, 0 where that is not plain to see."""
-
-    def other(node: Expression, parts: list[int]) -> int:
-        match node:
-            case Name(name=name, primes=0) if name in definitions:
-                return plain_sign(definitions[name], other)
-            case Name(name=name, primes=0):
-                return signs.get(name, 0)
-            case Power(exponent=Number(value=power)) if power.denominator == 1:
-                return 1 if power % 2 == 0 else parts[0]
-            case Call(function=function):
-                return int(function in {"abs", "exp", "cosh"})
-            case _:
-                return 0
-
-    return plain_sign(formula, other)
 
 
 def _without_inertia(problem: Problem, kinetic: Expression) -> list[Diagnostic]:
@@ -359,16 +338,14 @@ def _parity(formula: Expression, definitions: Mapping[str, Expression]) -> int:
 
 
 def _check_masses(file: FileReader, problem: Problem, known: Mapping[str, Fraction]) -> None:
-    """A product has the sign that it has with 1 and -1 for what is positive and negative."""
-    signs = {p.name: _SIGNS[p.assume] for p in problem.parameters if p.assume in _SIGNS}
+    """A mass is not negative, in numbers or for all parameters with their signs."""
+    signs = _signs(problem, known, 0)
     for point in problem.points:
         mass = point.mass
         if mass is None:
             continue
         value = rational_value(mass, known)
-        if value is None and not any(isinstance(node, Sum) for node in walk(mass)):
-            value = rational_value(mass, {**signs, **known})
-        if value is not None and value < 0:
+        if (plain_sign(mass, signs, problem.definitions) if value is None else value) < 0:
             message = f"the mass of '{point.name}' is negative"
             file.error(message, mass.span, "write it without its sign")
 

@@ -34,6 +34,8 @@ def test_products_of_what_has_a_sign(
 @pytest.mark.parametrize(("mass", "parameters", "wrong"), [
     ("-2", "k: {}", True), ("m - M", "m: {assume: positive}, M: {assume: positive}", False),
     ("m - 3", "m: {value: 2}", True), ("m", "m: {value: -1}", True), ("m", "m: {}", False),
+    ("-(m + M)", "m: {assume: positive}, M: {assume: positive}", True), ("-m^2", "m: {}", True),
+    ("-(m + M)", "m: {}, M: {assume: positive}", False), ("-m*exp(M)", "m: {value: 2}, M: {}", True),
 ])  # fmt: skip
 def test_values_and_what_has_none(mass: str, parameters: str, *, wrong: bool) -> None:
     assert bool(mistakes(mass, parameters)) is wrong

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from lagcli.reader.regex import regex
+from lagcli.reader.regex import balanced, regex
 
 _SIDE = r"[^<>=≤≥?,:]+?"
 _RELATION = rf"(?P<left>{_SIDE})\s*(?P<sign>[<>≤≥])=?\s*(?P<right>{_SIDE})"
@@ -29,14 +29,10 @@ _FACTOR = regex(
 _GROUP = regex(r"(?<!\w)\(((?:[^()]|\([^()]*\))*)\)")
 
 
-def _balanced(text: str | None) -> bool:
-    return text is None or text.count("(") == text.count(")")
-
-
 def without_cases(text: str) -> str:
     """`(a)*(1 + sign(x))/2 + (b)*(1 - sign(x))/2` for `a if x > 0 else b`; others as they are."""
     matches = (re.fullmatch(form, text.strip()) for form in _FORMS)
-    found = next((each for each in matches if each and all(map(_balanced, each.groups()))), None)
+    found = next((each for each in matches if each and all(map(balanced, each.groups("")))), None)
     if found is None:
         text = _FACTOR.sub(_step, text)
         return _GROUP.sub(lambda group: f"({without_cases(group[1])})", text)

@@ -6,11 +6,12 @@ import re
 from abc import abstractmethod
 
 from lagcli.expression import FUNCTIONS
+from lagcli.reader.assignments import levels
 from lagcli.reader.foreign.sums import Part, Sums, raised
 from lagcli.reader.foreign.tokens import SIGNS, Token
 from lagcli.reader.foreign.words import UnclearText, function_named
 from lagcli.reader.habits import POWERS, RATES, SQUARES, written_out
-from lagcli.reader.regex import outside, regex
+from lagcli.reader.regex import balanced, outside, regex
 
 _NUMBER = regex(r"\d+\.?\d*|\.\d+")
 
@@ -107,12 +108,8 @@ class Functions(Sums):
     def ends_list(self) -> bool:
         """Whether the arguments are one list, as in norm([x, y])."""
         texts = [SIGNS.get(each.text, each.text) for each in self.tokens[self.at :]]
-        level = 0
-        for place, text in enumerate(texts):
-            level += {"(": 1, ")": -1}.get(text, 0)
-            if level == 0:
-                return texts[place + 1 : place + 2] == [")"] and "," in texts[:place]
-        return False
+        end = next((place for place, level in enumerate(levels(texts)) if level == 0), len(texts))
+        return texts[end + 1 : end + 2] == [")"] and "," in texts[:end]
 
     def foreign(self, word: str) -> Part:
         """A function of other programs."""
@@ -185,8 +182,3 @@ def bare_text(text: str) -> str:
     """Without the parentheses around it."""
     inner = text[1:-1]
     return inner if text == f"({inner})" and balanced(inner) else text
-
-
-def balanced(text: str) -> bool:
-    """Whether each parenthesis is closed that is opened, and no other."""
-    return not {"(", ")"} & {*outside(text)}

@@ -6,6 +6,7 @@ import itertools
 import re
 from functools import partial
 
+from lagcli.reader.assignments import levels
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, meant
 from lagcli.reader.regex import outside, regex
 
@@ -21,6 +22,7 @@ _SIGN = regex(
     r"(?:Σ|∑|\\sum|(?<![\w.])[sS]um(?=_))\s*(?:\\limits)?\s*"
     r"_\{?\s*(?P<index>[^\W\d_])\s*(?:=\s*(?P<first>\d+)\s*\}?\s*\^?\{?\s*(?P<last>\d+))?\s*\}?"
 )
+_BARE = regex(r"[Σ∑](?!\s*_)\s*")
 #: An index of a name: x_i, x[i].
 _INDEXED = regex(r"(?<=[^\W_])(?:_\{?|\[)(?P<index>[i-n])(?![\w])(?P<first>)")
 #: One or two indices of a name: x_i, M_ij.
@@ -54,16 +56,16 @@ def written_out(text: str, names: Vocabulary) -> str:
             return text
         terms = _terms(inside.groupdict().get("term", within), inside, names)
         text = text[: called.start()] + terms + text[end + 1 :]
-    while (bare := re.search(r"[Σ∑](?!\s*_)\s*", text)) and "Σ" not in names.known:
-        end = _end_of_product(text, bare.end())
-        index = _INDEXED.search(text, bare.end(), end)
+    while signed := ("Σ" not in names.known and _BARE.search(text)) or _SIGN.search(text):
+        end = _end_of_product(text, signed.end())
+        index = (
+            _INDEXED.search(text, signed.end(), end)
+            if "index" not in signed.groupdict()
+            else signed
+        )
         if index is None:
             return text
-        terms = _terms(text[bare.end() : end].strip(" *"), index, names)
-        text = f"{text[: bare.start()]}{terms} {text[end:]}".rstrip()
-    while signed := _SIGN.search(text):
-        end = _end_of_product(text, signed.end())
-        terms = _terms(text[signed.end() : end].strip(" *"), signed, names)
+        terms = _terms(text[signed.end() : end].strip(" *"), index, names)
         text = f"{text[: signed.start()]}{terms} {text[end:]}".rstrip()
     return _repeated(text, names) if _LETTERS.search(text) else text
 
@@ -150,22 +152,16 @@ def _terms(term: str, limits: re.Match[str], names: Vocabulary) -> str:
 
 def _closing(text: str, start: int) -> int:
     """The place of the bracket that ends a call."""
-    depth = 1
-    for place in range(start, len(text)):
-        depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(text[place], 0)
-        if depth == 0:
-            return place
-    raise UnclearText
+    if (places := levels(text[start:])).count(-1) == 0:
+        raise UnclearText
+    return start + places.index(-1)
 
 
 def _end_of_product(text: str, start: int) -> int:
     """Where the product ends that begins there: before + or -, or a bracket that is closed."""
-    depth = 0
-    for place in range(start, len(text)):
-        depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(text[place], 0)
+    for place, level in enumerate(levels(text[start:]), start):
         begun = text[start:place].strip()
-        if depth < 0 or (
-            depth == 0 and begun and text[place] in "+-−=" and begun[-1] not in "*/^_{"
-        ):
+        ends = begun and text[place] in "+-−=" and begun[-1] not in "*/^_{"
+        if level < 0 or (level == 0 and ends):
             return place
     return len(text)

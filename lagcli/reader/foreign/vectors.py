@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Container
 
-from lagcli.reader.foreign.functions import balanced, bare_text
-from lagcli.reader.regex import regex
+from lagcli.reader.assignments import levels
+from lagcli.reader.foreign.functions import bare_text
+from lagcli.reader.regex import balanced, regex
 
 #: One axis by its index, its letter or i, j, k.
 _AXES = {"1": 0, "2": 1, "3": 2, "x": 0, "y": 1, "z": 2, "i": 0, "j": 1, "k": 2}
@@ -170,13 +171,9 @@ def _scaled(factor: str, part: str) -> str:
 
 def _split(text: str, between: str) -> list[str]:
     """At what stands between, outside of parentheses."""
-    parts, depth, begin = [], 0, 0
-    levels = []
-    for each in text:
-        depth += {"(": 1, "[": 1, ")": -1, "]": -1}.get(each, 0)
-        levels.append(depth)
+    parts, begin, open_ = [], 0, levels(text)
     for found in re.finditer(between, text):
-        if 0 < found.end() < len(text) and levels[max(0, found.start() - 1)] == 0:
+        if 0 < found.end() < len(text) and open_[max(0, found.start() - 1)] == 0:
             parts.append(text[begin : found.start()])
             begin = found.end()
     return [part.strip() for part in [*parts, text[begin:]]]
