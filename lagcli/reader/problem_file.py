@@ -42,14 +42,7 @@ from lagcli.reader.scenery import read_scenery
 from lagcli.reader.scope import PHASE_SPACE, STATE, Role
 from lagcli.reader.symmetries import read_symmetries
 from lagcli.reader.text import Mistake, SourceText, decode
-from lagcli.reader.undeclared import (
-    one_for_alike,
-    one_for_cause,
-    one_for_habit,
-    one_for_shapes,
-    one_for_undeclared,
-    undeclared_velocity,
-)
+from lagcli.reader.undeclared import once, undeclared_velocity
 from lagcli.reader.value_checks import check_values, slips
 from lagcli.record import record, replace
 
@@ -155,12 +148,8 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
             lambda each: any(first <= each.span.line <= last for first, last in lines),
         )
     sections = [(key.span.line, key.label) for key, _ in entries]
-    starts = [line for line, _ in sections]
-    by_place = one_for_alike(one_for_cause(sorted(mistakes, key=lambda each: each.span)), starts)
     parameters = (source.text[v.start : v.end] for key, v in meant if key == "parameters")
-    declared = one_for_undeclared(by_place, next(parameters, ""))
-    shaped = one_for_shapes(declared, sections)
-    found = one_for_habit(shaped, starts)
+    found = once(mistakes, sections, next(parameters, ""))
     if re.fullmatch(r"[^\s<>:]+\.ya?ml", source.name):  # a command can be typed as it stands
         command = re.compile(r"(?<=lagcli )(\w+) FILE\b")
         found = tuple(

@@ -48,6 +48,26 @@ _CAUSE = regex(
 _USE = regex(r"unknown name '(\w+)' in |(\w+) is a definition, not a function")
 
 
+def once(
+    mistakes: Sequence[Diagnostic], sections: Sequence[tuple[int, str]], parameters: str
+) -> tuple[Diagnostic, ...]:
+    """The mistakes by their place, with one for those that have one cause.
+
+    Parameters
+    ----------
+    mistakes
+        Of one file.
+    sections
+        The lines at which the sections begin, with their names.
+    parameters
+        The list or map of parameters as the file writes it; nothing where it has none.
+    """
+    starts = [line for line, _ in sections]
+    caused = _one_for_cause(sorted(mistakes, key=lambda each: each.span))
+    declared = _one_for_undeclared(_one_for_alike(caused, starts), parameters)
+    return _one_for_habit(_one_for_shapes(declared, sections), starts)
+
+
 def _once_by_name(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
     """Without what a state or a symmetry has to say of a name that is unknown elsewhere."""
     if any(_MISSING_LINE.match(each.hint) for each in diagnostics):  # what it would declare
@@ -59,7 +79,7 @@ def _once_by_name(diagnostics: Sequence[Diagnostic]) -> list[Diagnostic]:
     return [each for each, found in found_in if found is None or found[1] not in unknown]
 
 
-def one_for_cause(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
+def _one_for_cause(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
     """The mistakes, with one for a name that is declared in a wrong way and where it is used."""
     causes = {
         name: each
@@ -81,18 +101,10 @@ def one_for_cause(diagnostics: Sequence[Diagnostic]) -> tuple[Diagnostic, ...]:
     return tuple(replace(x, hint=x.hint + "".join(lines.get(id(x), ()))) for x in kept)
 
 
-def one_for_alike(
+def _one_for_alike(
     diagnostics: Sequence[Diagnostic], starts: Sequence[int]
 ) -> tuple[Diagnostic, ...]:
-    """The mistakes, with one for those of one map or list that have the same advice.
-
-    Parameters
-    ----------
-    diagnostics
-        By their place.
-    starts
-        The lines at which the sections begin.
-    """
+    """The mistakes, with one for those of one map or list that have the same advice."""
     kept: dict[tuple[str, str], Diagnostic] = {}
     for each in _together(_with_value(diagnostics), starts):
         wrong = _KEY.fullmatch(each.message)
@@ -109,18 +121,10 @@ def one_for_alike(
     return tuple(kept.values())
 
 
-def one_for_shapes(
+def _one_for_shapes(
     diagnostics: Sequence[Diagnostic], sections: Sequence[tuple[int, str]]
 ) -> tuple[Diagnostic, ...]:
-    """The mistakes, with one for all sections whose whole value has another shape.
-
-    Parameters
-    ----------
-    diagnostics
-        By their place.
-    sections
-        The lines at which the sections begin, with their names.
-    """
+    """The mistakes, with one for all sections whose whole value has another shape."""
     names = {name for _, name in sections}
     found = [
         (each, match[1])
@@ -141,20 +145,13 @@ def one_for_shapes(
     return tuple(each for each in kept if id(each) not in gone)
 
 
-def one_for_habit(
+def _one_for_habit(
     diagnostics: Sequence[Diagnostic], starts: Sequence[int]
 ) -> tuple[Diagnostic, ...]:
     """The mistakes, with one for those of one section that have the same cause, and its advice.
 
     Two have the same cause where their messages differ in what is quoted only, and their advice
     in single words: `vx: 1, vy: 2` in `initial`.
-
-    Parameters
-    ----------
-    diagnostics
-        By their place.
-    starts
-        The lines at which the sections begin.
     """
     groups: list[tuple[int, list[Diagnostic]]] = []
     for each in diagnostics:
@@ -266,18 +263,10 @@ def _of_keys(group: list[tuple[Diagnostic, re.Match[str]]], *, is_other: bool) -
     return replace(group[0][0], message=message, hint=hint)
 
 
-def one_for_undeclared(
+def _one_for_undeclared(
     diagnostics: Sequence[Diagnostic], parameters: str
 ) -> tuple[Diagnostic, ...]:
-    """The mistakes, with one for each name that is not known and its advice.
-
-    Parameters
-    ----------
-    diagnostics
-        By their place.
-    parameters
-        The list or map of parameters as the file writes it; nothing where it has none.
-    """
+    """The mistakes, with one for each name that is not known and its advice."""
     diagnostics = _once_by_name(diagnostics)
     moving = {name: COORDINATE for each in diagnostics if (name := undeclared_velocity(each))}
     by_others = [each for each in diagnostics if BY_OTHERS in each.hint]
