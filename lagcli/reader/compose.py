@@ -13,9 +13,11 @@ from typing import Any, NoReturn
 import yaml
 
 from lagcli.diagnostics import Diagnostic, Span
+from lagcli.reader.expressions import signed_terms
 from lagcli.reader.flow import mend_commas
 from lagcli.reader.headings import SECTIONS
 from lagcli.reader.limits import EXPANDED_SIZE, YAML_LEVELS
+from lagcli.reader.misshapen import by_key
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
@@ -90,23 +92,30 @@ def _one_of(first_key: Scalar, first: DocumentNode, key: Scalar, second: Documen
     if isinstance(first, Sequence) and isinstance(second, Sequence):
         listed = [each.value for each in (*first.items, *second.items) if isinstance(each, Scalar)]
         return f"write {key.label}: [{', '.join(dict.fromkeys(listed))}]"
-    if isinstance(first, Mapping) and isinstance(second, Mapping):
-        texts = [{k.label: each.text.source.text[v.start : v.end].split() for k, v in each.entries}
-                 for each in (first, second)]  # fmt: skip
-        for one, other, which in ((1, 0, "this one"), (0, 1, "the first one")):
-            if texts[one].items() <= texts[other].items():
-                start, node = (first_key.start, first) if one == 0 else (key.start, second)
-                whole = node.text.source.text[: node.end].rstrip()
-                begin, end = whole.count("\n", 0, start) + 1, whole.count("\n") + 1
-                lines = f", lines {begin} to {end}" if begin < end else ""
-                return f"leave out {which}{lines}: the other has all of its entries"
+    parts = [_parts(each) for each in (first, second)]
+    for one, other, which in ((1, 0, "this one"), (0, 1, "the first one")):
+        if parts[one] and parts[one] <= parts[other]:
+            start, node = (first_key.start, first) if one == 0 else (key.start, second)
+            whole = node.text.source.text[: node.end].rstrip()
+            begin, end = whole.count("\n", 0, start) + 1, whole.count("\n") + 1
+            lines = f", lines {begin} to {end}" if begin < end else ""
+            what = "entries" if isinstance(node, Mapping) else "terms"
+            return f"leave out {which}{lines}: the other has all of its {what}"
     values = [each.value for each in (first, second) if isinstance(each, Scalar)]
     if len(values) == 2 and all("=" in each for each in values):
         return f"{hint}, or give it another name"
-    if len(values) == 2 and all(re.search(r"[*'^(]", each) for each in values):
+    is_sum = len(values) == 2 and all(re.search(r"[*'^(]", each) for each in values)
+    if is_sum and not parts[0] & parts[1]:
         total = " + ".join(values).replace("+ -", "- ")
-        return f"{hint}, or write the sum: {key.label}: {total}"
+        return f"{hint}; for the sum leave out the first one and write {key.label}: {total}"
     return hint
+
+
+def _parts(node: DocumentNode) -> set[tuple[object, str]]:
+    """The entries of a map, and the terms of a formula with their signs."""
+    if isinstance(node, Mapping):
+        return {*by_key(node).items()}
+    return {*signed_terms(node.value)} if isinstance(node, Scalar) else set()
 
 
 @dataclass(slots=True, eq=False, repr=False)

@@ -9,7 +9,7 @@ from lagcli.expression import ZERO, Equation, Expression
 from lagcli.problem_data import Contact
 from lagcli.reader.file_reader import FileReader, Required
 from lagcli.reader.habits import comparisons_in, is_angle, key_meant, name_meant
-from lagcli.reader.misshapen import is_sentence, source_of, texts_of
+from lagcli.reader.misshapen import by_key, is_sentence, source_of, texts_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.regex import regex
@@ -81,7 +81,7 @@ def declared(
             # right = left has the other sign
             if sides and label[:1] == "-" and label[1:].isidentifier():
                 meant = {"equation": f"{sides[2] or 0} = {sides[1]}", "multiplier": label[1:]}
-                given = {k.label: source_of(v) for k, v in value.entries} | meant
+                given = by_key(value) | meant
                 hint = f"write {{{', '.join(map(': '.join, given.items()))}}}"
                 file.error(f"the multiplier '{label}' is not a name", value.span, hint)
                 file.scope.refused.append(label[1:])
@@ -127,7 +127,7 @@ def _hint(file: FileReader, key: Scalar, value: Mapping, known: tuple[str, ...])
     """
     coordinates = {*file.scope.of_kind("coordinate")}
     sign = ">=" if known == _ATTRIBUTES else "="
-    given = {k.label: source_of(v) for k, v in value.entries}
+    given = by_key(value)
     laws = [f"{k} {sign} {v}" for k, v in given.items() if k.rstrip("'") in coordinates]
     if sign == "=":
         formulas = (v for k, v in given.items() if k not in known)
@@ -145,10 +145,8 @@ def _hint(file: FileReader, key: Scalar, value: Mapping, known: tuple[str, ...])
 def declare_contacts(file: FileReader, node: DocumentNode, constraints: set[str]) -> list[Declared]:
     """Enter the multipliers into the scope; a constraint's name is taken."""
     contacts = []
-    gaps = [re.sub(r"([<>])(?!=)", r"\1=", each) for each in texts_of(node)]
-    gaps = [each for each in gaps if re.search("[<>≤≥]", each)]
-    names = [f"c{place}" for place in range(1, len(gaps) + 1)] if gaps[1:] else ["floor"]
-    listed = f"write {{{', '.join(map('{}: {}'.format, names, gaps))}}}" if gaps else _HINT
+    gaps = [each for each in texts_of(node) if _INEQUALITY.search(each)]
+    listed = f"write {{{contacts_for('c' if gaps[1:] else 'floor', gaps, {})}}}" if gaps else _HINT
     for key, value in file.named(node, "contacts", _ATTRIBUTES, listed):
         if key.label in constraints:
             file.error(f"'{key.label}' is a constraint already", key.span)

@@ -16,10 +16,9 @@ from lagcli.reader.growth import growth
 from lagcli.reader.habits import KEYS, colon_advice, is_angle, is_constant, key_meant
 from lagcli.reader.headings import forces_without_headings, without_headings
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
-from lagcli.reader.misplaced import names_in
-from lagcli.reader.misshapen import as_list, named_formulas, source_of
+from lagcli.reader.misshapen import as_list, by_key, named_formulas, source_of
 from lagcli.reader.names import depends_on_time, derivative_order
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, names_in
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Growth, Role
 from lagcli.reader.suggest import did_you_mean
@@ -271,7 +270,7 @@ def _mass_of(file: FileReader, name: str) -> str:
 
 def _by_axes(node: DocumentNode, length: int = 0) -> list[str]:
     """The Cartesian components in `{x: x, y: 0, mass: m}` and `{r: r, phi: phi, mass: m}`."""
-    given = {key.label: source_of(value) for key, value in getattr(node, "entries", ())}
+    given = by_key(node)
     radii = [re.sub(r"^(.*\S\s*[-+].*)$", r"(\1)", v) for k, v in given.items() if k in _RADII]
     angles = {key: value for key, value in given.items() if is_angle(key)}
     tilt = next((key for key in angles if key in {"theta", "θ"}), "")
@@ -288,10 +287,9 @@ def _by_axes(node: DocumentNode, length: int = 0) -> list[str]:
 
 def _without_axes(node: DocumentNode) -> str:
     """`mass: m` for `{x: x, y: 0, m: m}`."""
-    entries = node.entries if isinstance(node, Mapping) else []
-    others = ((key, value) for key, value in entries if key.label not in _RADII)
-    given = [(key_meant(key.label, _POINT_ATTRIBUTES), value) for key, value in others]
-    return ", ".join(f"{meant}: {source_of(value)}" for meant, value in given if meant)
+    others = ((key, value) for key, value in by_key(node).items() if key not in _RADII)
+    given = ((key_meant(key, _POINT_ATTRIBUTES), value) for key, value in others)
+    return ", ".join(f"{meant}: {value}" for meant, value in given if meant)
 
 
 def read_components(

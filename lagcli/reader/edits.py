@@ -11,16 +11,16 @@ from typing import NamedTuple
 from lagcli.diagnostics import Diagnostic, Source
 from lagcli.reader.assignments import pieces
 from lagcli.reader.habits import KEYS, MAPS, is_unit
-from lagcli.reader.misplaced import names_in
 from lagcli.reader.misshapen import with_entries
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, entries_in, nodes_in
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, entries_in, names_in, nodes_in
 from lagcli.reader.regex import regex
 from lagcli.reader.text import SourceText
 from lagcli.record import replace
 
 #: The text that a hint proposes; what follows a colon may be the reason.
 PROPOSED = regex(
-    r"(?:.*: )?(?:write|did you mean) (\S.*?)\??"
+    r"(?:.*: |in place of \w+ |leave it out, and on a line of its own )?"
+    r"(?:write|did you mean) (\S.*?)\??"
     r"|(?:a vector is written by its components|each equation has its own name): (.*)",
     re.DOTALL,
 )
@@ -74,6 +74,10 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
         return [moved]
     if hint.partition(":")[0] == "leave it out":
         return [[_without(start, end, text, root)]]
+    section = hint[:12] == "in place of " and hint.split()[3]
+    for key, value in getattr(root, "entries", ()):
+        if key.label == section:
+            start, end = key.start, _end(value, text.source.text)
     proposed = PROPOSED.fullmatch(hint)
     if proposed is None or ", or " in hint:
         return []
@@ -133,7 +137,8 @@ def _placed(
     if section and section[1] in KEYS:
         of_problem = (pair for pair in getattr(root, "entries", ()) if pair[0].label in KEYS)
         if start < end and entry is not None and entry in of_problem:
-            if entry[0].label == section[1]:
+            is_whole = (entry[0].start, _end(entry[1], written)) == (start, end)
+            if entry[0].label == section[1] or is_whole:
                 yield [Edit(entry[0].start, _end(entry[1], written), part)]
             return  # else a part of it goes there
         gone = [_without(start, end, text, root)] if start < end else []
@@ -202,11 +207,11 @@ def _moved(mistake: Diagnostic, end: int, text: SourceText) -> list[Edit]:
     """The edits of hints on blanks and hyphens at the beginnings of lines."""
     written, hint, line = text.source.text, mistake.hint, mistake.span.line
     begin = text.line_starts[line - 1]
-    if mistake.message.endswith("', but not in it") and re.match(
-        r"begin .* (?:more )?blanks", hint
-    ):
-        lines = [line, *map(int, re.findall(r"\d+", hint))]
-        return [Edit(at, at, _BLANKS) for at in (text.line_starts[each - 1] for each in lines)]
+    if mistake.message.endswith("', but not in it"):
+        above = written[:begin].rstrip().rpartition("\n")[2]
+        blanks = " " * (len(above) - len(above.lstrip())) or _BLANKS
+        lines = [line, *map(int, re.findall(r"\d+", hint.partition(", also in line")[2]))]
+        return [Edit(at, at, blanks) for at in (text.line_starts[each - 1] for each in lines)]
     if hint == "leave out the '-' before each key":
         inner = written[begin:end]
         whole = re.sub(r"^(\s*)-( +)(?=[^\W\d][\w']*:)", r"\1 \2", inner, flags=re.MULTILINE)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Callable, Container, Iterable, Iterator
+from collections.abc import Callable, Collection, Container, Iterable, Iterator
 from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any, NamedTuple, TypeVar
@@ -17,12 +17,11 @@ from lagcli.reader.by_coordinate import state_meant
 from lagcli.reader.expressions import read_comparison, read_equation, read_expression, sides_of
 from lagcli.reader.friction_meant import friction_meant
 from lagcli.reader.growth import growth
-from lagcli.reader.habits import LISTS, MAPS, habits, key_meant
+from lagcli.reader.habits import KEYS, LISTS, MAPS, habits, key_meant
 from lagcli.reader.headings import SECTIONS, section_meant
 from lagcli.reader.limits import MISTAKES
 from lagcli.reader.misshapen import (
     ALREADY_FOUND,
-    FOUND,
     WITHOUT_HYPHENS,
     as_items,
     as_list,
@@ -30,6 +29,7 @@ from lagcli.reader.misshapen import (
     as_text,
     by_its_name,
     entries_of,
+    is_found,
     named_formulas,
     one_sum,
     source_of,
@@ -42,7 +42,7 @@ from lagcli.reader.number_units import in_digits, unit_in_formula
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import INITIAL, NUMBERS, VALUES, Kind, Role, Scope, name_mistake
-from lagcli.reader.suggest import closest
+from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.text import Mistake
 from lagcli.reader.unknown_keys import unknown_key
 
@@ -149,7 +149,9 @@ class FileReader:
             is_word = word in _WORDS or word in habits()["nothing"]
             items = node.items if isinstance(node, Sequence) else []
             are_maps = bool(items) and all(isinstance(x, Mapping) for x in items)
-            is_word |= isinstance(node, Sequence) and not items
+            is_word |= (node.is_empty and what in KEYS) or (
+                isinstance(node, Sequence) and not items
+            )
             if is_word and not what.startswith("the symmetry"):
                 hint = "leave out the key"
             if named := by_its_name(node):
@@ -285,12 +287,23 @@ class FileReader:
             return None
         return node
 
+    def word(
+        self, node: DocumentNode, what: str, known: Collection[str], meant: str = ""
+    ) -> str | None:
+        """One of some words; a mistake when it is another, which may be what is `meant`."""
+        text = self.scalar(node, what)
+        word = "" if text is None else " ".join(text.value.split())
+        if text is None or word in known:
+            return word or None
+        *others, last = known
+        hint = did_you_mean(word, known) or f"write {', '.join(others)} or {last}"
+        hint = f"write {meant}" if meant else hint
+        self.error(f"{what} has no value '{word}'", text.span, hint)
+        return None
+
     def yes_or_no(self, node: DocumentNode, name: str) -> bool | None:
         """Yes or no; None where it is neither."""
-        text = self.scalar(node, f"'{name}'")
-        if text is not None and text.value.strip() not in YES_OR_NO:
-            self.error(f"'{name}' is yes or no", text.span)
-        return None if text is None else YES_OR_NO.get(text.value.strip())
+        return YES_OR_NO.get(self.word(node, f"'{name}'", YES_OR_NO) or "")
 
     def attributes(
         self, node: DocumentNode, what: str, known: Iterable[str], required: Required | None = None
@@ -303,8 +316,10 @@ class FileReader:
         names = tuple(known)
         is_map = isinstance(node, Mapping)
         as_one = "" if is_map else as_map(node, names, self.scope.free)
-        if what.startswith("the question") and what.split("'")[1] in FOUND:
-            as_one = ALREADY_FOUND
+        if what.startswith("the question"):
+            name, moving = what.split("'")[1], [*self.scope.of_kind("coordinate")]
+            if is_found(name, moving) or is_found(f"{name} = {source_of(node)}", moving):
+                as_one = ALREADY_FOUND
         entries = list(self.entries(node, what, with_state(as_one, what, node, is_key=False)))
         given = {key.label for key, _ in entries}
         if required is not None and isinstance(node, Mapping):

@@ -7,7 +7,7 @@ from collections.abc import Collection
 
 from lagcli.notation.greek import BY_NAME as GREEK
 from lagcli.reader.habits import number_and_unit, spellings, unit_behind
-from lagcli.reader.misshapen import source_of
+from lagcli.reader.misshapen import by_key, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.number_units import with_radians
 from lagcli.reader.regex import regex
@@ -75,19 +75,15 @@ def without_headings(node: DocumentNode, attributes: tuple[str, ...]) -> tuple[S
     if not headings:
         return None
     parts: list[str] = []
-    valued = False
     for key, value in entries:
         if key not in headings:
-            written = source_of(value)
-            parts.append(f"{key.label}: {written}" if written else key.label)
-            valued |= bool(written)
+            parts.append(f"{key.label}: {source_of(value)}".removesuffix(": "))
         elif isinstance(value, Mapping):
-            parts += [f"{name.label}: {source_of(each)}" for name, each in value.entries]
-            valued = True
+            parts += map(": ".join, by_key(value).items())
         elif isinstance(value, Sequence):
             parts += [each.value for each in value.items if isinstance(each, Scalar)]
     whole = ", ".join(parts)
-    brackets = "{%s}" if valued else "[%s]"
+    brackets = "{%s}" if ": " in whole else "[%s]"
     return headings[0], f"write {brackets % whole}"
 
 
@@ -162,7 +158,7 @@ def state_of_launch(node: DocumentNode, coordinates: list[str]) -> str:
 
 def _number_of(node: DocumentNode) -> str:
     """`20*pi/180` for `{value: 20, unit: deg}`; nothing for others."""
-    given = {key.label: source_of(value) for key, value in getattr(node, "entries", ())}
+    given = by_key(node)
     if "value" not in given or not {*given} <= {"value", "unit", "units"}:
         return ""
     unit = given.get("unit", given.get("units", ""))
@@ -175,16 +171,15 @@ def forces_without_headings(node: DocumentNode, coordinates: Collection[str]) ->
     known = {*coordinates}
     sums: dict[str, list[str]] = {}
     for heading, value in entries:
-        if heading.label in known and isinstance(value, Scalar):
-            sums.setdefault(heading.label, []).append(value.value)
-        elif isinstance(value, Sequence) and len(value.items) == len(known):
-            for x, each in zip(coordinates, value.items, strict=True):
-                sums.setdefault(x, []).append(source_of(each))
-        elif heading.label in known or not isinstance(value, Mapping) or not value.entries:
+        terms = [(key.label, each) for key, each in getattr(value, "entries", ())]
+        if isinstance(value, Sequence) and len(value.items) == len(known):
+            terms = [*zip(coordinates, value.items, strict=True)]
+        elif heading.label in known:
+            terms = [(heading.label, value)] if isinstance(value, Scalar) else []
+        if not terms:
             return ""
-        else:
-            for key, each in value.entries:
-                sums.setdefault(key.label, []).append(source_of(each))
+        for x, each in terms:
+            sums.setdefault(x, []).append(getattr(each, "value", "") or source_of(each))
     if not {*sums} <= known or all(heading.label in known for heading, _ in entries):
         return ""
     whole = [f"{x}: {' + '.join(terms).replace('+ -', '- ')}" for x, terms in sums.items()]

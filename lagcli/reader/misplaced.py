@@ -20,7 +20,7 @@ from lagcli.reader.habits import (
     unit_behind,
 )
 from lagcli.reader.misshapen import source_of
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, names_in
 from lagcli.reader.regex import regex
 from lagcli.reader.text import also_in_lines
 from lagcli.record import replace
@@ -127,11 +127,14 @@ def _gathered(
     """The map with entries inside of the one above that they belong to, as mistakes."""
     entries: list[Entry] = []
     moved: dict[str, list[Entry]] = {}
+    rules: dict[str, str] = {}
     for key, value in whole.entries:
         head, node = entries[-1] if entries else (key, key)
         inner = node.entries if isinstance(node, Mapping) else []
         is_open = node.is_empty or head.label in moved
         if entries and belongs((head, node), (key, value), is_open=is_open):
+            if head.label not in moved and inner:
+                rules[head.label] = f"begin the line where '{inner[0][0].label}' begins"
             moved.setdefault(head.label, []).append((key, value))
             start = node.start if inner else key.start
             entries[-1] = (head, Mapping(key.text, start, value.end, [*inner, (key, value)]))
@@ -146,7 +149,8 @@ def _gathered(
                  for x in range(key.span.line, whole.text.position(end)[0] + 1)]  # fmt: skip
         names = ", ".join(f"'{key.label}'" for key, _ in found)
         message = f"{names} stand{'s' * (not found[1:])} below '{above}', but not in it"
-        mistakes.append(Diagnostic(message, found[0][0].span, hint + also_in_lines(lines[1:])))
+        rule = rules.get(above, hint) + also_in_lines(lines[1:])
+        mistakes.append(Diagnostic(message, found[0][0].span, rule))
     return (replace(whole, entries=entries) if moved else whole), mistakes
 
 
@@ -193,20 +197,16 @@ def _with_definitions(
     if not (found and isinstance(node, Mapping)) or (definitions is not None and not given):
         return root, []
     keys = [key for key, _ in found]
-    named = ", ".join(f"{key.label}: {source_of(value)}" for key, value in found)
+    named = [f"{key.label}: {source_of(value)}" for key, value in found]
     names = ", ".join(key.label for key in keys)
     what = "it has a formula" if section == "functions" else "it changes with time"
     if keys[1:]:
         what = what.replace("it has", "they have").replace("it changes", "they change")
     listed = f"are not {section}" if keys[1:] else f"is not a {section[:-1]}"
     message = f"{names} {listed}: {what}"
-    uses_given = {*re.findall(r"\w+", named)} & {key.label for key, _ in given}
-    gone = f"leave {'them' if keys[1:] else 'it'} out, and"
-    hint = f"{gone} {'end' if uses_given else 'begin'} definitions with {named}"
-    if not given:
-        is_all = len(keys) == len(node.entries)
-        place = f"in place of {section}" if is_all else f"{gone} on a line of its own"
-        hint = f"{place} write definitions: {{{named}}}"
+    uses_given = {*re.findall(r"\w+", f"{named}")} & {key.label for key, _ in given}
+    hint = in_section("definitions", named, section, len(node.entries), is_given=bool(given))
+    hint = hint.replace("begin ", "end ", 1) if uses_given else hint
     starts = {key.start for key in keys}
     rest = replace(node, entries=[each for each in node.entries if each[0].start not in starts])
     others = [each for each in root.entries if each[1] not in (node, definitions)]
@@ -240,8 +240,14 @@ def _formula_of(
     return None if is_open or (listed and listed[1] not in FUNCTIONS) else (key, value)
 
 
-def names_in(node: DocumentNode | None) -> list[str]:
-    """The names in a list or a map of them."""
-    if isinstance(node, Mapping):
-        return [key.label for key, _ in node.entries]
-    return [each.label for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
+def in_section(name: str, moved: list[str], other: str, entries: int, *, is_given: bool) -> str:
+    """How some entries of another section are written in this one, which may be given.
+
+    A section that would be empty without them is left out.
+    """
+    is_all = len(moved) == entries
+    gone = f"leave {other if is_all else 'them' if moved[1:] else 'it'} out, and"
+    if is_given:
+        return f"{gone} begin {name} with {' and '.join(moved)}"
+    place = f"in place of {other}" if is_all else f"{gone} on a line of its own"
+    return f"{place} write {name}: {{{', '.join(moved)}}}"

@@ -20,7 +20,7 @@ from lagcli.reader.habits import (
     number_and_unit,
     unit_behind,
 )
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, names_in
 from lagcli.reader.number_units import unit_mistake
 from lagcli.reader.regex import outside, regex
 from lagcli.reader.suggest import closest
@@ -35,6 +35,8 @@ ALREADY_FOUND = (
     "leave it out: equilibria, frequencies and charges are found by "
     "lagcli solve FILE --show equilibria,modes,charges"
 )
+#: A frequency or a period with its formula.
+_FOUND_LAW = regex(r"\s*(?:omega|ω|f|nu|ν|T|period|frequency)(?:_?\w)?\s*=[^=]*[^=\s]")
 #: A longer section is not repeated.
 _LONGEST = 80
 FRICTION = "a friction force -c*x' is written dissipation: c*x'^2/2"
@@ -56,6 +58,12 @@ _OF_RELATIONS = frozenset(
 )
 #: Words before a formula: the force of `a harmonic force F0*cos(w*t)`.
 _BEFORE_FORMULA = regex(r"\s*((?:[^\W\d_]+[ ,:]+)+)(?=[\w.]+'*\s*[*/^(])")
+
+
+def is_found(text: str, coordinates: Container[str]) -> bool:
+    """Whether a text asks for what is found without a question: `period`, `omega = sqrt(g/l)`."""
+    moves = any(each in coordinates for each in re.findall(r"[^\W\d]\w*", text))
+    return text in FOUND or (_FOUND_LAW.fullmatch(text) is not None and not moves)
 
 
 def is_sentence(text: str, known: Container[str]) -> bool:
@@ -287,7 +295,7 @@ def values_of(node: DocumentNode) -> str:
     """`1,2,3` for a list of values, `0:1:5` for a range in five steps; nothing for others."""
     if isinstance(node, Sequence):
         return ",".join(map(source_of, node.items))
-    given = {k.label: source_of(v) for k, v in getattr(node, "entries", ())}
+    given = by_key(node)
     ends = [x for key, x in given.items() if is_constant("x", x) and key != "step"]
     if 2 <= len(ends) <= 3 and "step" not in given:  # {from: 1, to: 5, number: 9}
         return ":".join([*ends, "COUNT"][:3])
@@ -331,10 +339,7 @@ def key_by_shape(value: DocumentNode, problem: Mapping) -> str | None:
             return next((key for key in ("coordinates", "parameters") if key not in given), None)
     if isinstance(value, Mapping) and value.entries:
         numbers = [isinstance(v, Scalar) and is_constant("x", v.value) for _, v in value.entries]
-        listed = given.get("coordinates")
-        items = getattr(listed, "items", ())
-        known = [each.value for each in items if isinstance(each, Scalar)]
-        known += [key.label for key, _ in getattr(listed, "entries", ())]
+        known = names_in(given.get("coordinates"))
         changed = [k.label for _, v in value.entries for k, _ in getattr(v, "entries", ())]
         if changed and {*changed} <= {*known, "t", "gauge"}:
             return None if "symmetries" in given else "symmetries"
@@ -397,8 +402,12 @@ def by_its_name(node: DocumentNode) -> str:
 
 def entries_of(node: DocumentNode | None) -> str:
     """The entries of a map in one line, as between braces."""
-    entries = node.entries if isinstance(node, Mapping) else []
-    return ", ".join(f"{key.label}: {source_of(value)}" for key, value in entries)
+    return ", ".join(map(": ".join, by_key(node).items()))
+
+
+def by_key(node: DocumentNode | None) -> dict[str, str]:
+    """What the file has at each key of a map; empty for other nodes."""
+    return {key.label: source_of(value) for key, value in getattr(node, "entries", ())}
 
 
 def with_entries(given: str, added: str) -> str:

@@ -276,6 +276,10 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     base = name.removesuffix("2")
     if base in scope.usable(role) and base != name and f"{base}1" not in scope.kinds:
         return f"{UNDECLARED}, or write {base}^2"
+    if what.startswith("the value of") and (moving := rate_meant(name, words)):
+        velocity = moving[0] + "'" * moving[1]
+        moved = f"{what.split(chr(39))[1]} under 'definitions'"
+        return f"{UNDECLARED}, or, if it is {velocity}, write {moved} with {velocity} for {name}"
     return UNDECLARED + (", or its formula under 'definitions'" if role.definitions else "")
 
 

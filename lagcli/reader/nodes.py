@@ -106,3 +106,10 @@ def entries_in(node: DocumentNode) -> Iterator[tuple[Scalar, DocumentNode]]:
     """Every entry of every map, the outer ones first."""
     for each in nodes_in(node):
         yield from each.entries if isinstance(each, Mapping) else ()
+
+
+def names_in(node: DocumentNode | None) -> list[str]:
+    """The names in a list or a map of them."""
+    if isinstance(node, Mapping):
+        return [key.label for key, _ in node.entries]
+    return [each.label for each in getattr(node, "items", ()) if isinstance(each, Scalar)]

@@ -10,7 +10,7 @@ from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import Expression, Name, walk
 from lagcli.problem_data import BracketQuestion, CanonicalTransformation, Symmetry
 from lagcli.reader.file_reader import FileReader
-from lagcli.reader.misshapen import FOUND, named_formulas, source_of
+from lagcli.reader.misshapen import FOUND, by_key, named_formulas, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import PHASE_SPACE, name_mistake
@@ -158,8 +158,8 @@ def read_transformations(
     if entries and all(isinstance(value, Scalar) for _, value in entries):
         message = f"'{entries[0][0].label}' is a new variable, not the name of a transformation"
         names = _new_momenta([key.label for key, _ in entries])
-        inner = ((names.get(key.label, key.label), source_of(value)) for key, value in entries)
-        whole = ", ".join(map(": ".join, inner))
+        inner = (f"{names.get(key, key)}: {each}" for key, each in by_key(node).items())
+        whole = ", ".join(inner)
         file.error(message, entries[0][0].span, f"write name: {{{whole}}}")
         return ()
     return tuple(_transformation(file, key, value) for key, value in entries)
@@ -191,8 +191,7 @@ def _example(file: FileReader, name: str, given: dict[str, str]) -> str:
 
 def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> CanonicalTransformation:
     what = f"the transformation '{key.label}'"
-    given_ = node.entries if isinstance(node, Mapping) else []
-    example = _example(file, key.label, {name.label: source_of(each) for name, each in given_})
+    example = _example(file, key.label, by_key(node))
     entries = list(file.entries(node, what, example.replace(f" {key.label}: ", " ", 1)))
     if not isinstance(node, Mapping):
         return CanonicalTransformation(name=key.label, coordinates={}, momenta={}, span=key.span)

@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 
 from lagcli.reader.habits import is_angle, is_constant, number_and_unit
-from lagcli.reader.misshapen import source_of
+from lagcli.reader.misshapen import by_key, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping
 from lagcli.reader.regex import regex
 
@@ -62,7 +62,7 @@ def potential_meant(
 
 def _of_springs(value: DocumentNode, coordinates: Sequence[str]) -> list[str]:
     """`k*x^2/2` for the k of the only coordinate, and for each of `{x: k}`; nothing for others."""
-    given = [(key.label, source_of(node)) for key, node in getattr(value, "entries", ())]
+    given = [*by_key(value).items()]
     only = coordinates[0] if len(coordinates) == 1 else ""
     terms = []
     for x, law in given or [(only, source_of(value))]:
@@ -107,9 +107,8 @@ def _components(value: DocumentNode) -> dict[str, str]:
     """`{y: -g}` for `[0, -g]`, `(0, -g, 0)` and `{y: -g}`; empty for a size."""
     written = source_of(value)
     listed = re.fullmatch(r"[\[(<](.*,.*)[\])>]", written)
-    pairs = [(key.label, source_of(node)) for key, node in getattr(value, "entries", ())]
-    pairs = [*zip("xyz", listed[1].split(","), strict=False)] if listed else pairs
-    field = {axis: each.strip() for axis, each in pairs if axis in {"x", "y", "z"}}
+    pairs = dict(zip("xyz", listed[1].split(","), strict=False)) if listed else by_key(value)
+    field = {axis: each.strip() for axis, each in pairs.items() if axis in {"x", "y", "z"}}
     return {axis: each for axis, each in field.items() if not re.fullmatch(r"[-+]?0?\.?0*", each)}
 
 

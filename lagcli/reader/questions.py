@@ -21,11 +21,11 @@ from lagcli.reader.habits import advised, is_angle, key_meant, meanings, name_me
 from lagcli.reader.headings import PLACE, RATE, state_of_launch, state_without_headings
 from lagcli.reader.misshapen import (
     ALREADY_FOUND,
-    FOUND,
     WITHOUT_HYPHENS,
     as_map,
     difference,
     entries_of,
+    is_found,
     range_end,
     source_of,
 )
@@ -150,22 +150,20 @@ def _state_name(
     return Name(letters, primes)
 
 
-#: A frequency or a period with its formula.
-_FOUND_LAW = regex(r"\s*(?:omega|ω|f|nu|ν|T|period|frequency)(?:_?\w)?\s*=[^=]+")
-
-
 def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
     """The questions."""
     questions: list[Question] = []
     unknown = next(iter(file.scope.free), "x")
     hint = f"write {{name: {{where: {unknown}' = 0, for: {unknown}}}}}"
-    words = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
-    if words and all(word in FOUND or _FOUND_LAW.fullmatch(word) for word in words):
+    moving = [*file.scope.of_kind("coordinate")]
+    texts = [each for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+    words = [each.value for each in texts]
+    if words and all(is_found(word, moving) for word in words):
         hint = ALREADY_FOUND
     elif words and not any("=" in word for word in words):
-        hint = f"leave it out: equations, frequencies and charges are found; or {hint}"
+        also = ALREADY_FOUND.replace("out: ", "out: equations, ").replace("w ", "w equations,")
+        hint = f"{also}; or {hint}" if "initial" in file.sections else also
     elif words:
-        texts = [each for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
         names = [f"q{place}" for place, _ in enumerate(texts, 1)] if texts[1:] else ["name"]
         wholes = (as_map(each, _QUESTION_ATTRIBUTES, file.scope.free) for each in texts)
         pairs = zip(names, wholes, strict=True)
@@ -378,13 +376,9 @@ def read_simulation(file: FileReader, node: DocumentNode) -> SimulationDefaults:
                        for key in ("until", "accuracy"))  # fmt: skip
     method = None
     if "method" in found:
-        text = file.scalar(found["method"][1], "'method'")
-        method = text.value.strip() if text else None
-        if method is not None and method not in METHODS:
-            like = meanings("methods").get(method.casefold())
-            hint = f"write {like}" if like else did_you_mean(method, METHODS)
-            hint = hint or f"there are {', '.join(METHODS)}"
-            file.error(f"unknown method '{method}'", found["method"][1].span, hint)
+        node = found["method"][1]
+        meant = meanings("methods").get(getattr(node, "value", "").strip().casefold(), "")
+        method = file.word(node, "'method'", METHODS, meant)
     return SimulationDefaults(until=until, accuracy=accuracy, method=method)
 
 

@@ -13,12 +13,12 @@ from lagcli.reader.expressions import signed_terms
 from lagcli.reader.file_reader import FileReader
 from lagcli.reader.friction_meant import FRICTION_WORD
 from lagcli.reader.habits import comparisons_in
+from lagcli.reader.misplaced import in_section
 from lagcli.reader.misshapen import as_equation, is_sentence, source_of, texts_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import QUESTION, STATE
-from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.velocity_quotients import multiplied_out, without_squares
 
 _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION,
@@ -56,9 +56,11 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
     hint = f"write {{{written}}}" if given[1:] or constants else f"write {written}"
     hint = ", ".join([hint, *constants])
     if any(map(_INEQUALITY.search, texts)):
-        gaps = [gap for each in given for gap in comparisons_in(each)]
-        hint = f"write contacts: {{{contacts_for('floor', gaps, {})}}}"
-        file.error(_A_CONTACT, node.span, hint)
+        gaps = [gap for each in given for gap in comparisons_in(each) if _INEQUALITY.search(gap)]
+        laws = [each for each in given if not _INEQUALITY.search(each)]
+        hint = _elsewhere(file, "contacts", [contacts_for("floor", gaps, {})], 1 + len(laws))
+        listed = ", ".join(map("{}: {}".format, names, laws))
+        file.error(_A_CONTACT, node.span, hint.replace("leave it out", f"write {{{listed}}}"))
         return []
     named = file.named(node, "constraints", _CONSTRAINT_ATTRIBUTES, hint)
     entries = file.of_section(named, "constraints", _CONSTRAINT_ATTRIBUTES)
@@ -68,9 +70,18 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
             file.error("a comma ends the equation", key.span, f"write {name.label}: {inner}")
             file.scope.refused.append(key.label)
             entries = [entry for entry in entries if entry[0] is not key]
-    entries = [entry for entry in entries if not _is_refused(file, *entry)]
-    found = (declared(file, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in entries)
+    contacts: list[tuple[Scalar, str]] = []
+    kept = [entry for entry in entries if not _is_refused(file, *entry, contacts)]
+    if contacts:
+        hint = _elsewhere(file, "contacts", [text for _, text in contacts], len(entries))
+        file.error(_A_CONTACT, contacts[0][0].span, hint)
+    found = (declared(file, *entry, "multiplier", _CONSTRAINT_ATTRIBUTES) for entry in kept)
     return [one for one in found if one is not None]
+
+
+def _elsewhere(file: FileReader, key: str, moved: list[str], entries: int) -> str:
+    """Where some of the entries belong, as contacts or forces."""
+    return in_section(key, moved, "constraints", entries, is_given=key in file.sections)
 
 
 def check_multipliers(file: FileReader, energies: list[Scalar]) -> None:
@@ -106,8 +117,10 @@ def _equated(law: str) -> str:
     return f"{left} = {right}" if terms[1:] else ""
 
 
-def _is_refused(file: FileReader, key: Scalar, value: DocumentNode) -> bool:
-    """Whether an entry is no constraint but a contact, or several constraints: a mistake."""
+def _is_refused(
+    file: FileReader, key: Scalar, value: DocumentNode, contacts: list[tuple[Scalar, str]]
+) -> bool:
+    """Whether an entry is no constraint: a contact, which is added, or several constraints."""
     parts = {k.label: v for k, v in getattr(value, "entries", ())}
     node = parts.get("equation", value)
     written = node.value if isinstance(node, Scalar) else ""
@@ -119,13 +132,17 @@ def _is_refused(file: FileReader, key: Scalar, value: DocumentNode) -> bool:
     if gaps and not is_sentence(written, file.scope.kinds):
         attributes = {name: source_of(parts[name]) for name in _OF_CONTACT if name in parts}
         name = key.label if key.label.isidentifier() else "floor"
-        hint = f"write contacts: {{{contacts_for(name, gaps, attributes)}}}"
-        if equations:
+        if not equations:
+            text = contacts_for(name, gaps, attributes)
+            if contacts:  # which may be lower and upper as well
+                text = text.replace("lower: ", f"{name}_1: ").replace("upper: ", f"{name}_2: ")
+            contacts.append((key, text))
+        else:
             law, multiplier = equations[0], attributes.pop("multiplier", "")
             law = f"{{equation: {law}, multiplier: {multiplier}}}" if multiplier else law
-            other = contacts_for(f"{name}_2", gaps, attributes)
-            hint = f"write {name}: {law}, and contacts: {{{other}}}"
-        file.error(_A_CONTACT, key.span, "" if equations[1:] else hint)
+            hint = _elsewhere(file, "contacts", [contacts_for(f"{name}_2", gaps, attributes)], 2)
+            hint = hint.replace("leave it out", f"write {name}: {law}")
+            file.error(_A_CONTACT, key.span, "" if equations[1:] else hint)
         file.scope.refused.append(attributes.get("multiplier", f"lambda_{key.label}"))
         return True
     if equations[1:]:
@@ -152,8 +169,10 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
         if node is None:
             continue
         name = one.key.label
-        if law := _law_of_force(file, node, name):
-            file.error(f"'{name}' is the law of a force, not a constraint", node.span, law)
+        law, remark = _law_of_force(file, node, name)
+        if law:
+            hint = _elsewhere(file, "forces", [law], len(given)) + remark
+            file.error(f"'{name}' is the law of a force, not a constraint", node.span, hint)
             continue
         mistakes = len(file.diagnostics)
         equation = file.equation(node, f"the constraint '{name}'", STATE)
@@ -208,53 +227,34 @@ def _of_length(file: FileReader, name: str) -> str:
     return f"a constraint is an equation of coordinates, as in {squares} = {name}^2"
 
 
-def _law_of_force(file: FileReader, node: DocumentNode, name: str) -> str:
-    """`forces: {s: -mu*m*g*sign(s')}` for `friction: F_R = mu*m*g`; nothing for constraints."""
+def _law_of_force(file: FileReader, node: DocumentNode, name: str) -> tuple[str, str]:
+    """`s: -mu*m*g*sign(s')` for `friction: F_R = mu*m*g`, and a remark; nothing for constraints."""
     written = node.value if isinstance(node, Scalar) else ""
     found = re.fullmatch(r"\s*([^\W\d]\w*)\s*=+\s*[-−]?\s*([^=<>]+?)\s*", written)
     if found is None or found[1] in file.scope.kinds or file.scope.refused:
-        return ""
+        return "", ""
     if not (FRICTION_WORD.search(name) or re.fullmatch(r"F_?(?:R|f|fr|r)", found[1])):
-        return ""
+        return "", ""
     along, size = next(iter(file.scope.of_kind("coordinate")), "x"), found[2]
     backwards = "" if re.search(rf"(?<!\w){along}'", size) else f"*sign({along}')"
     is_open = "N" not in file.scope.kinds and re.search(r"(?<!\w)N(?!\w)", size)
     normal = ", with the normal force N written out, m*g on a level floor" if is_open else ""
-    return f"write forces: {{{along}: -{size}{backwards}}}{normal}"
+    return f"{along}: -{size}{backwards}", normal
 
 
 def _on_loss(file: FileReader, one: Declared) -> OnLoss:
-    """What a run does where the contact is lost."""
-    if "on_loss" not in one.attributes:
+    """What a run does where the contact is lost; with `release` all other keys go."""
+    if (node := one.attributes.get("on_loss")) is None:
         return "stop"
-    text = file.scalar(one.attributes["on_loss"], "'on_loss'")
-    if text is None:
-        return "stop"
-    if "holds_while" not in one.attributes:
-        file.error("'on_loss' needs 'holds_while'", text.span, "write holds_while: N >= 0")
-    match text.value.strip():
-        case "stop":
-            return "stop"
-        case "release":
-            return "release"
-        case other:
-            hint = did_you_mean(other, _ON_LOSS) or "write stop or release"
-            file.error(f"'{other}' is nothing that a run does", text.span, hint)
-            return "release"  # with which all other keys go
+    if "holds_while" not in one.attributes and not node.is_empty:
+        file.error("'on_loss' needs 'holds_while'", node.span, "write holds_while: N >= 0")
+    return "stop" if file.word(node, "'on_loss'", _ON_LOSS) == "stop" else "release"
 
 
 def _acts_as(file: FileReader, one: Declared) -> ForceKind | None:
     """What the force of the constraint is called."""
     node = one.attributes.get("acts_as")
-    text = None if node is None else file.scalar(node, "'acts_as'")
-    if text is None:
-        return None
-    word = text.value.strip()
-    if word not in _FORCES:
-        hint = did_you_mean(word, _FORCES) or "write normal, friction or tension"
-        file.error(f"'{word}' is no kind of force", text.span, hint)
-        return None
-    return _FORCES[word]
+    return None if node is None else _FORCES.get(file.word(node, "'acts_as'", _FORCES) or "")
 
 
 def _restitution(

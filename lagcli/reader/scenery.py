@@ -8,7 +8,7 @@ from lagcli.expression import Expression
 from lagcli.problem_data import Point, Scenery
 from lagcli.reader.dynamics import read_components
 from lagcli.reader.file_reader import FileReader
-from lagcli.reader.misshapen import source_of
+from lagcli.reader.misshapen import by_key, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import POSITION
 from lagcli.reader.suggest import did_you_mean
@@ -74,7 +74,7 @@ def _pairs(
         return ()
     hint = "write [[O, bob], [bob, ball]]"
     if isinstance(node, Mapping) and all(isinstance(v, Scalar) for _, v in node.entries):
-        pairs = ", ".join(f"[{k.label}, {source_of(v)}]" for k, v in node.entries)
+        pairs = ", ".join(map("[{0[0]}, {0[1]}]".format, by_key(node).items()))
         hint = f"write [{pairs}]"
     for item in file.items(node, key, hint):
         ends = file.items(item, f"one of the {key}", "write two names: [O, bob]")

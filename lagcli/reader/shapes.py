@@ -15,7 +15,6 @@ from lagcli.reader.file_reader import YES_OR_NO
 from lagcli.reader.nodes import DocumentNode, Scalar, Sequence
 from lagcli.reader.schema_parts import FORMULA, FORMULAS, STABLE, TEXT, Schema, ref
 from lagcli.reader.scope import Role
-from lagcli.reader.suggest import did_you_mean
 from lagcli.record import record
 
 if TYPE_CHECKING:
@@ -147,17 +146,10 @@ def record_of(
 
 def one_of(words: tuple[str, ...]) -> Shape:
     """One of some words."""
-
-    def read(reader: ExpectReader, node: DocumentNode, _: Path) -> str | None:
-        text = reader.file.scalar(node, "this")
-        found = "" if text is None else " ".join(text.value.split())
-        if text is None or found in words:
-            return found or None
-        hint = did_you_mean(found, words) or f"write {' or '.join(words)}"
-        reader.file.error(f"'{found}' is not one of {', '.join(words)}", text.span, hint)
-        return None
-
-    return Shape({"enum": list(words)}, read)
+    enumerated = {"enum": list(words)}
+    return Shape(
+        enumerated, lambda reader, node, path: reader.file.word(node, f"'{path[-1]}'", words)
+    )
 
 
 def with_constants(shape: Shape) -> Shape:

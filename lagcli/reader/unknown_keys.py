@@ -24,10 +24,10 @@ from lagcli.reader.habits import (
     spellings,
 )
 from lagcli.reader.headings import SECTIONS
-from lagcli.reader.misplaced import names_in
 from lagcli.reader.misshapen import (
     ALREADY_FOUND,
     FOUND,
+    by_key,
     difference,
     entries_of,
     key_by_shape,
@@ -37,7 +37,7 @@ from lagcli.reader.misshapen import (
     values_in,
     values_of,
 )
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, names_in
 from lagcli.reader.potential_meant import GRAVITY, potential_meant
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import Scope
@@ -262,7 +262,7 @@ def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
     One value is that of the only name, values in a list are those of the names in order.  Nothing
     where the entries are not all names of sections that have the attribute.
     """
-    given = {key.label: source_of(each) for key, each in getattr(value, "entries", ())}
+    given = by_key(value)
     values = [*given.values()] or [source_of(each) for each in getattr(value, "items", [value])]
     known = (*SECTIONS, *_SAID, "restitution")
     attribute = key_meant(word, known) or key_meant(word.removesuffix("s"), known)

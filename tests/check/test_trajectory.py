@@ -67,7 +67,7 @@ def test_a_known_motion_is_proved_where_the_file_says_so():
         (CheckOutcome.WRONG, "trajectory.events.0", 20)
     ]
     report = check_problem("b.yaml", text.replace("rigorous: yes", "rigorous: maybe").encode())
-    assert "'rigorous' is yes or no" in str(report.findings or report)
+    assert "'rigorous' has no value 'maybe'" in str(report.findings or report)
 
 
 def test_a_run_that_stops_early_is_wrong():

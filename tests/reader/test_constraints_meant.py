@@ -50,9 +50,63 @@ def test_a_quotient_of_velocities_is_multiplied_out(quotient, whole):
     ],
 )  # fmt: skip
 def test_an_inequality_is_a_contact(written, contacts):
-    assert only_hint(written) == f"write contacts: {contacts}"
+    assert only_hint(written) == f"in place of constraints write contacts: {contacts}"
     right = FILE.format("").replace("constraints: {c: }", f"contacts: {contacts}")
     assert read_problem("p.yaml", right.encode()).diagnostics == ()
+
+
+AMONG = [
+    ("{c: x = a, d: y >= 0}", "", "leave it out", "{c: x = a}", "d: y >= 0"),
+    ("{c: x = a, d: y >= 0, e: x <= l}", "", "leave them out", "{c: x = a}", "d: y >= 0, e: x <= l"),
+    ("{c: x >= a, d: y >= 0}", "", "in place of constraints", "", "c: x >= a, d: y >= 0"),
+    ("{c: -l <= x <= l, d: 0 < y < a}", "", "in place of constraints", "",
+     "lower: x >= -l, upper: x <= l, d_1: y >= 0, d_2: y <= a"),
+    ("[x = a, y >= 0]", "", "write {c1: x = a}", "{c1: x = a}", "floor: y >= 0"),
+    ("x = a, y >= 0", "", "write {c1: x = a}", "{c1: x = a}", "floor: y >= 0"),
+    ("y >= 0", "", "in place of constraints", "", "floor: y >= 0"),
+    ("{c: 'x = a, y >= 0'}", "", "write c: x = a", "{c: x = a}", "c_2: y >= 0"),
+    ("{d: y >= 0}", "e: x <= l", "leave constraints out", "", "d: y >= 0"),
+    ("{c: x = a, d: y >= 0}", "e: x <= l", "leave it out", "{c: x = a}", "d: y >= 0"),
+    ("{c: x = a, d: y >= 0, f: x >= 0}", "e: x <= l", "leave them out", "{c: x = a}",
+     "d: y >= 0, f: x >= 0"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("written", "given", "begin", "left", "contacts"), AMONG)
+def test_inequalities_are_moved_at_once_and_leave_no_empty_section(
+    written, given, begin, left, contacts
+):
+    head = FILE.partition("constraints")[0]
+    section = f"contacts: {{{given}}}\n" * bool(given)
+    [only] = read_problem("p.yaml", f"{head}{section}constraints: {written}\n".encode()).diagnostics
+    hint = only.hint
+    if given:
+        assert hint == f"{begin}, and begin contacts with {contacts.replace(', ', ' and ')}"
+    else:
+        rest = "" if begin.startswith("in place") else ", and on a line of its own"
+        assert hint == f"{begin}{rest} write contacts: {{{contacts}}}"
+    right = f"contacts: {{{contacts}{f', {given}' * bool(given)}}}\n"
+    right += f"constraints: {left}\n" * bool(left)
+    assert read_problem("p.yaml", (head + right).encode()).diagnostics == ()
+
+
+def test_an_inequality_among_constraints_hides_no_other_mistake():
+    energies = "T: m*(x'^2 + y'^2)/2\nV: k*x\nconstraints: {c: x >= 0, d: y >= 0}\n"
+    units = (
+        "coordinates: {x: {unit: m}, y: {unit: m}}\nparameters: {m: {unit: kg}, k: {unit: N/m}}\n"
+    )
+    found = read_problem("p.yaml", f"{units}{energies}".encode()).diagnostics
+    assert [each.span.line for each in found] == [4, 5]
+
+
+SECTIONS = "constraints contacts forces symmetries initial find simulation points functions"
+
+
+@pytest.mark.parametrize("section", [*SECTIONS.split(), "definitions", "observables", "brackets"])
+def test_a_section_without_entries_is_left_out(section):
+    good = FILE.partition("constraints")[0]
+    [only] = read_problem("p.yaml", f"{good}{section}:\n".encode()).diagnostics
+    assert only.hint == "leave out the key"
 
 
 @pytest.mark.parametrize("between", [" and ", "; ", ";"])

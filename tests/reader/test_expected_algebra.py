@@ -14,7 +14,7 @@ HEAD = "coordinates: [x]\nparameters: [k]\nL: x'^2/2 - k*x^2/2\nexpect: {algebra
     [
         ("{dimensions: 1}", "unknown key 'dimensions' in 'algebra'", 20),
         ("{independent: two}", "'independent' is a whole number, 0 or more", 33),
-        ("{integrable: maybe}", "'integrable' is yes or no", 32),
+        ("{integrable: maybe}", "'integrable' has no value 'maybe'", 32),
         ("{special: k = 0}", "'special' must be a list, not a text", 29),
         ("{special: [{charges: 5}]}", "a special value needs 'where', such as where: n = -1", 30),
         ("{special: [{where: k = 0, charges: -1}]}", "'charges' is a whole number, 0 or more", 54),

@@ -28,7 +28,7 @@ def mistakes(expect: str) -> list[str]:
         ("{reduction: {period: a*tau}}", "unknown name 'tau' in the expected period"),
         ("{steady_motions: {at: {r: 1}}}", "'steady_motions' must be a list, not a map"),
         ("{steady_motions: [{stable: m >= 1}]}", "a condition of stability has > or <"),
-        ("{hamilton_jacobi: {separable: maybe}}", "'separable' is yes or no"),
+        ("{hamilton_jacobi: {separable: maybe}}", "'separable' has no value 'maybe'"),
         ("{hamilton_jacobi: {functions: {s: E}}}", "'s' in 'functions' is not a coordinate"),
         (
             "{hamilton_jacobi: {functions: {r: beta_1*r}}}",

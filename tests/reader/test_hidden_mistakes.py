@@ -99,6 +99,58 @@ def test_a_section_given_twice_hides_no_name_and_is_one_mistake(second, meant):
     assert told[0].hint.startswith(meant)
 
 
+ONE_OF = "leave out one of them"
+SUM = "for the sum leave out the first one and write V:"
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "meant"),
+    [
+        ("m*x", "k*x^2/2", f"{ONE_OF}; {SUM} m*x + k*x^2/2"),
+        ("m*x", "-k*x^2/2", f"{ONE_OF}; {SUM} m*x - k*x^2/2"),
+        ("m*x", "k*x^2/2 - m*x", f"{ONE_OF}; {SUM} m*x + k*x^2/2 - m*x"),
+        ("m*x + m*x^4", "m*x - k*x^2/2", ONE_OF),
+        ("m*x", "m*x + k*x^2/2", "leave out the first one: the other has all of its terms"),
+        ("k*x^2/2 - m*x", "-m*x", "leave out this one: the other has all of its terms"),
+        ("m*x", "m*x", "leave out this one: the other has all of its terms"),
+    ],
+)
+def test_terms_of_two_energies_are_counted_once(one, other, meant):
+    [told] = found(
+        f"coordinates: [x]\nparameters: {{m: 1, k: 2}}\nT: m*x'^2/2\nV: {one}\nV: {other}\n"
+    )
+    assert told.hint == meant
+
+
+@pytest.mark.parametrize("x", ["x", "s", "z"])
+@pytest.mark.parametrize(("word", "law"), [("v", "v/R"), ("v", "2*v^2/R"), ("{}dot", "R*{}dot")])
+def test_a_velocity_among_the_parameters_may_be_that_of_the_coordinate(x, word, law):
+    word, law = word.format(x), law.format(x)
+    text = f"coordinates: [{x}]\nparameters: {{m: 1, R: 2, w: {law}}}\nT: m*{x}'^2/2 + m*w^2\n"
+    [told] = hints(text)
+    assert told.endswith(f", or, if it is {x}', write w under 'definitions' with {x}' for {word}")
+    right = law.replace(word, f"{x}'")
+    moved = text.replace(f", w: {law}", "") + f"definitions: {{w: {right}}}\n"
+    assert hints(moved) == []
+
+
+@pytest.mark.parametrize("indent", ["  ", "   ", "    "])
+@pytest.mark.parametrize("section", ["coordinates", "parameters", "initial"])
+def test_a_line_begins_where_the_others_of_its_section_begin(section, indent):
+    entries = {
+        "coordinates": ["x", "y"],
+        "parameters": ["m: 1", "k: 2"],
+        "initial": ["x: 1", "x': 0"],
+    }
+    entries["coordinates"] = ["x: {unit: m}", "y: {unit: m}"]
+    lines = "".join(
+        f"{key}:\n{indent}{first}\n{indent * (key != section)}{second}\n"
+        for key, (first, second) in entries.items()
+    )
+    [told] = hints(f"{lines}T: m*(x'^2 + y'^2)/2\n")
+    assert told == f"begin the line where '{entries[section][0][0]}' begins"
+
+
 @pytest.mark.parametrize(
     ("formulas", "definitions", "meant"),
     [
@@ -120,7 +172,7 @@ def test_formulas_of_coordinates_among_the_parameters_are_one_mistake(formulas, 
     defined = f"definitions: {definitions}\n" * bool(definitions)
     told = hints(
         f"coordinates: [x]\nparameters: {{m: 1, {formulas}}}\n{defined}"
-        "T: m*X'^2/2\nV: m*Y^2/2\n".replace("X'", "x'" if "x'" in formulas else "X'")
+        "T: m*(x'^2 + X'^2)/2\nV: m*Y^2/2\n".replace("X'", "x'" if "x'" in formulas else "X'")
     )
     assert told == [f"leave {meant}"]
 

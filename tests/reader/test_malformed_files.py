@@ -39,7 +39,7 @@ CANONICAL = "coordinates: [x]\nL: x'^2\ncanonical_transformations: {a: {Q: x, p_
 
 FILES = [
     # The numerical run.
-    (after("simulation: {until: 1, method: euler}\n"), "9:32", "unknown method 'euler'"),
+    (after("simulation: {until: 1, method: euler}\n"), "9:32", "'method' has no value 'euler'"),
     (after("simulation: {method: tailor}\n"), "9:22", "did you mean 'taylor'?"),
     # Phase space.
     (after("observables: {A: x*p_y - y*px}\n"), "9:28", "unknown name 'px'"),
@@ -123,7 +123,11 @@ FILES = [
     ("coordinates: {x: {description: up, down}}\nT: x'^2\n", "1:36", "comma ends the value"),
     ("coordinates: [x]\nparameters: {a: b, b: a}\nT: x'^2\n", "2:17", "needs itself"),
     ("coordinates: [x]\nparameters: {a: x}\nT: x'^2\n", "2:17", "only numbers and parameters"),
-    ("coordinates: [x]\nparameters: {a: {integer: 1}}\nT: x'^2\n", "2:27", "yes or no"),
+    (
+        "coordinates: [x]\nparameters: {a: {integer: 1}}\nT: x'^2\n",
+        "2:27",
+        "write yes, no, true or false",
+    ),
     # Expressions.
     (after("V: m*g*tetha\n"), "9:8", "unknown name 'tetha' in V"),
     (after("V: 2 x\n"), "9:4", "did you mean 2*x?"),

@@ -199,7 +199,7 @@ def test_a_call_in_brackets_is_written_with_parentheses(seed):
         (text(Given="a mass on a spring"), "write description: Given: …"),
         (
             text(find="equations of motion"),
-            "leave it out: equations, frequencies and charges are found",
+            "leave it out: equations, equilibria, frequencies and charges are found",
         ),
         (text(V="k . x^2/2"), "write k*x^2/2"),
         (text(V="k*x^2/2 ..."), "a line that continues the one above begins with blanks"),

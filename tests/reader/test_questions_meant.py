@@ -77,3 +77,26 @@ def test_a_question_without_a_name(question, begin):
     text = PROBLEM.replace("\n  angle: ", f" {begin % question}\n")
     (mistake,) = read_problem("f.yaml", text.encode()).diagnostics
     assert "name: {where: N = 0, for: theta}" in mistake.hint
+
+
+ASKED = ["period of small oscillations", "small oscillations", "[theta'', omega]", "frequency",
+         "omega = sqrt(g/R)", "{omega: sqrt(g/R)}", "{T_0: 2*pi*sqrt(R/g)}", "{period: T}"]  # fmt: skip
+
+
+@pytest.mark.parametrize("state", ["", "initial: {theta: 1}\n"])
+@pytest.mark.parametrize("asked", ASKED)
+def test_what_is_found_needs_no_question(asked, state):
+    text = PROBLEM.partition("find:")[0] + f"{state}find: {asked}\n"
+    (mistake,) = read_problem("f.yaml", text.encode()).diagnostics
+    assert mistake.hint.startswith("leave it out: ")
+    assert " frequencies and charges are found by lagcli solve f.yaml --show " in mistake.hint
+    assert "modes" in mistake.hint
+    example = mistake.hint.partition("; or write ")[2]
+    assert not example or (state and read_problem("f.yaml", text.replace(asked, example).encode()))
+
+
+@pytest.mark.parametrize("asked", ["T: theta'^2", "omega: r*theta'", "f: g*r"])
+def test_a_formula_that_moves_is_a_question(asked):
+    text = PROBLEM.partition("find:")[0] + f"find: {{{asked}}}\n"
+    (mistake,) = read_problem("f.yaml", text.encode()).diagnostics
+    assert mistake.hint.startswith(f"write {{value: {asked.partition(': ')[2]}, in_terms_of: [")
