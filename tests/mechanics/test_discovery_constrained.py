@@ -36,7 +36,7 @@ KNOWN = {
     "nonholonomic/nonholonomic-free-particle": (
         "energy p_y momentum_x boost_y charge_1", "", None, None),
     "nonholonomic/two-wheeled-cart": ("energy constraint_integral charge_1", "", None, None),
-    "nonholonomic/skate-on-incline": ("energy p_phi boost_phi charge_1 charge_3", "", None, None),
+    "nonholonomic/skate-on-incline": ("energy p_phi boost_phi charge_1 charge_2", "", None, None),
     "discovery/snakeboard": ("energy p_psi p_phi", "momentum_1", None, None),
     "discovery/ball-in-cylinder": ("energy momentum_phi_alpha charge_1", "", None, None),
     "discovery/kepler-in-slanted-plane": (
@@ -416,6 +416,49 @@ constraints:
     discovery = derive(text).discovery
     assert summary(discovery).independent == 5
     assert all(c.conserved is True and c.verified == "exact" for c in discovery.charges)
+
+
+@pytest.mark.parametrize("letters", [True, False])
+@pytest.mark.parametrize("seed", range(2))
+def test_a_rod_with_a_blade_at_its_centre_of_mass_has_three(seed, letters):
+    """phi = w t, v' = -g sin(phi - a): w v - g cos(phi - a), with a the direction of the slope.
+
+    Gantmacher, *Lectures in Analytical Mechanics*, sections 3 and 8.
+    """
+    draw = random.Random(seed)
+    m, n, p, q = draw.randint(1, 4), draw.randint(1, 4), draw.randint(1, 3), draw.randint(0, 3)
+    length, g = draw.randint(2, 5), draw.randint(2, 9)
+    given = {"l": length, "g": g, "p": p, "q": q, "k": 1}
+    L, G, P, Q, K = given if letters else given.values()
+    derivation = derive(f"""
+coordinates: [x1, y1, x2, y2]
+parameters: {{l: {{assume: positive}}, g: {{}}, p: {{}}, q: {{}}, k: {{assume: positive}}}}
+T: {K}*({m}*(x1'^2 + y1'^2)/2 + {n}*(x2'^2 + y2'^2)/2)
+V: {K}*{G}*({m}*({P}*y1 + {Q}*x1) + {n}*({P}*y2 + {Q}*x2))
+constraints:
+  rod: (x1 - x2)^2 + (y1 - y2)^2 = {L}^2
+  blade: ({m}*x1' + {n}*x2')*(y2 - y1) = ({m}*y1' + {n}*y2')*(x2 - x1)
+""")
+    discovery = derivation.discovery
+    assert summary(discovery).independent == len(discovery.charges) == 3
+    assert "not solved" not in discovery.ansatz
+    system = derivation.system
+    put = {x: given[x.name] for x in system.parameters}
+    t, w = sympy.Symbol("t"), sympy.Rational(draw.randint(1, 9), 5)
+    phi = w * t + 1
+    v = 2 + g * (p * sympy.cos(phi) - q * sympy.sin(phi)) / w
+    x, y = (sympy.integrate(sympy.expand(v * f(phi)), t) for f in (sympy.cos, sympy.sin))
+    places = [
+        centre + arm * f(phi)
+        for arm in (-sympy.Rational(n * length, m + n), sympy.Rational(m * length, m + n))
+        for centre, f in ((x, sympy.cos), (y, sympy.sin))
+    ]
+    values = []
+    for time in (sympy.Rational(1, 3), sympy.Rational(7, 5)):
+        state = (f.subs(t, time) for f in (*places, *(place.diff(t) for place in places)))
+        point = dict(zip((*system.q, *system.qdot), state, strict=True)) | put
+        values.append([c.charge.subs(point).evalf(30) for c in discovery.charges])
+    assert all(abs(u - v) < 1e-20 for u, v in zip(*values, strict=True))
 
 
 def test_suslovs_free_body_turns_uniformly_in_space_and_in_itself():

@@ -3,6 +3,8 @@
 Of m constraints, the maximal minors of every m + 1 columns give one field each (Cramer).
 Together they span the admissible virtual displacements at every point where A has full
 rank, and have no poles, which a basis of them may need: on a sphere they are the rotations.
+Where they are of higher degree than the first, and n - m of the first degree have a minor that
+is constant on the surface, these span the same: a rod's displacement along itself, and its turn.
 
 References
 ----------
@@ -13,14 +15,15 @@ Bloch, *Nonholonomic Mechanics and Control*, 2nd ed., section 5.2.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations
+from itertools import chain, combinations
 
 import sympy
 from sympy import Expr
 
-from lagcli.algebra import Field, is_zero, nullspace, simplify
+from lagcli.algebra import Field, dot, is_zero, nullspace, simplify
 from lagcli.algebra.field import over_common_denominator
 from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.surface import relations_on_surface
 from lagcli.mechanics.dynamics import Dynamics
 
 _MOST_MINORS = 60  # measured: at most 10
@@ -40,7 +43,43 @@ def admissible_fields(dynamics: Dynamics, allowed: Allowance) -> list[Vector]:
     fields = [tuple(v) for v in nullspace(rows)]
     if len(rows) <= _MOST_ROWS and _count(n, len(rows) + 1) <= _MOST_MINORS:
         fields += _minors(rows, n, allowed)
-    return _distinct([_upward(primitive(f)) for f in fields])
+    fields = _distinct([_upward(primitive(f)) for f in fields])
+    return _of_first_degree(fields, rows, dynamics, allowed) or fields
+
+
+def _of_first_degree(
+    fields: Sequence[Vector], rows: Sequence[Vector], dynamics: Dynamics, allowed: Allowance
+) -> list[Vector]:
+    """A basis of such; none where they are not needed, or do not span at every point."""
+    q, size = dynamics.system.q, len(dynamics.system.q) - len(rows)
+    forms = [e.f for e in dynamics.constraints.equations if e.holonomic]
+    entries = list(chain(*fields[:size]))
+    if not forms or not all(x.is_polynomial(*q) for x in (*forms, *chain(*rows), *entries)):
+        return []
+    if all(sympy.Poly(x, *q).total_degree() <= 1 for x in entries):
+        return []
+    candidates = [(j, f) for f in (sympy.S.One, *q) for j in range(len(q))]
+    columns = [[row[j] * f for row in rows] for j, f in candidates]
+    found = []
+    for relation in relations_on_surface(columns, dynamics, allowed):
+        field: list[Expr] = [sympy.S.Zero] * len(q)
+        for k, c in relation.items():
+            j, f = candidates[k]
+            field[j] += c * f
+        found.append(_upward(primitive(field)))
+    found = _distinct(found)[:size]
+    return found if len(found) == size and _span(found, dynamics) else []
+
+
+def _span(fields: Sequence[Vector], dynamics: Dynamics) -> bool:
+    """Whether a minor of them is constant on the surface, and not 0."""
+    relations, q = dynamics.constraints.relations, dynamics.system.q
+    for columns in combinations(range(len(q)), len(fields)):
+        minor = sympy.Matrix([[e[k] for k in columns] for e in fields]).det(method="berkowitz")
+        slopes = (dot(e, [minor.diff(x) for x in q]) for e in fields)
+        if is_zero(minor, relations) is not True and all(is_zero(x, relations) for x in slopes):
+            return True
+    return False
 
 
 def _count(n: int, k: int) -> int:

@@ -8,6 +8,7 @@ in independent variables: linear equations over the field of the parameters.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from collections.abc import Set as AbstractSet
 
 import sympy
 from sympy import Expr, Symbol
@@ -21,22 +22,24 @@ _MOST_TERMS = 16
 
 
 def solved_in_chart(
-    values: Sequence[Expr], dynamics: Dynamics, allowed: Allowance
+    rates: Sequence[Expr],
+    dependent: AbstractSet[Expr],
+    dynamics: Dynamics,
+    allowed: Allowance,
 ) -> list[Expr] | None:
-    """c with sum c_k values_k constant on the motion, the last one 1; None where not found."""
-    chart, motion = _chart(dynamics), dynamics.motion
-    if chart is None or motion is None or len(values) > _MOST_TERMS:
+    """c with sum c_k rates_k = 0 on the surface; None where not found.
+
+    The rates have none of the `dependent` velocities.
+    """
+    chart = _chart(dynamics)
+    if chart is None or len(rates) > _MOST_TERMS:
         return None
-    put, dependent = chart
+    put, gone = chart
     system = dynamics.system
-    moving = list(zip(system.q, system.qdot, strict=True))
-    pushed = list(zip(system.qdot, motion.accelerations, strict=True))
-
-    def rate(value: Expr) -> Expr:
-        return put(sympy.Add(*(value.diff(x) * dx for x, dx in (*moving, *pushed))))
-
-    variables = [s for s in (*system.q, *system.qdot) if s not in dependent]
-    found = Relation([[rate(value)] for value in values], variables, allowed).of_last()
+    variables = [
+        s for s in (system.t, *system.q, *system.qdot) if s not in gone and s not in dependent
+    ]
+    found = Relation([[put(rate)] for rate in rates], variables, allowed).of_last()
     return None if found is None else _without_common([*found, sympy.S.One])
 
 
@@ -55,21 +58,20 @@ def _chart(dynamics: Dynamics) -> tuple[Callable[[Expr], Expr], set[Expr]] | Non
     if relations is None:
         return None
     positions = [f for f in relations.remaining if free_of(f, system.qdot)]
+    gone: set[Expr] = set(relations.solved)
     if not positions:
-        return relations.substitute, set(relations.solved)
-    if len(positions) > 1 or relations.solved:
+        return relations.substitute, gone
+    if len(positions) > 1:
         return None
     [f] = positions
-    for x, dx in zip(reversed(system.q), reversed(system.qdot), strict=True):
+    for x in reversed(system.q):
         if f.is_polynomial(x) and sympy.degree(f, x) == 2:
-            return _half(f, x, dx, dynamics), {x, dx}
+            return _half(f, x), {*gone, x}
     return None
 
 
-def _half(f: Expr, x: Symbol, dx: Symbol, dynamics: Dynamics) -> Callable[[Expr], Expr]:
-    """What puts x and x' on the surface f = 0, of second degree in x."""
+def _half(f: Expr, x: Symbol) -> Callable[[Expr], Expr]:
+    """What puts x on the surface f = 0, of second degree in x."""
     a, b, c = sympy.Poly(f, x).all_coeffs()
     root = (-b + sympy.sqrt(sympy.expand(b**2 - 4 * a * c))) / (2 * a)
-    rates = zip(dynamics.system.q, dynamics.system.qdot, strict=True)
-    follows = -sympy.Add(*(f.diff(y) * dy for y, dy in rates if y != x)) / f.diff(x)
-    return lambda e: e.xreplace({dx: follows}).xreplace({x: root})
+    return lambda e: e.xreplace({x: root})

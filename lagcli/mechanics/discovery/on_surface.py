@@ -58,6 +58,8 @@ def search_on_surface(
             solved = search.of_velocities([*setting.charges, *found])
             search.unsolved = max(0, search.unsolved - len(solved))  # the same, in other terms
             found += solved
+        if "nonholonomic" in setting.dynamics.constraints.kinds.values():
+            found = _independent(setting, found)
         listing.add_hidden(("", charge) for charge in found)
         setting.words.append(
             "and of second degree without explicit time, with coefficients of second degree"
@@ -95,6 +97,19 @@ def _sentence(times: TimeFunctions) -> str:
         + (" with the exponents of the linear part" if times.exponents else "")
         + ", coefficients of first degree in the coordinates"
     )
+
+
+def _independent(setting: Setting, found: Sequence[NoetherCharge]) -> list[NoetherCharge]:
+    """Those that are no functions of the others: no Poisson brackets make these of use."""
+    kept: list[NoetherCharge] = []
+    known = [c.charge for c in setting.fixed_charges]
+    number = rank_on_surface(setting.dynamics, known)
+    for charge in sorted(found, key=lambda c: sympy.count_ops(c.charge)):
+        values = [*known, *(c.charge for c in kept), charge.charge]
+        rank = rank_on_surface(setting.dynamics, values)
+        if number is None or rank is None or rank > number + len(kept):
+            kept.append(charge)
+    return kept
 
 
 def _few(setting: Setting, known: Sequence[NoetherCharge]) -> bool:

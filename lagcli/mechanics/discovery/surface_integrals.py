@@ -252,20 +252,22 @@ class SurfaceIntegrals:
             solved = exact.solved([[self._rate(term)] for term in terms])
             if solved is not None:
                 return list(zip(terms, solved, strict=True))
-        charted = None
-        if all(x.velocities or not x.fields for x in terms):
-            charted = solved_in_chart([self._value(x) for x in terms], self.dynamics, self.allowed)
-        if charted is not None:
-            return list(zip(terms, charted, strict=True))
+        elif not moved:
+            rates = [self._rate(term) for term in terms]
+            dependent = self.surface.independent_velocities.keys()
+            charted = solved_in_chart(rates, dependent, self.dynamics, self.allowed)
+            if charted is not None:
+                return list(zip(terms, charted, strict=True))
         self.unsolved += 1
         return None
-
-    def _value(self, term: IntegralTerm) -> Expr:
-        return term.function * sympy.Mul(*(self.system.qdot[i] for i in term.velocities))
 
     def _rate(self, term: IntegralTerm) -> Expr:
         """d/dt of a term as a formula in independent velocities."""
         factors = self._factors(term)
+        if term.velocities:
+            motion = self.dynamics.motion
+            assert motion is not None
+            factors += [(self._velocities[i], motion.accelerations[i]) for i in term.velocities]
         total = sympy.Add(
             *(
                 sympy.Mul(*(dx if i == k else x for i, (x, dx) in enumerate(factors)))
