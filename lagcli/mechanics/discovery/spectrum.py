@@ -99,8 +99,11 @@ def roots_of(determinant: Expr, lam: Symbol) -> Iterator[Exponent]:
 
 
 def _factors(determinant: Expr, lam: Symbol) -> list[tuple[sympy.Poly, int]]:
-    numerator = sympy.numer(sympy.together(sympy.expand(determinant)))
     try:
+        if determinant.has(sympy.sin, sympy.cos):  # sin²β + cos²β = 1
+            coefficients = sympy.Poly(determinant, lam).all_coeffs()
+            determinant = sympy.Poly([*map(simplify, coefficients)], lam).as_expr()
+        numerator = sympy.numer(sympy.together(sympy.expand(determinant)))
         factors = sympy.factor_list(numerator, lam)[1]
     except sympy.PolynomialError:
         return []

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
+from random import Random
 
 from flint import arb
 
@@ -12,10 +14,12 @@ from lagcli.verification.claims.canonical_samples import nearby
 from lagcli.verification.comparison import ComparisonVerdict, compare, is_zero
 from lagcli.verification.examination import LOOKED_AT, Examination
 from lagcli.verification.linear import Unclear, rank
+from lagcli.verification.phase_points import Environment
 from lagcli.verification.states import State, onto_constraints
 
 #: States of a special value beyond those that a rank needs.
 _MORE = 4
+_SCALES = 8
 
 
 def holds(
@@ -32,7 +36,7 @@ def holds(
     number = len(special.values)
     charges = places[number:]
     values_ = dict(zip(special.values, places[:number], strict=True))
-    there = list(_there(x, values_))
+    there = list(islice(_there(x, values_), LOOKED_AT))
     if not there and x.states():
         x.refute(what, "the parameter has another sign, or no value there")
         return False
@@ -97,13 +101,27 @@ def _counted(
 def _there(x: Examination, values: Mapping[str, int]) -> Iterator[State]:
     """States with the values on the constraints, where their signs are those of the parameters."""
     signs = {p.name: p.assume for p in x.problem.parameters}
-    for state in x.states(LOOKED_AT):
-        numbers = {name: state.at(value) for name, value in values.items()}
+    for environment in _with_other_parameters(x):
+        at = x.reference.values(environment)
+        numbers = {name: at(value) for name, value in values.items()}
         wrong = any(
             (signs[name] == "positive" and x <= 0) or (signs[name] == "negative" and x >= 0)
             for name, x in numbers.items()
         )
         if all(x.is_finite() for x in numbers.values()) and not wrong:
-            known = {**state.environment, **{(name, 0): x.mid() for name, x in numbers.items()}}
+            known = {**environment, **{(name, 0): x.mid() for name, x in numbers.items()}}
             if onto_constraints(x.reference, known):
                 yield State(x.reference, known)
+
+
+def _with_other_parameters(x: Examination) -> Iterator[Environment]:
+    """States, then the same with parameters of other orders: w^2/4 - w0^2 is to be positive."""
+    random = Random(4)
+    free = [(p.name, 0) for p in x.problem.parameters if not p.integer]
+    for scaled in range(_SCALES):
+        for state in x.states(LOOKED_AT):
+            sizes = {key: arb(2) ** random.randint(-3, 3) for key in free if scaled}
+            yield {
+                key: value * sizes[key] if key in sizes else value
+                for key, value in state.environment.items()
+            }
