@@ -63,7 +63,13 @@ def derive(statements: Statements) -> AlgebraSection | None:
             charges={c.name: statements.by_terms(c.charge) for c in case.charges},
             given={p.name: statements.as_written(value) for p, value in case.given},
             where=tuple(
-                dict.fromkeys(w for c in case.charges for w in real_where(c, statements.system))
+                dict.fromkeys(
+                    bound
+                    for charge in case.charges
+                    for bound in real_where(
+                        charge, statements.system, [case.value, *(v for _, v in case.given)]
+                    )
+                )
             ),
         )
         for case in statements.derivation.special_cases

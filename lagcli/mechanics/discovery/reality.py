@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import sympy
 from sympy import Expr
@@ -17,8 +17,12 @@ from lagcli.mechanics.system import System
 from lagcli.statements.motions import Above
 
 
-def real_where(charge: NoetherCharge, system: System) -> tuple[Above, ...]:
+def real_where(
+    charge: NoetherCharge, system: System, values: Sequence[Expr] = ()
+) -> tuple[Above, ...]:
     """What must be positive for the transformation, gauge and charge to be real where L is.
+
+    And where special values of the parameters are.
 
     What is even in sqrt(k) is real for k < 0, too: cos(sqrt(k) t) is then cosh(sqrt(-k) t).
     """
@@ -32,7 +36,7 @@ def real_where(charge: NoetherCharge, system: System) -> tuple[Above, ...]:
     moving = {*system.q, *system.qdot}
     constant = [b for b in bounds if not b.free_symbols & moving and weak_sign(b) != 1]
     constant = [b for b in constant if not all(_is_even(formula, b) for formula in formulas)]
-    given_real = tuple(not_negative_where_real(system.L))
+    given_real = [bound for f in (system.L, *values) for bound in not_negative_where_real(f)]
     wanted = [*([t] if positive else []), *sorted(constant, key=_by_length)]
     return conditions(wanted, system.order, given_real)
 
