@@ -40,11 +40,19 @@ def search_on_surface(
     listing.add(search.linear(setting.point_charges))
     momenta = search.momenta(of_lagrangian, listing.points)
     listing.add(search.new(_values(setting), momenta.conserved))
+    turning = not all_are_known(setting)
+    if turning:
+        listing.add(search.turning(_values(setting)))
     setting.words.append(_sentence(times))
     if search.timed:
         setting.words.append(
             "along the displacements of constant momenta, and of the velocities of lengths "
             "whose accelerations are linear, with functions of t or of the coordinates"
+        )
+    if turning:
+        setting.words.append(
+            "and linear functions of the velocities that turn into each other, by the time or "
+            "by a coordinate"
         )
     known = all_are_known(setting)
     if known:

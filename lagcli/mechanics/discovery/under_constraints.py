@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cached_property
 from itertools import combinations_with_replacement
 
 import sympy
@@ -12,12 +13,14 @@ from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.admissible import Vector, admissible_fields
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, quadratic
+from lagcli.mechanics.discovery.constrained import rank_on_surface
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.momentum_equation import Momenta, MomentumEquations
 from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.surface import independent_on_surface
 from lagcli.mechanics.discovery.surface_integrals import Integral, IntegralTerm, SurfaceIntegrals
+from lagcli.mechanics.discovery.turning_momenta import squares_of_velocities, turning
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 from lagcli.record import replace as changed
 
@@ -117,6 +120,36 @@ class UnderConstraints:
             values += [c.charge for c in found]
             found += self._charges(self._integrals(self._timed_terms(len(along)), values, along))
         return found
+
+    def turning(self, known: Sequence[Expr]) -> list[NoetherCharge]:
+        """Linear functions of the velocities that turn into each other, made constant."""
+        system, equations = self.system, self.dynamics.constraints.equations
+        if any(e.drift != 0 for e in equations):
+            return []
+        momenta = [dot(e, self.dynamics.lagrange.momenta) for e in self.fields]
+        still = dict.fromkeys(system.qdot, sympy.S.Zero)
+        forms = [
+            *squares_of_velocities(system.L, system.qdot),
+            *system.qdot,
+            *(simplify(p - p.xreplace(still)) for p in momenta),
+        ]
+        found: list[NoetherCharge] = []
+        for pair in turning(self.dynamics, forms, self.allowed):
+            values = [*known, *(c.charge for c in found)]
+            number, together = (rank_on_surface(self.dynamics, [*values, *x]) for x in ((), pair))
+            if number != together:
+                found += [c for c in map(self._linear_charge, pair) if c.verified == "exact"]
+        return found
+
+    def _linear_charge(self, form: Expr) -> NoetherCharge:
+        """Of a linear function of the velocities: p.eta without its part at rest is the form."""
+        form, *_ = scaled((form,), set(self.system.parameters))
+        still = dict.fromkeys(self.system.qdot, sympy.S.Zero)
+        at_rest = [p.xreplace(still) for p in self.dynamics.lagrange.momenta]
+        tangent = Transformation(self._tangent(form), sympy.S.Zero)
+        gauge = dot(at_rest, tangent.changes)
+        charge = self.noether.charge("", "discovered", tangent, gauge)
+        return changed(charge, charge=form if charge.conserved else charge.charge)
 
     def _displacements(self, known: Sequence[NoetherCharge]) -> list[Vector]:
         """Admissible ones with angles along which a momentum is constant, or those of lengths.
@@ -350,15 +383,20 @@ class UnderConstraints:
 
         eta = M^-1 (dQ/dq' - A^T mu) with A eta = 0.
         """
+        slopes = sympy.Matrix([form.diff(v) for v in self.system.qdot])
+        return tuple(simplify(x) for x in self._projection * slopes)
+
+    @cached_property
+    def _projection(self) -> sympy.Matrix:
+        """M^-1 - M^-1 A^T (A M^-1 A^T)^-1 A M^-1."""
         kept = [
             self.dynamics.constraints.equations[k] for k in self.dynamics.independent_constraints
         ]
         rows = sympy.Matrix([list(e.row) for e in kept])
         inverse = sympy.Matrix([list(r) for r in self.dynamics.lagrange.mass_matrix]).inv("ADJ")
-        slopes = sympy.Matrix([form.diff(v) for v in self.system.qdot])
-        along = inverse * rows.T
-        mu = (rows * along).inv("ADJ") * (rows * (inverse * slopes))
-        return tuple(simplify(x) for x in inverse * slopes - along * mu)
+        along = (inverse * rows.T).applyfunc(simplify)
+        across = (rows * along).applyfunc(simplify).inv("ADJ").applyfunc(simplify)
+        return (inverse - along * across * along.T).applyfunc(simplify)
 
     def _moved(self, changes: Sequence[Expr], factor: Expr, field: Vector) -> list[Expr]:
         return [x + factor * e for x, e in zip(changes, field, strict=True)]
