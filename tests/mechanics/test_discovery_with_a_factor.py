@@ -100,3 +100,26 @@ def test_two_monopoles_keep_the_runge_lenz_vector(name):
     found = summary(derivation.discovery)
     assert (len(derivation.discovery.charges), found.independent, found.integrable) == (7, 5, True)
     assert min(digits_of(derivation).values()) > 20
+
+
+MASSES = {
+    "m^2 + 2*m*k/sqrt(x^2 + y^2)": {"runge_lenz_x", "runge_lenz_y"},
+    "m^2 + k*(x^2 + 4*y^2)": {"energy_x"},
+    "m^2 + k/x^2 + m^2*y^2": {"energy_x"},
+}
+
+
+@pytest.mark.parametrize("square", MASSES)
+@pytest.mark.parametrize("shape", ["-sqrt(M)*sqrt(1 - v2/c^2)", "-c^2*sqrt(M - M*v2)"])
+def test_a_relativistic_particle_whose_mass_depends_on_the_place(square, shape):
+    """H^2 = p^2 + M(q)^2 has the integrals of p^2/2 + M^2/2, with p = dL/dv."""
+    L = shape.replace("M", f"({square})").replace("v2", "(x'^2 + y'^2)")
+    found = derive(
+        f'{{coordinates: [x, y], parameters: {{m: {POS}, k: {POS}, c: {POS}}}, L: "{L}"}}'
+    )
+    new = [c for c in found.discovery.charges if c.name not in {"energy", "L_z"}]
+    assert new
+    names = {c.name for c in new}
+    assert MASSES[square] <= names or len(MASSES[square]) == len(names)
+    assert all(c.conserved and c.verified == "exact" for c in new)
+    assert summary(found.discovery).integrable

@@ -28,7 +28,11 @@ from lagcli.mechanics.discovery.brackets import ChargeBrackets, NoState
 from lagcli.mechanics.discovery.centralizer import centralized, with_one_stretching, without_time
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import rank_on_surface, tangent
-from lagcli.mechanics.discovery.fixed_energy import at_fixed_energy, in_the_first_time
+from lagcli.mechanics.discovery.fixed_energy import (
+    at_fixed_energy,
+    in_the_first_time,
+    relativistic,
+)
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, is_gyroscopic
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
 from lagcli.mechanics.discovery.killing import KillingFrame, common_factors
@@ -277,7 +281,11 @@ class Discovery(Setting):
         return [point.transformation_of(search, s, constants) for s in search.solutions()]
 
     def _hidden(self) -> None:
-        if len(self.system.q) < 2 or not self.quadratic_mass or not self.canonical:
+        if len(self.system.q) < 2 or not self.canonical:
+            return
+        if not self.quadratic_mass:
+            if self.system.t not in self.equations_symbols:
+                self._of_fixed_energy()
             return
         if len(self.system.q) > _MOST_FOR_TENSORS:
             return
@@ -386,18 +394,24 @@ class Discovery(Setting):
             self.stopped.append(f"{there} there, of whose part at rest no formula was found")
 
     def _of_fixed_energy(self) -> None:
-        """Those of T = w(q) T0 in a magnetic field."""
-        for w in common_factors(self.equations):
-            problem = at_fixed_energy(self.system, w)
+        """Those of T = w(q) T0 in a magnetic field, and of a relativistic L."""
+        if self.quadratic_mass:
+            factors = common_factors(self.equations)
+            problems = [(w, at_fixed_energy(self.system, w)) for w in factors]
+            words = "T without a common factor"
+        else:
+            problems = [*relativistic(self.system)]
+            words = "of second degree in the momenta"
+        for w, problem in problems:
             there = None if problem is None else self._search_of(problem)
             fixed = [c for c in there.fixed_charges if c in there.hidden_charges] if there else ()
             found = list(in_the_first_time(self.noether, w, fixed))
             if found:
-                self.words.append("also at a fixed energy, T without a common factor")
+                self.words.append(f"also at a fixed energy, {words}")
                 known = [c.charge for c in self.fixed_charges]
                 known += products_of_two(known)
                 new = new_charges(known, found, self.dynamics, self.allowed)
-                self.listing.add_hidden(("", charge) for charge in new)
+                self.listing.add_hidden((charge.name, charge) for charge in new)
                 return
 
     def _symmetries(self) -> list[tuple[Expr, ...]]:

@@ -1,8 +1,10 @@
-"""Integrals of T = w(q) T0 in a magnetic field, by the motion at a fixed energy in another time.
+"""Integrals by the motion at a fixed energy in another time: Q(q, p; E) for all E gives Q(q, p; H).
 
-In the momenta p, w (H - E) = H0 - E w + w V with H0 of T0 and the same field.  With dt = w ds its
-motions at the value 0 are those of H at the value E, so that an integral Q(q, p; E) for all E gives
-Q(q, p; H).
+Of T = w(q) T0 in a magnetic field: in the momenta p, w (H - E) = H0 - E w + w V with H0 of T0 and
+the same field.  With dt = w ds its motions at the value 0 are those of H at the value E.
+
+Of L = -sqrt(M^2 - v.B v) + A.v - V, as of a relativistic particle whose mass depends on the place:
+(H - V)^2 = M^2 + M^2 (p - A).B^-1 (p - A), with dt = (H - V) ds.
 
 References
 ----------
@@ -12,54 +14,88 @@ Gibbons, Manton, Nucl. Phys. B 274 (1986) 183 (two monopoles: Kepler's vector).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import dot, simplify
+from lagcli.algebra import dot, is_zero, simplify
 from lagcli.mechanics.discovery.products import integral_of
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.fewer_coordinates import problem_of
 from lagcli.mechanics.noether import Noether, NoetherCharge
 from lagcli.mechanics.system import System
 from lagcli.problem_data import Parameter, Problem
+from lagcli.record import replace
 
 _ENERGY = "E_fixed"
+_E = Symbol(_ENERGY, real=True)
 
 
 def at_fixed_energy(system: System, w: Expr) -> Problem | None:
     """The problem of L0 + w (E - V), L0 with T0 = T/w; None where its letter is taken."""
+    rest, linear = _below_second_degree(system.L, system.qdot)
+    T0 = simplify((system.L - rest - linear) / w)
+    return _problem(system, T0 + linear + simplify(w * (rest + _E)))
+
+
+def relativistic(system: System) -> Iterator[tuple[Expr, Problem | None]]:
+    """H - V as a function of the state, and L0 = v.B v/(2 M^2) + A.v + ((E - V)^2 - M^2)/2."""
+    v = system.qdot
+    roots = {p for p in system.L.atoms(sympy.Pow) if p.exp == sympy.Rational(1, 2) and p.has(*v)}
+    if len(roots) != 1:
+        return
+    mark = Symbol("#root", positive=True)
+    [root] = roots
+    rest = sympy.expand(system.L.xreplace({root: mark}))
+    factor = rest.coeff(mark, 1)
+    other = rest - factor * mark
+    potential, linear = _below_second_degree(other, v)
+    square = sympy.expand(factor**2 * root.base)
+    mass, first = _below_second_degree(square, v)
+    if factor.has(*v) or other.has(mark) or is_zero(other - potential - linear) is not True:
+        return
+    inertia = mass - square
+    if is_zero(first) is not True or not inertia.is_polynomial(*v) or is_zero(mass) is not False:
+        return
+    if sympy.Poly(inertia, *v).total_degree() != 2:
+        return
+    L = simplify(inertia / mass) / 2 + linear + simplify(((_E + potential) ** 2 - mass) / 2)
+    yield -mass / (factor * root), _problem(system, L)
+
+
+def _below_second_degree(L: Expr, v: Sequence[Symbol]) -> tuple[Expr, Expr]:
+    """What is left without velocities, and what is linear in them."""
+    still = dict.fromkeys(v, sympy.S.Zero)
+    return L.xreplace(still), dot(v, [L.diff(x).xreplace(still) for x in v])
+
+
+def _problem(system: System, L: Expr) -> Problem | None:
     if _ENERGY in (*system.names, *(p.name for p in system.problem.parameters)):
         return None
-    v = system.qdot
-    still = dict.fromkeys(v, sympy.S.Zero)
-    rest = system.L.xreplace(still)
-    linear = dot(v, [system.L.diff(x).xreplace(still) for x in v])
-    T0 = simplify((system.L - rest - linear) / w)
-    L = T0 + linear + simplify(w * (rest + Symbol(_ENERGY, real=True)))
     parameters = (*system.problem.parameters, Parameter(name=_ENERGY))
-    forces = [sympy.S.Zero] * len(v)
-    return problem_of(system, range(len(v)), L, forces, parameters)
+    n = len(system.q)
+    return problem_of(system, range(n), L, [sympy.S.Zero] * n, parameters)
 
 
 def in_the_first_time(
     noether: Noether, w: Expr, found: Iterable[NoetherCharge]
 ) -> Iterator[NoetherCharge]:
-    """Q(q, p; H) of the integrals Q(q, p; E) that were found, with dQ/dp as their multipliers."""
+    """Q(q, p; H) of the integrals Q(q, p; E), with dQ/dp as their multipliers; dt = w ds."""
     v = noether.system.qdot
-    h, momenta = noether.energy.function, noether.dynamics.lagrange.momenta
-    E = Symbol(_ENERGY, real=True)
-    back = {E: h, **{x: w * x for x in v}}
+    momenta = noether.dynamics.lagrange.momenta
+    h = dot(v, momenta) - noether.system.L  # with the roots of L as they are
+    back = {_E: h, **{x: w * x for x in v}}
     for charge in found:
         below = sympy.factor(sympy.denom(sympy.together(charge.charge)))
-        factor = below.as_independent(E, as_Add=False)[1]
+        factor = below.as_independent(_E, as_Add=False)[1]
         given = (charge.charge, *charge.transformation.changes)
         whole, *moves = scaled([simplify(factor * x) for x in given], {*noether.system.parameters})
-        shift = whole.diff(E).xreplace(back)
+        shift = whole.diff(_E).xreplace(back)
         along = zip(moves, v, strict=True)
-        eta = tuple(simplify(x.xreplace(back) + shift * rate) for x, rate in along)
+        eta = tuple(x.xreplace(back) + shift * rate for x, rate in along)
         whole = whole.xreplace(back)
         integral = integral_of(noether, eta, simplify(whole), dot(momenta, eta) - whole)
         if integral is not None:
-            yield integral
+            name = "" if charge.name.startswith("charge_") else charge.name
+            yield replace(integral, name=name)

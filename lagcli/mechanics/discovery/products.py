@@ -128,17 +128,16 @@ def integral_of(noether: Noether, eta: Vector, whole: Expr, gauge: Expr) -> Noet
     """Q where dQ/dt = sum eta_j (d/dt dL/dq_j' - dL/dq_j) identically: then 0 on the motion."""
     left_sides = noether.dynamics.lagrange.left_sides
     system = noether.system
-    content = content_of([*eta, whole], frozenset(system.parameters) - _masses(noether))
-    eta, whole, gauge = tuple(simplify(e / content) for e in eta), whole / content, gauge / content
     left = system.total_derivative(whole) - dot(eta, left_sides)
     if not _vanishes(left, {system.t, *system.q, *system.parameters}):
         return None
+    content = content_of([*eta, whole], frozenset(system.parameters) - _masses(noether))
     return NoetherCharge(
         "",
         "discovered",
-        Transformation(eta, sympy.S.Zero),
-        gauge,
-        whole,
+        Transformation(tuple(simplify(e / content) for e in eta), sympy.S.Zero),
+        gauge / content,
+        whole / content,
         conserved=True,
         rate=sympy.S.Zero,
         verified="exact",
