@@ -10,6 +10,7 @@ Evans, Phys. Rev. A 41 (1990) 5666 (three integrals beside the energy).
 import random
 
 import pytest
+import sympy
 
 from lagcli.mechanics.discovery.summary import summary
 from tests.oracle.constancy import digits_of
@@ -123,3 +124,68 @@ def test_a_relativistic_particle_whose_mass_depends_on_the_place(square, shape):
     assert MASSES[square] <= names or len(MASSES[square]) == len(names)
     assert all(c.conserved and c.verified == "exact" for c in new)
     assert summary(found.discovery).integrable
+
+
+PLANE = "(x'^2 + y'^2)/2"
+#: L0 and U of a problem with L0 - c^2 U/2 at a fixed momentum c, its coordinates and independent integrals
+AT_FIXED_MOMENTUM = {
+    "kepler": (PLANE, "{b} + {k}/sqrt(x^2 + y^2)", "x, y", 4),
+    "winternitz": (PLANE, "{k}*(x^2 + y^2) + {b}/x^2", "x, y", 4),
+    "koenigs": (
+        "(1 + {b}/r)*(r'^2 + r^2*phi'^2)/2", "1 + {k}/(r + {b})", f"r: {POS}, phi: {{}}", 4),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("letters", [True, False])
+@pytest.mark.parametrize("name", AT_FIXED_MOMENTUM)
+def test_a_cyclic_coordinate_carries_a_superintegrable_potential(name, letters):
+    """R = L0 - c^2 U/2 + c A.q' of L0 + (psi' + A.q')^2/(2 U), here with an A = grad a."""
+    draw = random.Random(f"{name} {letters}")
+    L0, U, coordinates, independent = AT_FIXED_MOMENTUM[name]
+    b, k = ("b", "k") if letters else (draw.randint(1, 5), draw.randint(1, 5))
+    x, a = coordinates[0], draw.randint(-2, 2)
+    L0, U = L0.format(b=b), U.format(b=b, k=k)
+    L = f"{L0} + (psi' + {a}*{x}*{x}')^2/(2*({U}))"
+    assume = coordinates if ":" in coordinates else "x: {}, y: {}"
+    derivation = derive(problem(L, f"{{{assume}, psi: {{}}}}", "b k"))
+    found = summary(derivation.discovery)
+    assert (found.independent, found.integrable) == (independent, True)
+    assert "at fixed momenta" in derivation.discovery.ansatz
+    assert min(digits_of(derivation).values()) > 20
+
+
+def test_the_momenta_of_two_cyclic_coordinates_may_be_fixed_together():
+    """McIntosh, Cisneros, J. Math. Phys. 11 (1970) 896: r' x J + ... with c^2/(2 r^2) and -d^2 k/r."""
+    coordinates, rates, field, _ = MONOPOLES["spherical"]
+    L = f"({rates})/2 + r^2*(psi' + {field})^2/2 + r*chi'^2/k"
+    derivation = derive(problem(L, f"{coordinates[:-1]}, psi: {{}}, chi: {{}}}}", "k"))
+    assert summary(derivation.discovery).independent == 9
+    assert len(derivation.discovery.hidden_charges) == 3
+    assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.parametrize("b", ["b", "3"])
+def test_the_monopole_in_five_dimensions_keeps_the_runge_lenz_vector(b):
+    """Feher, Horvathy, Phys. Lett. B 183 (1987) 182: its z-component along an independent motion."""
+    coordinates, rates, field, r = MONOPOLES["spherical"]
+    w = f"(1 + {b}/{r})"
+    L = f"{w}*({rates})/2 + {b}^2*(psi' + {field})^2/(2*{w})"
+    derivation = derive(problem(L, f"{coordinates[:-1]}, psi: {{}}}}", "b"))
+    discovery, system = derivation.discovery, derivation.system
+    found = summary(discovery)
+    assert (len(discovery.charges), found.independent, found.in_involution) == (8, 6, 4)
+    assert min(digits_of(derivation).values()) > 20
+    [vector] = [c for c in discovery.hidden_charges if system.q[2] not in c.charge.free_symbols]
+    (r, theta, _, _), v = system.q, system.qdot
+    size = system.parameters[0] if b == "b" else sympy.Integer(3)
+    w, p = 1 + size / r, system.L.diff(v[3])
+    square = v[0] ** 2 + r**2 * v[1] ** 2 + r**2 * sympy.sin(theta) ** 2 * v[2] ** 2
+    energy = w * square / 2 + p**2 * w / (2 * size**2)
+    textbook = (
+        r * sympy.cos(theta) * w**2 * square
+        - w**2 * r * v[0] * (v[0] * sympy.cos(theta) - r * sympy.sin(theta) * v[1])
+        - p * w * r * sympy.sin(theta) ** 2 * v[2]
+        - (size * energy - p**2 / size) * sympy.cos(theta)
+    )
+    ratio = sympy.simplify(vector.charge / textbook)
+    assert not ratio.free_symbols & {*system.q, *v}

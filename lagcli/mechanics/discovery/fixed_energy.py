@@ -14,33 +14,28 @@ Gibbons, Manton, Nucl. Phys. B 274 (1986) 183 (two monopoles: Kepler's vector).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 
 import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, is_zero, simplify
-from lagcli.mechanics.discovery.products import integral_of
-from lagcli.mechanics.discovery.scaling import scaled
-from lagcli.mechanics.fewer_coordinates import problem_of
-from lagcli.mechanics.noether import Noether, NoetherCharge
+from lagcli.mechanics.discovery.fixed_values import FixedValues, problem_with
 from lagcli.mechanics.system import System
-from lagcli.problem_data import Parameter, Problem
-from lagcli.record import replace
 
 _ENERGY = "E_fixed"
 _E = Symbol(_ENERGY, real=True)
 
 
-def at_fixed_energy(system: System, w: Expr) -> Problem | None:
+def at_fixed_energy(system: System, w: Expr) -> FixedValues | None:
     """The problem of L0 + w (E - V), L0 with T0 = T/w; None where its letter is taken."""
     rest, linear = _below_second_degree(system.L, system.qdot)
     T0 = simplify((system.L - rest - linear) / w)
-    return _problem(system, T0 + linear + simplify(w * (rest + _E)))
+    return _in_another_time(system, T0 + linear + simplify(w * (rest + _E)), w)
 
 
-def relativistic(system: System) -> Iterator[tuple[Expr, Problem | None]]:
-    """H - V as a function of the state, and L0 = v.B v/(2 M^2) + A.v + ((E - V)^2 - M^2)/2."""
+def relativistic(system: System) -> Iterator[FixedValues | None]:
+    """The problem of L0 = v.B v/(2 M^2) + A.v + ((E - V)^2 - M^2)/2."""
     v = system.qdot
     roots = {p for p in system.L.atoms(sympy.Pow) if p.exp == sympy.Rational(1, 2) and p.has(*v)}
     if len(roots) != 1:
@@ -61,7 +56,7 @@ def relativistic(system: System) -> Iterator[tuple[Expr, Problem | None]]:
     if sympy.Poly(inertia, *v).total_degree() != 2:
         return
     L = simplify(inertia / mass) / 2 + linear + simplify(((_E + potential) ** 2 - mass) / 2)
-    yield -mass / (factor * root), _problem(system, L)
+    yield _in_another_time(system, L, -mass / (factor * root))
 
 
 def _below_second_degree(L: Expr, v: Sequence[Symbol]) -> tuple[Expr, Expr]:
@@ -70,32 +65,16 @@ def _below_second_degree(L: Expr, v: Sequence[Symbol]) -> tuple[Expr, Expr]:
     return L.xreplace(still), dot(v, [L.diff(x).xreplace(still) for x in v])
 
 
-def _problem(system: System, L: Expr) -> Problem | None:
+def _in_another_time(system: System, L: Expr, w: Expr) -> FixedValues | None:
+    """With dt = w ds."""
     if _ENERGY in (*system.names, *(p.name for p in system.problem.parameters)):
         return None
-    parameters = (*system.problem.parameters, Parameter(name=_ENERGY))
-    n = len(system.q)
-    return problem_of(system, range(n), L, [sympy.S.Zero] * n, parameters)
-
-
-def in_the_first_time(
-    noether: Noether, w: Expr, found: Iterable[NoetherCharge]
-) -> Iterator[NoetherCharge]:
-    """Q(q, p; H) of the integrals Q(q, p; E), with dQ/dp as their multipliers; dt = w ds."""
-    v = noether.system.qdot
-    momenta = noether.dynamics.lagrange.momenta
-    h = dot(v, momenta) - noether.system.L  # with the roots of L as they are
-    back = {_E: h, **{x: w * x for x in v}}
-    for charge in found:
-        below = sympy.factor(sympy.denom(sympy.together(charge.charge)))
-        factor = below.as_independent(_E, as_Add=False)[1]
-        given = (charge.charge, *charge.transformation.changes)
-        whole, *moves = scaled([simplify(factor * x) for x in given], {*noether.system.parameters})
-        shift = whole.diff(_E).xreplace(back)
-        along = zip(moves, v, strict=True)
-        eta = tuple(x.xreplace(back) + shift * rate for x, rate in along)
-        whole = whole.xreplace(back)
-        integral = integral_of(noether, eta, simplify(whole), dot(momenta, eta) - whole)
-        if integral is not None:
-            name = "" if charge.name.startswith("charge_") else charge.name
-            yield replace(integral, name=name)
+    v, kept = system.qdot, range(len(system.q))
+    h = dot(v, [system.L.diff(x) for x in v]) - system.L  # with the roots of L as they are
+    return FixedValues(
+        problem_with(system, kept, L, [_ENERGY]),
+        kept,
+        {_E: h, **{x: w * x for x in v}},
+        {_E: v},
+        {_E: [sympy.S.Zero] * len(v)},
+    )

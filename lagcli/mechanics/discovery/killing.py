@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations, combinations_with_replacement
+from itertools import chain, combinations, combinations_with_replacement
 
 import sympy
 from sympy import Expr
@@ -22,6 +22,7 @@ from lagcli.mechanics.discovery.hidden import is_gyroscopic
 from lagcli.mechanics.discovery.isometries import Isometries, Vector
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
+from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import SlotEquations, combined, point_slots
 from lagcli.record import replace
@@ -154,3 +155,19 @@ def common_factors(equations: SlotEquations) -> list[Expr]:
         if all(not free_of(simplify(w / other), equations.q) for other in found):
             found.append(w)
     return found[1:]
+
+
+def has_known_isometries(equations: SlotEquations) -> bool:
+    """Whether T, or T without a factor w(q), is constant or has a constant curvature.
+
+    In two dimensions M_xx of a cyclic x is a factor without which every T is flat.
+    """
+    q, mass = equations.q, equations.mass
+    of_cyclic = [
+        row[k] for k, row in enumerate(mass) if free_of(sympy.Tuple(*chain(*mass)), [q[k]])
+    ]
+    for w in (sympy.S.One, *(w for w in common_factors(equations) if w not in of_cyclic)):
+        rows = [[simplify(m / w) for m in row] for row in mass]
+        if free_of(sympy.Tuple(*chain(*rows)), q) or Metric(q, rows).curvature is not None:
+            return True
+    return False
