@@ -136,7 +136,8 @@ class Discovery(Setting):
             try:
                 search()
             except TooMuchWork:
-                self.stopped.append(f"stopped before all {what} were found: too much work")
+                stopped = f"stopped before all {what} were found: too much work"
+                (self.words if self._is_integrable() else self.stopped).append(stopped)
             except NoPoint:
                 self.stopped.append(f"{what}: no sample point, so the search is incomplete")
             except ZeroDivisionError:
@@ -350,6 +351,15 @@ class Discovery(Setting):
         """How many charges without the time are independent."""
         charges = [c.charge for c in (*self.fixed_charges, *more)]
         return rank_on_surface(self.dynamics, charges) or len(charges)
+
+    def _is_integrable(self) -> bool:
+        """Whether enough charges commute already: what is not found then decides nothing."""
+        return (
+            self.canonical
+            and not self.dynamics.constraints.equations
+            and bool(self.fixed_charges)
+            and self._in_involution() >= len(self.system.q)
+        )
 
     def _in_involution(self) -> int:
         """How many functions of the charges without the time commute."""

@@ -178,6 +178,10 @@ def _to_try(
         if len(system.q) == 1 and searched.canonical:
             along = searched.isometries.functions[0], at_rest, system.q[0]
             factors += [*powers_of_length(*along), *linear_force(*along)]
+    if any(
+        system.t in p.base.free_symbols and p.exp.free_symbols for p in system.L.atoms(sympy.Pow)
+    ):
+        discovery.words.append(_NOT_ALL)  # t^n: functions of time with other powers
     exponents = searched.time_functions.exponents
     if len(system.q) == 1 or exponents or _NOT_ALL in searched.words:
         factors += system.parameters  # a term less: linear, with functions of time
