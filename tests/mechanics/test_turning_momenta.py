@@ -72,3 +72,21 @@ constraints:
     expected = dx * sympy.cos(kappa * theta) + dy * sympy.sin(kappa * theta)
     assert any(is_zero(c.charge - expected) for c in discovery.charges)
     assert summary(discovery).independent == 9
+
+
+@pytest.mark.long
+def test_suslovs_body_with_two_equal_moments_keeps_its_angular_momentum():
+    """Where B = A; in general only the energy and what turns are constant."""
+    cases = derive(f"""
+coordinates: [phi, theta, psi]
+parameters: {{A: {POS}, B: {POS}, C: {POS}, h: {POS}}}
+definitions:
+  p: phi'*sin(theta)*sin(psi) + theta'*cos(psi)
+  q: phi'*sin(theta)*cos(psi) - theta'*sin(psi)
+  r: phi'*cos(theta) + psi'
+L: (A*p^2 + B*q^2 + C*r^2)/2 + h*r
+constraints: {{no_turn: phi'*cos(theta) + psi' = 0}}
+""").special_cases
+    [case] = cases
+    assert (str(case.parameter), str(case.value)) == ("B", "A")
+    assert {c.name for c in case.charges} == {"p_phi", "L_x", "L_y"}

@@ -202,6 +202,19 @@ def exchanged(dynamics: Dynamics) -> list[Value]:
     return [(b, a) for b, a in found if _admissible(b, a)]
 
 
+def equal_inertias(system: System) -> list[Value]:
+    """b = a of (a p^2 + b q^2)/2, as of two moments of a body."""
+    still = dict.fromkeys(system.qdot, sympy.S.Zero)
+    inertias = [
+        p for p in system.parameters
+        if (slope := system.L.diff(p)) != 0
+        and free_of(slope, [p])
+        and is_zero(slope.xreplace(still)) is True
+        and not any(slope.diff(v).xreplace(still) for v in system.qdot)
+    ]  # fmt: skip
+    return [(b, a) for a, b in combinations(inertias, 2) if _admissible(b, a)]
+
+
 def special_powers(equations: SlotEquations) -> list[Expr]:
     """What vanishes where powers of coordinates are what others are not.
 

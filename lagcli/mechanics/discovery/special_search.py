@@ -30,6 +30,7 @@ from lagcli.mechanics.discovery.special import (
     both_vanish,
     candidates,
     damped_powers,
+    equal_inertias,
     exchanged,
     is_reflected,
     linear_force,
@@ -50,7 +51,7 @@ from lagcli.platform.limited import limited_to
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 
-_MOST_COORDINATES = 4  # measured: up to 5
+_MOST_FREEDOM = 4  # measured: up to 5
 _UNITS = 64_000_000  # three frequencies: 13 values take 64 million
 _FOR_PIVOTS = 0.3  # of these
 _SHARE = 0.8  # of what its section has left
@@ -71,8 +72,10 @@ def special_cases(
     system = searched.system
     if discovery.unsearched or discovery.is_prescribed:
         return ()
-    few = 0 < len(system.q) <= _MOST_COORDINATES
-    if not few or not system.parameters:
+    if not (system.q and system.parameters):
+        return ()
+    if searched.dynamics.degrees_of_freedom > _MOST_FREEDOM:
+        discovery.words.append(_NOT_ALL)
         return ()
     allowed = Allowance(_UNITS)
     variables = (system.t, *discovery.system.q, *discovery.system.qdot)
@@ -161,7 +164,10 @@ def _to_try(
     system, equations = searched.system, searched.equations
     if searched.dynamics.constraints.equations:
         discovery.words.append(_NOT_ALL)
-        return exchanged(discovery.dynamics), []
+        values = exchanged(discovery.dynamics)
+        if "nonholonomic" in discovery.dynamics.constraints.kinds.values():
+            values += [*equal_inertias(system), *missing(system.parameters)]
+        return values, []
     factors, pairs = _factors(searched, allowed)
     discovery.words += [_NOT_ALL] if _NOT_ALL in searched.words else []
     together = both_vanish(pairs, factors, system.parameters)
