@@ -6,10 +6,13 @@ Curves and Surfaces*, sections 4-4 and 5-11 (pseudosphere, hyperbolic plane); Ni
 Acta 45 (1972) 802 (free particles).
 """
 
+import random
+
 import pytest
 
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.pipeline import explain
+from tests.marks import mostly_long
 from tests.oracle.constancy import digits_of
 
 from .derived import derive
@@ -53,6 +56,36 @@ def test_a_universe_with_a_scalar_field_is_a_flat_plane_of_powers(V):
         found = summary(derive(problem(L, f"{{a: {a}, phi: {{}}}}", "|b")).discovery)
         assert (found.dimension, found.independent, found.integrable) == (8, 4, True)
         assert found.name.startswith("sl(2,R) + so(1,1) with Heisenberg h(2)")
+
+
+@pytest.mark.parametrize("seed", mostly_long(range(8), 1, 2))
+def test_a_plane_whose_coordinates_stretch_has_the_eight_of_a_free_particle(seed):
+    """x^p y^q times any form in x'/x and y'/y: flat, as p log(x) + q log(y) is harmonic.
+
+    Its Cartesian coordinates are powers with square roots, or turn with the logarithms.
+    """
+    draw = random.Random(seed)
+    p, q, A, C = (draw.choice((-3, -2, -1, 1, 2, 3)) for _ in range(4))
+    B = draw.choice([k for k in range(-3, 4) if k * k != A * C])
+    if A > 0 and seed % 2 == 0:
+        C = B * B // A + draw.randint(1, 3)  # definite
+    form = f"{A}*x'^2/x^2 + 2*{B}*x'*y'/(x*y) + {C}*y'^2/y^2"
+    text = problem(f"x^({p})*y^({q})*({form})/2", f"{{x: {POS}, y: {POS}}}", "")
+    derivation = derive(text)
+    found = summary(derivation.discovery)
+    assert (found.dimension, found.independent, found.integrable) == (8, 4, True)
+    assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("w", ["w", "2", "12"])
+def test_a_universe_of_brans_and_dicke_is_a_plane_of_powers(w):
+    """Capozziello and others, Int. J. Mod. Phys. D 5 (1996) 85: a repulsion from one point."""
+    L = f"6*a*f*a'^2 + 6*a^2*a'*f' - {w}*a^3*f'^2/f + 2*k*a^3*f"
+    derivation = derive(problem(L, f"{{a: {POS}, f: {POS}}}", "w k"))
+    found = summary(derivation.discovery)
+    assert (found.dimension, found.independent, found.integrable) == (8, 4, True)
+    assert min(digits_of(derivation).values()) > 20
 
 
 @pytest.mark.parametrize("F", ["", " - b/(x^2 + y^2)"])

@@ -11,6 +11,7 @@ is written in: r and phi, parabolic or elliptic ones, or those of a half plane.
 
 Along a cyclic coordinate x the solutions change as exp(lambda x), det(lambda - B) = 0 with
 dX/dx = X,x and dX,i/dx = -K g_ix X + Gamma^k_ix X,k, so their dependence on it is known.
+So it is for the logarithm of a coordinate whose stretching is one of a flat metric: x^lambda.
 For the other coordinates products of the functions are tried that the metric consists of.
 
 References
@@ -22,7 +23,7 @@ Eisenhart, *Riemannian Geometry*, sections 27 and 71 (spaces of constant curvatu
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from itertools import product
+from itertools import chain, product
 from math import prod
 
 import sympy
@@ -130,9 +131,12 @@ def _of_quadratic(Q: Expr, x: Symbol, *, inverse: bool) -> Expr:
 
 def _of_warped(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
     """Products of f and df/ds, as for ds^2 + f^2 dy^2, with waves along cyclic coordinates."""
-    factors = (
+    factors = [
         _along(x, metric, K) if metric.is_cyclic(x) else _profile(x, metric) for x in metric.q
-    )
+    ]
+    if K == 0:
+        pairs = zip(metric.q, factors, strict=True)
+        factors = [chain(each, _of_stretching(x, metric)) for x, each in pairs]
     return list(product(*({sympy.S.One: None, **dict.fromkeys(each)} for each in factors)))
 
 
@@ -172,9 +176,6 @@ def _of_coordinate(x: Symbol, metric: Metric) -> list[Expr]:
         # X has the slope x^(p/2) where the metric has x^p, or that power beside a turn
         powers = [p for e in alone for b, p in [e.as_base_exp()] if b == x and not p.is_even]
         found |= {x ** (p / 2 + k): None for p in powers for k in (1, 0)}
-        # one that is no integer stands between two null directions, as a dR^n in a da dR^n
-        broken = [p for e in alone for b, p in [e.as_base_exp()] if b == x and not p.is_integer]
-        found |= {x**n: None for p in broken for n in (p - 1, p, p + 1)}
         below = sorted(alone, key=lambda e: not e.is_Pow)  # dx^2/b tells where b is positive
         place = metric.q.index(x)
         own = metric.g[place][place]
@@ -227,12 +228,31 @@ def _degree(entries: Sequence[Expr], x: Symbol) -> int:
     return min(_HIGHEST, int(max([2, *degrees])) // 2 + 1)
 
 
-def _along(x: Symbol, metric: Metric, K: Expr) -> Iterator[Expr]:
-    """exp(lambda x) for a cyclic coordinate, real; powers where lambda = 0 is repeated."""
+def _of_stretching(x: Symbol, metric: Metric) -> Iterator[Expr]:
+    """x^lambda where x -> s x multiplies all of the metric by one power of s."""
+    degrees = {
+        simplify(x * e.diff(x) / e) + (y, z).count(x)
+        for y, row in zip(metric.q, metric.g, strict=True)
+        for z, e in zip(metric.q, row, strict=True)
+        if e != 0 and not metric.is_cyclic(x)
+    }
+    if len(degrees) == 1 and free_of(sympy.Tuple(*degrees), metric.q):
+        found = _along(x, metric, sympy.S.Zero, sympy.log(x))
+        yield from (f for f in found if x.is_positive or not f.has(sympy.log))
+
+
+def _along(x: Symbol, metric: Metric, K: Expr, length: Expr | None = None) -> Iterator[Expr]:
+    """exp(lambda x) for a cyclic coordinate, real; powers where lambda = 0 is repeated.
+
+    With log(x) as the `length` x^lambda, the log being the coordinate that would be cyclic.
+    """
     n, c = metric.n, metric.q.index(x)
+    s = sympy.S.One if length is None else x
+    t = [s if i == c else sympy.S.One for i in range(n)]
     rows = [
         [sympy.Integer(k == c + 1) for k in range(n + 1)],
-        *([-K * metric.g[i][c], *(metric.christoffel[k][i][c] for k in range(n))]
+        *([-K * metric.g[i][c], *(t[i] * s / t[k] * metric.christoffel[k][i][c]
+                                  + t[i].diff(x) * (i == k) for k in range(n))]
           for i in range(n)),
     ]  # fmt: skip
     lam = Symbol("#lambda", real=True)
@@ -241,10 +261,11 @@ def _along(x: Symbol, metric: Metric, K: Expr) -> Iterator[Expr]:
     powers = [simplify(a) for a in poly.all_coeffs()]
     if not free_of(sympy.Tuple(*powers), metric.q):
         return
+    length = length or x
     if powers[-2] == 0:  # lambda = 0 is a root at least twice
-        yield from (x, x**2)
+        yield from (length, length**2)
     for exponent in roots_of(sympy.Poly(powers, lam).as_expr(), lam):
-        yield from exponent.functions(x)
+        yield from exponent.functions(length)
 
 
 def _parts(metric: Metric) -> list[Expr]:
