@@ -40,7 +40,8 @@ def search_on_surface(
     listing.add(search.linear(setting.point_charges))
     momenta = search.momenta(of_lagrangian, listing.points)
     listing.add(search.new(_values(setting), momenta.conserved))
-    turning = not all_are_known(setting)
+    kinds = setting.dynamics.constraints.kinds.values()
+    turning = "nonholonomic" in kinds and not all_are_known(setting)
     if turning:
         listing.add(search.turning(_values(setting)))
     setting.words.append(_sentence(times))
