@@ -8,9 +8,8 @@ Ibragimov, *Elementary Lie Group Analysis and Ordinary Differential Equations*, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
-from itertools import combinations
 
 import sympy
 from sympy import Expr
@@ -29,11 +28,11 @@ from lagcli.mechanics.discovery.brackets import ChargeBrackets, NoState
 from lagcli.mechanics.discovery.centralizer import centralized, with_one_stretching, without_time
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import rank_on_surface, tangent
-from lagcli.mechanics.discovery.fixed_energy import at_fixed_energy, relativistic
-from lagcli.mechanics.discovery.fixed_values import FixedValues, at_fixed_momenta, without_cyclic
+from lagcli.mechanics.discovery.fixed_energy import at_fixed_energy, has_fixed_energy, relativistic
+from lagcli.mechanics.discovery.fixed_values import FixedValues, at_fixed_momenta
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, is_gyroscopic
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
-from lagcli.mechanics.discovery.killing import KillingFrame, common_factors, has_known_isometries
+from lagcli.mechanics.discovery.killing import KillingFrame, common_factors, known_factors
 from lagcli.mechanics.discovery.killing_integrals import KillingIntegrals
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.lifted import lifted, of_velocity_constraints
@@ -403,22 +402,25 @@ class Discovery(Setting):
 
     def _at_fixed_values(self) -> None:
         """Of a relativistic L, of T = w(q) T0 in a field, else of R without cyclic coordinates."""
+        if has_fixed_energy(self.system):
+            return
         energy = "also at a fixed energy, "
         if not self.quadratic_mass:
             self._of_whole(relativistic(self.system), energy + "of second degree in the momenta")
             return
         if is_gyroscopic(self.equations):
-            factors = common_factors(self.equations)
+            known = [w for w in known_factors(self.equations) if w != 1]
+            factors = known or common_factors(self.equations)
             energies = (at_fixed_energy(self.system, w) for w in factors)
             if self._of_whole(energies, energy + "T without a common factor"):
                 return
-        self._of_whole(
-            self._at_fixed_momenta(), "also without cyclic coordinates, at fixed momenta"
-        )
+        if self._independent() < 2 * len(self.system.q) - 1:
+            momenta = at_fixed_momenta(self.noether, self.equations)
+            self._of_whole(momenta, "also without cyclic coordinates, at fixed momenta")
 
-    def _of_whole(self, problems: Iterable[FixedValues | None], words: str) -> bool:
+    def _of_whole(self, problems: Iterable[FixedValues], words: str) -> bool:
         """Whether integrals were found at fixed values of constants that give new ones."""
-        for fixed in filter(None, problems):
+        for fixed in problems:
             there = self._search_of(fixed.problem)
             hidden = [c for c in there.fixed_charges if c in there.hidden_charges]
             found = list(fixed.of_whole(self.noether, hidden))
@@ -430,18 +432,6 @@ class Discovery(Setting):
                 self.listing.add_hidden((charge.name, charge) for charge in new)
                 return True
         return False
-
-    def _at_fixed_momenta(self) -> Iterator[FixedValues | None]:
-        """Where R has known isometries and T has not, and there may be more than are known."""
-        equations, n = self.equations, len(self.system.q)
-        if n < 3 or has_known_isometries(equations) or self._independent() >= 2 * n - 1:
-            return
-        cyclic = self.noether.cyclic
-        for count in range(1, min(len(cyclic), n - 2) + 1):
-            for gone in combinations(cyclic, count):
-                rest = without_cyclic(equations, gone)
-                if rest is not None and has_known_isometries(rest):
-                    yield at_fixed_momenta(self.noether, equations, gone)
 
     def _symmetries(self) -> list[tuple[Expr, ...]]:
         """Killing vectors that V admits: their products, which are nothing new, stand alone."""

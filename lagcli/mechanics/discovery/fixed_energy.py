@@ -27,14 +27,19 @@ _ENERGY = "E_fixed"
 _E = Symbol(_ENERGY, real=True)
 
 
-def at_fixed_energy(system: System, w: Expr) -> FixedValues | None:
-    """The problem of L0 + w (E - V), L0 with T0 = T/w; None where its letter is taken."""
+def has_fixed_energy(system: System) -> bool:
+    """Whether it is such a problem already: its letter is taken."""
+    return _ENERGY in (*system.names, *(p.name for p in system.problem.parameters))
+
+
+def at_fixed_energy(system: System, w: Expr) -> FixedValues:
+    """The problem of L0 + w (E - V), L0 with T0 = T/w."""
     rest, linear = _below_second_degree(system.L, system.qdot)
     T0 = simplify((system.L - rest - linear) / w)
     return _in_another_time(system, T0 + linear + simplify(w * (rest + _E)), w)
 
 
-def relativistic(system: System) -> Iterator[FixedValues | None]:
+def relativistic(system: System) -> Iterator[FixedValues]:
     """The problem of L0 = v.B v/(2 M^2) + A.v + ((E - V)^2 - M^2)/2."""
     v = system.qdot
     roots = {p for p in system.L.atoms(sympy.Pow) if p.exp == sympy.Rational(1, 2) and p.has(*v)}
@@ -65,10 +70,8 @@ def _below_second_degree(L: Expr, v: Sequence[Symbol]) -> tuple[Expr, Expr]:
     return L.xreplace(still), dot(v, [L.diff(x).xreplace(still) for x in v])
 
 
-def _in_another_time(system: System, L: Expr, w: Expr) -> FixedValues | None:
+def _in_another_time(system: System, L: Expr, w: Expr) -> FixedValues:
     """With dt = w ds."""
-    if _ENERGY in (*system.names, *(p.name for p in system.problem.parameters)):
-        return None
     v, kept = system.qdot, range(len(system.q))
     h = dot(v, [system.L.diff(x) for x in v]) - system.L  # with the roots of L as they are
     return FixedValues(

@@ -17,11 +17,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, simplify
+from lagcli.mechanics.discovery.killing import known_factors
 from lagcli.mechanics.discovery.products import integral_of
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.slots import SlotEquations
@@ -80,29 +82,35 @@ class FixedValues:
                 yield replace(integral, name=name)
 
 
-def without_cyclic(equations: SlotEquations, gone: Sequence[int]) -> SlotEquations | None:
-    """The inertia of R, without forces; None where A has no inverse."""
+def at_fixed_momenta(noether: Noether, equations: SlotEquations) -> Iterator[FixedValues]:
+    """The problems of R where it has known isometries and T has not."""
+    cyclic, n = noether.cyclic, len(equations.q)
+    if n < 3 or known_factors(equations):
+        return
+    mass = sympy.Matrix(equations.mass)
+    for count in range(1, min(len(cyclic), n - 2) + 1):
+        for gone in combinations(cyclic, count):
+            inverse = _inverse(mass, gone)
+            if inverse is not None and known_factors(_inertia(equations, gone, inverse)):
+                yield _without(noether, mass, gone, inverse)
+
+
+def _inertia(equations: SlotEquations, gone: Sequence[int], inverse: sympy.Matrix) -> SlotEquations:
+    """That of R, without forces."""
     kept = [k for k in range(len(equations.q)) if k not in gone]
     mass = sympy.Matrix(equations.mass)
-    inverse = _inverse(mass, gone)
-    if inverse is None:
-        return None
     M = mass.extract(kept, kept) - mass.extract(kept, gone) * inverse * mass.extract(gone, kept)
     rows = tuple(tuple(map(simplify, M.row(k))) for k in range(len(kept)))
     q, v = (tuple(x[k] for k in kept) for x in (equations.q, equations.v))
     return replace(equations, q=q, v=v, mass=rows, forcing=(sympy.S.Zero,) * len(kept))
 
 
-def at_fixed_momenta(
-    noether: Noether, equations: SlotEquations, gone: Sequence[int]
-) -> FixedValues | None:
-    """The problem of R without cyclic coordinates; None where A has no inverse."""
-    system, n = noether.system, len(equations.q)
+def _without(
+    noether: Noether, mass: sympy.Matrix, gone: Sequence[int], inverse: sympy.Matrix
+) -> FixedValues:
+    """The problem of R."""
+    system, n = noether.system, mass.rows
     kept = [k for k in range(n) if k not in gone]
-    mass = sympy.Matrix(equations.mass)
-    inverse = _inverse(mass, gone)
-    if inverse is None:
-        return None
     letters = [system.momenta[k] for k in gone]
     momenta = [noether.dynamics.lagrange.momenta[k] for k in gone]
     still = dict.fromkeys([system.qdot[k] for k in gone], sympy.S.Zero)

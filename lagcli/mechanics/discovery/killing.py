@@ -157,17 +157,17 @@ def common_factors(equations: SlotEquations) -> list[Expr]:
     return found[1:]
 
 
-def has_known_isometries(equations: SlotEquations) -> bool:
-    """Whether T, or T without a factor w(q), is constant or has a constant curvature.
+def known_factors(equations: SlotEquations) -> list[Expr]:
+    """The w, 1 among them, for which T/w is constant or has a constant curvature.
 
     In two dimensions M_xx of a cyclic x is a factor without which every T is flat.
     """
     q, mass = equations.q, equations.mass
-    of_cyclic = [
-        row[k] for k, row in enumerate(mass) if free_of(sympy.Tuple(*chain(*mass)), [q[k]])
-    ]
+    entries = sympy.Tuple(*chain(*mass))
+    of_cyclic = [row[k] for k, row in enumerate(mass) if free_of(entries, [q[k]])]
+    found = []
     for w in (sympy.S.One, *(w for w in common_factors(equations) if w not in of_cyclic)):
         rows = [[simplify(m / w) for m in row] for row in mass]
         if free_of(sympy.Tuple(*chain(*rows)), q) or Metric(q, rows).curvature is not None:
-            return True
-    return False
+            found.append(w)
+    return found
