@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from lagcli.expression import ZERO, Equation, Expression
 from lagcli.problem_data import Contact
+from lagcli.reader.expressions import formula_or_none
 from lagcli.reader.file_reader import FileReader, Required
 from lagcli.reader.habits import comparisons_in, is_angle, key_meant, name_meant
 from lagcli.reader.misshapen import by_key, is_sentence, source_of, texts_of
@@ -45,6 +46,10 @@ def declared(
     The value is a map with the `known` attributes, or the first of them alone.
     """
     what = "contact" if known == _ATTRIBUTES else "constraint"
+    if side := _with_its_side(file, key, value, known):
+        file.error(f"the name '{key.label}' of a {what} is not its left side", key.span, side)
+        file.scope.refused.append(f"lambda_{key.label}")
+        return None
     if name_mistake(f"a{key.label}") is not None or not key.label:  # lambda_<name> must be a name
         message = f"'{key.label}' is not a valid name for a {what}"
         if re.search("[=<>≤≥]", key.label):
@@ -90,6 +95,23 @@ def declared(
                 multiplier, place = text.label, text.span
     file.declare(multiplier, kind, place)
     return Declared(key, multiplier, attributes)
+
+
+def _with_its_side(
+    file: FileReader, key: Scalar, value: DocumentNode, known: tuple[str, ...]
+) -> str:
+    """`write y: y = -x*tan(a)` for `y: -x*tan(a)`, which would mean -x*tan(a) = 0; else nothing."""
+    x, sign = key.label.removesuffix("'"), ">=" if known == _ATTRIBUTES else "="
+    given = by_key(value)
+    law = given.get(known[0]) or (value.value if isinstance(value, Scalar) else "")
+    words = {*re.findall(r"[^\W\d]\w*", law)}
+    is_relation = x in words or re.search("[=<>≤≥]", law)
+    if file.scope.kinds.get(x) != "coordinate" or is_relation or formula_or_none(law) is None:
+        return ""
+    is_known = words & {*file.scope.kinds} or not words
+    whole = f"{key.label} {sign} {law}"
+    inner = ", ".join(map(": ".join, (given | {known[0]: whole}).items()))
+    return f"write {x}: {f'{{{inner}}}' if given else whole}" if is_known else ""
 
 
 def _law_of_words(file: FileReader, name: str, text: str, what: str) -> str:

@@ -6,11 +6,12 @@ import re
 from collections.abc import Collection
 
 from lagcli.notation.greek import BY_NAME as GREEK
-from lagcli.reader.habits import number_and_unit, spellings, unit_behind
-from lagcli.reader.misshapen import by_key, source_of
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.habits import is_constant, number_and_unit, spellings, unit_behind
+from lagcli.reader.misshapen import as_flow, by_key, inner_of, source_of
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, names_in
 from lagcli.reader.number_units import with_radians
 from lagcli.reader.regex import regex
+from lagcli.reader.sign_meant import ASSUMPTIONS
 
 #: A value of Python, `float = 1.0`, and a map without its braces.
 _NO_EQUATION = regex(r"(?:float|int|double|[Rr]eal|Integer|complex|[Nn]umber)\b|.*[:{]")
@@ -68,26 +69,33 @@ def system_meant(word: str) -> str:
 def without_headings(node: DocumentNode, attributes: tuple[str, ...]) -> tuple[Scalar, str] | None:
     """The first heading of names in a map, and the names without headings; None without one.
 
-    A heading has a list of names, or a map of other keys than the `attributes` of a name.
+    A heading has a list of names, or a map of other keys than the `attributes` of a name, which
+    are those of all names where they stand beside it.  It may be what is assumed of its names.
     """
     entries = node.entries if isinstance(node, Mapping) else []
-    headings = [key for key, value in entries if _is_heading(value, attributes)]
+    headings = [key for key, value in entries if _is_heading(key, value, attributes)]
     if not headings:
         return None
     parts: list[str] = []
+    is_shared = {*attributes} - {*"xyz"}
+    shared = {key.label: source_of(value) for key, value in entries if key.label in is_shared}
     for key, value in entries:
+        assumed = "".join({*ASSUMPTIONS} & {*key.label.casefold().split("_")})
+        said = ({"assume": assumed} if assumed else {}) | shared
+        inner = dict(value.entries) if isinstance(value, Mapping) else dict.fromkeys(_names(value))
         if key not in headings:
-            parts.append(f"{key.label}: {source_of(value)}".removesuffix(": "))
-        elif isinstance(value, Mapping):
-            parts += map(": ".join, by_key(value).items())
-        elif isinstance(value, Sequence):
-            parts += [each.value for each in value.items if isinstance(each, Scalar)]
+            inner, said = {key: value} if key.label not in shared else {}, {}
+        for name, each in inner.items():
+            label = name if isinstance(name, str) else name.label
+            given = inner_of(each, "value") | said
+            alone = "" if each is None else source_of(each)
+            parts.append(f"{label}: {as_flow(given) if said else alone}".removesuffix(": "))
     whole = ", ".join(parts)
     brackets = "{%s}" if ": " in whole else "[%s]"
     return headings[0], f"write {brackets % whole}"
 
 
-def _is_heading(node: DocumentNode, attributes: tuple[str, ...]) -> bool:
+def _is_heading(key: Scalar, node: DocumentNode, attributes: tuple[str, ...]) -> bool:
     if isinstance(node, Mapping):
         labels = {key.label.casefold() for key, _ in node.entries}
         inner = [value for _, value in node.entries]
@@ -95,8 +103,20 @@ def _is_heading(node: DocumentNode, attributes: tuple[str, ...]) -> bool:
         foreign = {"type", "kind", "axis", *(each for each in spellings("bounds") if each[2:])}
         of_others = labels & {*attributes, *SECTIONS, *foreign}
         return are_names and not of_others and not _mean(labels, inner)
-    names = [each.value for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
-    return _are_names(node) and not all(unit_behind(f"1 {name}") for name in names)
+    is_assumed, names = key.label in ASSUMPTIONS, _names(node)
+    if isinstance(node, Scalar):
+        return is_assumed and not is_constant("x", node.value) and bool(names)
+    are_units = all(unit_behind(f"1 {name}") for name in names)
+    return _are_names(node) and (is_assumed or not are_units)
+
+
+def _names(node: DocumentNode) -> list[str]:
+    """The names in a list, or in a text of names alone."""
+    if isinstance(node, Scalar):
+        return (
+            [*map(str.strip, node.value.split(","))] if re.fullmatch(r"[\w, ]+", node.value) else []
+        )
+    return names_in(node)
 
 
 def _mean(labels: set[str], inner: list[DocumentNode]) -> bool:

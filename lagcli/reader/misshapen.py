@@ -410,6 +410,17 @@ def by_key(node: DocumentNode | None) -> dict[str, str]:
     return {key.label: source_of(value) for key, value in getattr(node, "entries", ())}
 
 
+def inner_of(node: DocumentNode | None, first: str) -> dict[str, str]:
+    """The attributes of an entry, of which the `first` may stand alone."""
+    is_bare = not isinstance(node, Mapping) and node is not None and not node.is_empty
+    return {first: source_of(node)} if is_bare and node is not None else by_key(node)
+
+
+def as_flow(parts: dict[str, str]) -> str:
+    """`{value: 1, unit: kg}`."""
+    return f"{{{', '.join(map(': '.join, parts.items()))}}}"
+
+
 def with_entries(given: str, added: str) -> str:
     """`{m, k: 2}` for the section `[m]` and the entry `k: 2`; nothing for a long one or none."""
     inner = " ".join(given[1:-1].split())

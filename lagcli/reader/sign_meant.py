@@ -9,7 +9,7 @@ from typing import get_args
 
 from lagcli.problem_data import Assumption
 from lagcli.reader.habits import SIGNS, habits, letters, number_and_unit, spellings
-from lagcli.reader.misshapen import RANGE, source_of, values_in
+from lagcli.reader.misshapen import RANGE, by_key, source_of, texts_of, values_in
 from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.regex import regex
 
@@ -109,3 +109,17 @@ def range_meant(relation: str, value: DocumentNode, what: str, given: Collection
     if sign:
         return hint
     return _OF_PARAMETER if is_parameter else f"{hint}: a coordinate has no range"
+
+
+def signs_of(node: DocumentNode) -> dict[str, str]:
+    """`{m: positive, k: positive}` for `m > 0, k > 0` and `{m: positive, k: "> 0"}`; or nothing."""
+    found = {name: sign_meant(said.strip("'\"")) for name, said in by_key(node).items()}
+    for text in texts_of(node) if not found else ():
+        names: list[str] = []
+        for part in re.split(r"\s*(?:[,;]|&&|∧|\band\b)\s*", text):  # m, k > 0
+            each = re.fullmatch(r"([^\W\d]\w*)\s*(.*)", part)
+            names += [each[1]] if each else []
+            if each and each[2]:
+                found |= dict.fromkeys(names, sign_meant(each[2]))
+                names = []
+    return found if all(found.values()) else {}

@@ -27,9 +27,11 @@ from lagcli.reader.headings import SECTIONS
 from lagcli.reader.misshapen import (
     ALREADY_FOUND,
     FOUND,
+    as_flow,
     by_key,
     difference,
     entries_of,
+    inner_of,
     key_by_shape,
     range_end,
     source_of,
@@ -37,11 +39,11 @@ from lagcli.reader.misshapen import (
     values_in,
     values_of,
 )
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, names_in
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, names_in, nodes_in
 from lagcli.reader.potential_meant import GRAVITY, potential_meant
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import Scope
-from lagcli.reader.sign_meant import ASSUMPTIONS, range_meant
+from lagcli.reader.sign_meant import ASSUMPTIONS, range_meant, signs_of
 from lagcli.reader.suggest import closest, did_you_mean
 
 #: The likeness of a key and its misspelling: another word of as many letters is less like it.
@@ -181,7 +183,7 @@ def _meant_of_problem(
         energies = energies_of(texts_of(value), _coordinates(around), constants)
         return None, f"the equations of motion are derived: write {energies}" if energies else hint
     if whole := _of_each(word, value, around):
-        return None, f"each name has its own: write {whole}"
+        return None, whole
     is_state = written and "stop-when" not in hint
     if is_state and (state := _state_meant(key, written, around)):
         return None, state
@@ -257,39 +259,41 @@ _SAID = ("unit", "symbol", "description", "assume")
 
 
 def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
-    """`points: {A: {position: [x, y], mass: m}}` for `masses: {A: m}` beside `points: {A: [x, y]}`.
+    """`in line 1 write points: {A: {position: [x], mass: m}}` for `masses: {A: m}` beside points.
 
     One value is that of the only name, values in a list are those of the names in order.  Nothing
     where the entries are not all names of sections that have the attribute.
     """
-    given = by_key(value)
-    values = [*given.values()] or [source_of(each) for each in getattr(value, "items", [value])]
     known = (*SECTIONS, *_SAID, "restitution")
     attribute = key_meant(word, known) or key_meant(word.removesuffix("s"), known)
     attribute = "mass" if word == "masses" else attribute or ""
+    given = signs_of(value) if attribute == "assume" else by_key(value)
+    values = [*given.values()] or [source_of(each) for each in getattr(value, "items", [value])]
     if attribute == "multiplier" and not all(x.isidentifier() and x not in _WISHES for x in values):
         return ""  # its formula
     named = [SECTIONS.get(attribute, "contacts")]
     named = ["coordinates", "parameters"] if attribute in _SAID else named
     parts, left = [], {*given}
-    sections = ((key.label, node) for key, node in around.entries)
-    for section, node in (each for each in sections if each[0] in named and each[0] in _FIRST):
-        inner = dict.fromkeys(names_in(node), "")
-        for key, each in getattr(node, "entries", ()):
-            alone = f"{_FIRST[section]}: {source_of(each)}" * (not each.is_empty)
-            inner[key.label] = entries_of(each) if isinstance(each, Mapping) else alone
+    sections = ((key, node) for key, node in around.entries)
+    for key, node in (each for each in sections if each[0].label in {*named} & _FIRST.keys()):
+        inner: dict[str, dict[str, str]] = {name: {} for name in names_in(node)}
+        for name, each in getattr(node, "entries", ()):
+            inner[name.label] = inner_of(each, _FIRST[key.label])
         is_in_order = len(values) == 1 or not given
         if len(named) == 1 and is_in_order and len(values) == len(inner):
             given = dict(zip(inner, values, strict=True))
             left = {*given}
         for name in left & {*inner}:
-            inner[name] += ", " * bool(inner[name]) + f"{attribute}: {given[name]}"
-        whole = ", ".join(f"{name}: {{{each}}}" for name, each in inner.items())
-        parts += [f"{section}: {{{whole}}}"] if left & {*inner} else []
+            inner[name][attribute] = given[name]
+        whole = as_flow({name: as_flow(each) for name, each in inner.items()})
+        first, last = key.span.line, max(each.span.line for each in nodes_in(node))
+        lines = f"lines {first} to {last}" if last > first else f"line {first}"
+        parts += [f"in {lines} write {key.label}: {whole}"] * bool(left & {*inner})
         left -= {*inner}
     if attribute == "multiplier" and (left or not parts):
-        return f"constraints: {{name: {{equation: left = right, multiplier: {values[0]}}}}}"
-    return "; ".join(parts) if given and attribute and not left else ""
+        return f"write constraints: {{name: {{equation: left = right, multiplier: {values[0]}}}}}"
+    whole = " and ".join(parts) if given and attribute and not left else ""
+    return f"leave it out, and {whole}" if whole else ""
 
 
 def _coordinates(around: Mapping) -> list[str]:

@@ -214,3 +214,29 @@ def test_a_coupling_is_no_multiplier(term):
     begin = "coordinates: [x]\nparameters: [m, l]\n"
     [found] = read_problem("p.yaml", f"{begin}L: m*x'^2/2 - {term}\n".encode()).diagnostics
     assert found.message.startswith("unknown name")
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_coordinate_as_the_name_of_a_constraint_is_its_left_side(seed):
+    """`y: -x*tan(a)` would mean -x*tan(a) = 0, where the incline y = -x*tan(a) is meant."""
+    draw = random.Random(seed)
+    section, sign = draw.choice([("constraints", "="), ("contacts", ">=")])
+    first = "equation" if section == "constraints" else "gap"
+    prime = draw.choice(["", "'"]) if section == "constraints" else ""
+    law = draw.choice([f"a*x{prime}", "l", "0", "a*sin(t)", f"l - x{prime}", f"-x{prime}*tan(a)"])
+    written, right = law, f"y{prime} {sign} {law}"
+    if draw.random() < 0.4:
+        written, right = (f"{{{first}: {each}, multiplier: N}}" for each in (law, right))
+    whole = f"{FILE.partition('constraints')[0]}{section}: {{y{prime}: {written}}}\n"
+    [found] = read_problem("p.yaml", whole.encode()).diagnostics
+    assert (found.message.split("'", 1)[0], found.hint) == ("the name ", f"write y: {right}")
+    pasted = whole.replace(f"y{prime}: {written}", f"y: {right}")
+    assert read_problem("p.yaml", pasted.encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize(
+    "written", ["y: y - a*x", "y: y - l", "floor: y - l", "y: x = y", "v: a*x"]
+)
+def test_a_constraint_without_equals_sign_is_zero(written):
+    text = f"{FILE.partition('constraints')[0]}constraints: {{{written}}}\n"
+    assert read_problem("p.yaml", text.encode()).diagnostics == ()

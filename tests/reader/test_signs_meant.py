@@ -141,6 +141,46 @@ def test_equal_hints_name_the_keys_of_their_lines():
     assert only.endswith("write 1; in lines 4, 5 the same")
 
 
+@pytest.mark.parametrize("seed", range(16))
+def test_what_is_assumed_of_several_names_stands_with_each(seed):
+    """`parameters: {positive: [m, k]}`, or `assumptions: m > 0, k > 0` on a line of its own."""
+    draw = random.Random(seed)
+    signs = {"m": "positive", "k": draw.choice(["positive", "negative", "nonnegative"])}
+    relation = {"positive": "> 0", "negative": "< 0", "nonnegative": ">= 0"}.get
+    inner = {name: f"assume: {sign}" for name, sign in signs.items()}
+    related = [f"{name} {relation(sign)}" for name, sign in signs.items()]
+    by_sign = {sign: [x for x in signs if signs[x] == sign] for sign in signs.values()}
+    listed = [f"{sign}: [{', '.join(names)}]" for sign, names in by_sign.items()]
+    plain = [f"{sign}: {', '.join(names)}" for sign, names in by_sign.items()]
+    written, line = draw.choice(
+        [
+            (text(parameters=f"{{{', '.join(listed)}}}"), ""),
+            (text(parameters="".join(f"\n  {each}" for each in plain)), ""),
+            (text(parameters="[m, k]") + f"assumptions: {', '.join(related)}\n", "parameters: "),
+            (text(parameters="[m, k]") + f"assume: [{', '.join(related)}]\n", "parameters: "),
+            (text(parameters="[m, k]") + f"assumptions: {signs}\n".replace("'", ""), "parameters: "),
+            (
+                text(parameters="{m: 2, k: {value: 1, assume: positive}}")
+                + f"assumption: {signs}\n".replace("'", ""),
+                "parameters: ",
+            ),
+        ]
+    )  # fmt: skip
+    if "value: 1" in written:
+        inner = {"m": f"value: 2, {inner['m']}", "k": f"value: 1, {inner['k']}"}
+    names = [name for names in by_sign.values() for name in names] if not line else [*signs]
+    whole = ", ".join(f"{name}: {{{inner[name]}}}" for name in names)
+    [only] = messages(written)
+    assert only.endswith(f"write {line}{{{whole}}}")
+    if "value" not in written:
+        assert messages(text(parameters=f"{{{whole}}}")) == []
+
+
+def test_an_attribute_beside_a_heading_is_that_of_all_its_names():
+    [only] = messages(text(parameters="{names: [m, k], assume: positive}"))
+    assert only.endswith("write {m: {assume: positive}, k: {assume: positive}}")
+
+
 PROSE = "A mass on a spring"
 
 
