@@ -12,38 +12,36 @@ from lagcli.reader.expressions import signed_terms
 def energies_of(
     equations: Sequence[str], coordinates: Collection[str], constants: Collection[str]
 ) -> str:
-    """`T: m*x'^2/2, V: k*x^2/2` for `m*x'' + k*x = 0`; nothing for what is not linear.
+    """`T: m*x'^2/2; V: k*x^2/2` for `m*x'' + k*x = 0`; nothing without one q'' in each equation.
 
-    Each equation is that of one coordinate: a*q'' + c*q' + k*q = Q(t) with constants.
+    Each equation is that of one coordinate, a*q'' + c*q' + k*q = Q, with constants a, c and k and
+    a force Q of whatever is left.
     """
     parts: dict[str, list[str]] = {"T": [], "V": [], "dissipation": []}
     keys = {"''": ("T", "'"), "'": ("dissipation", "'"), "": ("V", "")}
     forces: dict[str, str] = {}
-    known = {*constants, *FUNCTIONS, "t", "pi"}
+    known = {*constants, *coordinates, *FUNCTIONS, "t", "pi"}
     for text in equations:
         left, _, right = text.partition("=")
-        own = {*re.findall(r"[^\W\d]\w*", text)} & {*coordinates}
-        terms = [*signed_terms(left), *((not minus, each) for minus, each in signed_terms(right))]
-        if len(own) != 1 or own & forces.keys() or not (signed_terms(left) and signed_terms(right)):
+        own = {*re.findall(r"([^\W\d]\w*)''", text)} & {*coordinates} - forces.keys()
+        sides = signed_terms(left), signed_terms(right)
+        words = {*re.findall(r"[^\W\d]\w*", text)}
+        if len(own) != 1 or text.count("''") != 1 or not (all(sides) and words <= known):
             return ""
-        q, force, masses = own.pop(), [], len(parts["T"])
-        for is_negative, term in terms:  # on the left side
-            moving = re.fullmatch(
-                rf"((?:[\w.^]+[*/])*(?<!/))({q})('{{0,2}})((?:[*/][\w.^]+)*)", term
-            )
-            words = re.findall(r"[^\W\d]\w*", term)
-            if moving:
-                words.remove(q)
+        q, force = own.pop(), []
+        linear = rf"((?:[\w.^]+[*/])*|\(.*\)\*)(?<!/)({q})('{{0,2}})((?:[*/][\w.^]+)*)"
+        for is_negative, term in [*sides[0], *((not minus, each) for minus, each in sides[1])]:
+            moving = re.fullmatch(linear, term)  # on the left side
+            factors = f"{moving[1]} {moving[4]}" if moving else ""
+            if moving and {*re.findall(r"[^\W\d]\w*", factors)} <= {*constants}:
                 key, prime = keys[moving[3]]
                 if key == "T" and is_negative:
                     return ""
                 parts[key].append(f"{'-' * is_negative}{moving[1]}{q}{prime}^2{moving[4]}/2")
+            elif "''" in term:
+                return ""
             elif term != "0":
                 force.append("-" * (not is_negative) + term)
-            if not {*words} <= ({*constants} if moving else known):
-                return ""
-        if len(parts["T"]) == masses:
-            return ""
         forces[q] = " + ".join(force).replace("+ -", "- ")
     lines = [f"{key}: {' + '.join(terms)}" for key, terms in parts.items() if terms]
     driven = ", ".join(f"{q}: {force}" for q, force in forces.items() if force)

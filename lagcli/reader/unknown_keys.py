@@ -55,6 +55,7 @@ _WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
 _NOT = frozenset({"no", "false", "off", "0"})
 #: The number of a state.
 _STATE = regex(r"(?:[-+*/\d.() ]|pi|e(?=[-+\d]))+")
+_OF_ENERGY = frozenset("T V L H forces dissipation points".split())
 _DEFINED = "a formula with a name stands under definitions"
 _MANUAL = "leave it out, or see lagcli help problem-format"
 
@@ -178,9 +179,11 @@ def _meant_of_problem(
         command = f'an option, not a key: lagcli simulate FILE --show "{",".join(shown)}"'
         return None, command if all(shown) and shown else hint
     given = {k.label: v for k, v in around.entries}
-    if hint == DERIVED and not given.keys() & {"T", "V", "L", "H", "forces", "dissipation"}:
-        constants = names_in(given.get("parameters"))
-        energies = energies_of(texts_of(value), _coordinates(around), constants)
+    solved = word.casefold() == "accelerations"
+    if (hint == DERIVED or solved) and not given.keys() & _OF_ENERGY:
+        constants, laws = names_in(given.get("parameters")), by_key(value).items()
+        equations = texts_of(value) or [f"{q}'' = {x}" if solved else x for q, x in laws]
+        energies = energies_of(equations, _coordinates(around), constants)
         return None, f"the equations of motion are derived: write {energies}" if energies else hint
     if whole := _of_each(word, value, around):
         return None, whole
