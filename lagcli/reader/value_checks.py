@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from fractions import Fraction
 from functools import partial
 
@@ -30,6 +31,7 @@ from lagcli.expression import (
 )
 from lagcli.problem_data import Problem
 from lagcli.reader.constants import rational_value
+from lagcli.reader.counted_twice import counted_twice
 from lagcli.reader.degrees_meant import degrees_meant
 from lagcli.reader.file_reader import FileReader
 from lagcli.reader.foreign.words import Vocabulary, momentum_meant, rate_meant
@@ -70,6 +72,8 @@ def slips(problem: Problem) -> list[Diagnostic]:
     coordinates = tuple(x.name for x in problem.coordinates)
     found += degrees_meant(problem, _known(problem))
     found += friction_slips(problem.forces, coordinates, signs, problem.source)
+    with suppress(KeyError, ArithmeticError, ValueError):  # a function without a formula
+        found += counted_twice(problem)
     energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
     roots = (n for formula in energies if formula is not None for n in walk(formula))
     for node in roots:
