@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from itertools import product
 from random import Random
@@ -60,7 +61,8 @@ def counted_twice(problem: Problem) -> Iterator[Diagnostic]:
         for (forces, force), (slope, energy) in product(parts, slopes):
             if _opposite(forces, slope):
                 message = "this force acts twice: it follows from V as well"
-                hint = f"leave it out, or {written(energy.span)} in V"
+                term = re.sub(r"^([-−])\s+", r"\1", written(energy.span))
+                hint = f"leave it out, or {term} in V"
                 yield Diagnostic(message, force.span, hint, severity="warning")
                 break
 

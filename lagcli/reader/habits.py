@@ -153,8 +153,11 @@ def key_of_stem(word: str, known: tuple[str, ...]) -> str | None:
     return found[0] if found and found[0] in known else None
 
 
-def colon_advice(line: str) -> str:
-    """`write V: k*x` for a line such as `V k*x`, `V = k*x`, `V:k*x` or `V：k*x`."""
+def colon_advice(line: str, around: str = "") -> str:
+    """`write V: k*x` for a line such as `V k*x`, `V = k*x`, `V:k*x` or `V：k*x`.
+
+    Words are a comment, or the title where they begin a text that has none.
+    """
     found = re.match(
         r"\s*([^\W\d]\w*)(?:\s*(?:<-|←|[-=]>|→|[=:]?[=:：])\s*(?=[^+*/^<>])|\s+(?![-+*/^<>]))(.+)",
         line,
@@ -165,6 +168,11 @@ def colon_advice(line: str) -> str:
     for pattern, advice in habits()["begins"]:
         if begun := re.match(pattern, line):
             return begun.expand(advice)
+    if _is_prose(line):
+        begins = re.match(rf"(?:\s*#.*\n|\s*\n)*{re.escape(line)}\n", around)
+        is_title = begins and " " in line.strip() and not re.search("^title:", around, re.MULTILINE)
+        written = line.strip()
+        return f"write title: {written}" if is_title else f"a comment begins with '#': # {written}"
     if "''" in line:
         return DERIVED
     if found:
@@ -180,14 +188,18 @@ def colon_advice(line: str) -> str:
         return f"write {found[1]}: {value}"
     if re.search(r"[\w)][*/^+-]", line):
         return f"write L: {line.strip()}"
-    if (
-        re.fullmatch(r"\s*[^\W\d]\w*(?:\s+[^\W\d]\w*)*\s*", line)
-        and key_meant(line.strip(), KEYS) is None
-    ):
-        return f"a heading is a comment, which begins with '#': # {line.strip()}"
     if line.strip() in MAPS:
         return f"write {line.strip()}: with its entries below it"
     return f"write {line.strip() or 'key'}: value"
+
+
+def _is_prose(line: str) -> bool:
+    """Whether a line is one word, or words most of which are long, and begins with no key."""
+    words = re.findall(r"[^\W\d_]+", line)
+    begun = (" ".join(words[:k]) for k in (1, 2))
+    are_words = re.fullmatch(r"\s*[^\W\d]\w*(?:[ ,-]+\w+)*[.!]?\s*", line)
+    is_long = len(words) == 1 or sum(len(each) > 2 for each in words) > 1
+    return bool(are_words) and is_long and not any(key_meant(each, KEYS) for each in begun)
 
 
 def is_constant(word: str, value: str) -> bool:

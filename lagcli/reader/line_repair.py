@@ -47,7 +47,8 @@ _TWO_KEYS = (
 _NO_LINE = regex(
     r"this line is none of the file; (?!.*(?:write |```)).*"
     r"|'-' is no value; .*"
-    r"|(?:a ':' is missing behind|a key without) .*; leave it out: a problem has keys with .*"
+    r"|(?:a ':' is missing behind|a key without) .*; "
+    r"(?:leave it out: a problem has keys with|write title:|a comment begins with '#':) .*"
 )
 _PAIRS = {"[": "]", "{": "}", '"': '"', "'": "'"}
 #: By what was added at the end of a line.
@@ -261,7 +262,7 @@ def all_mistakes(
 
 
 def _left_out(text: str, mistake: Diagnostic) -> _Repair | None:
-    """The file without a line that is none of it; None for other mistakes."""
+    """The file without a line that is none of it, or is its title; None for other mistakes."""
     lines, place = text.split("\n"), mistake.span.line - 1
     if not re.search(r"^coordinates:", text, re.MULTILINE) or not _NO_LINE.fullmatch(
         f"{mistake.message}; {mistake.hint}"
@@ -269,7 +270,8 @@ def _left_out(text: str, mistake: Diagnostic) -> _Repair | None:
         return None
     if lines[place].lstrip().startswith("/*") or not any(map(str.strip, lines[place + 1 :])):
         return None
-    lines[place] = ""
+    named = re.fullmatch("write (title: .*)", mistake.hint)
+    lines[place] = named[1] if named else ""
     return _Repair(mistake, "\n".join(lines), str)
 
 

@@ -213,7 +213,8 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
             end = text.line_starts[place] + len(lines[place])
             missing = "blank" if lines[place][above.end() :].startswith(":") else "':'"
             message = f"a {missing} is missing behind '{above['key'].split()[0]}'"
-            return Diagnostic(message, text.span(start, end), colon_advice(lines[place]))
+            hint = colon_advice(lines[place], text.source.text)
+            return Diagnostic(message, text.span(start, end), hint)
     span = text.span(offset, offset + 1)
     if re.search(r"\S\s+\?\s+\S|:\s+if\s", lines[line - 1]):
         value = lines[line - 1].partition(":")[2].strip()

@@ -549,7 +549,10 @@ OTHERS = [
     (text(observables="[angular momentum]"), "write {A: x*p_x}"),
     (text(unit_system="SI"), "leave it out: a unit stands with its name, m: {unit: kg}"),
     (text(damping_ratio="0.05"), "dissipation: c*x'^2/2"),
-    ("Energy\n" + text(), "a heading is a comment, which begins with '#': # Energy"),
+    ("Energy\n" + text(), "a comment begins with '#': # Energy"),
+    (text() + "Energies of the bob\nfind: {}\n", "a comment begins with '#': # Energies of the bob"),
+    ("Mass on a spring\n" + text(), "write title: Mass on a spring"),
+    ("# Exercise 3\n\nMass on a spring, week 4\n" + text(), "write title: Mass on a spring, week 4"),
 ]  # fmt: skip
 
 
