@@ -122,6 +122,9 @@ def _apart(problem: Problem, contact: Contact, given: Values) -> Diagnostic | No
     apart = _residual(turned, given)
     if written and apart is not None and apart[0] >= 0:
         hint = f"write {written[2]} - {written[1]} >= {written[3]}: {hint}"
+    elif isinstance(contact.equation.left, Name) and contact.equation.left in problem.initial:
+        at = problem.initial[contact.equation.left].span  # y >= R
+        hint = f"start where {line}: {hint}"
     return Diagnostic(message, at, hint, severity="warning")
 
 

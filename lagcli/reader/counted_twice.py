@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator
 from itertools import product
 from random import Random
@@ -56,13 +55,12 @@ def counted_twice(problem: Problem) -> Iterator[Diagnostic]:
         largest = max((force for _, force in axes), key=lambda force: len(name_nodes(force)))
         acting.append([(along, largest)])
     slopes = [({x: rates(energy, x) for x in names}, energy) for energy in energies]
-    written = SourceText.of(problem.source).written
+    written = SourceText.of(problem.source).written_sum
     for parts in acting:
         for (forces, force), (slope, energy) in product(parts, slopes):
             if _opposite(forces, slope):
                 message = "this force acts twice: it follows from V as well"
-                term = re.sub(r"^([-−])\s+", r"\1", written(energy.span))
-                hint = f"leave it out, or {term} in V"
+                hint = f"leave it out, or {written([energy.span])} in V"
                 yield Diagnostic(message, force.span, hint, severity="warning")
                 break
 

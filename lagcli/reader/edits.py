@@ -111,7 +111,9 @@ def _elsewhere(name: str, edit: Edit, text: str) -> list[Edit]:
     better = edit.written.rstrip("'")
     behind = r"(?![\w'])" if name.endswith("'") else r"(?!\w)"
     form = rf"(?<!\w){re.escape(name)}{behind}"
+    comments = {k for m in re.finditer(r"(?m:^|\s)#.*", text) for k in range(*m.span())}
     others = re.finditer(form, text) if better.isidentifier() else ()
+    others = (m for m in others if m.start() not in comments)
     return [Edit(m.start(), m.end(), better) for m in others if m.start() != edit.start]
 
 

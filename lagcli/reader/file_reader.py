@@ -468,8 +468,9 @@ class FileReader:
             related = ((self.scope.spans[name], f"first declared here, as a {taken}"),)
             hint = "leave out one of them" if taken == kind else "give one of them another name"
             message = f"'{name}' is declared twice"
-            if taken == "coordinate" and kind == "parameter" and not self._has_rate(name):
+            if taken == "coordinate" and kind == "parameter":
                 hint = f"leave it out of the coordinates: {name}' occurs nowhere"
+                hint = "leave it out: it is a coordinate" if self._has_rate(name) else hint
             if kind in ("multiplier", "contact force"):
                 message = f"'{name}', its {kind}, is declared twice"
                 hint += ", this one by the key multiplier"

@@ -423,7 +423,9 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
             is_below = re.search(r"\bnot?\b|nonpos|non[- _]pos|\bor\b", text.value)
             hint = "" if is_below else did_you_mean(text.value, ASSUMPTIONS)
             hint = f"write {sign}" if sign else hint
-            if not sign and {*text.value.casefold().split()} <= NEUTRAL:
+            if text.value == "integer":
+                hint = "in place of assume write integer: yes"
+            elif not sign and {*text.value.casefold().split()} <= NEUTRAL:
                 hint = "leave it out"
             hint = hint or f"write {''.join(meant) or 'one of ' + ', '.join(ASSUMPTIONS)}"
             file.error(f"unknown assumption '{text.value}'", text.span, hint)

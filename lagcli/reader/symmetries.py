@@ -8,7 +8,7 @@ from lagcli.expression import Expression
 from lagcli.problem_data import Symmetry
 from lagcli.reader.file_reader import FileReader
 from lagcli.reader.habits import is_angle, name_meant
-from lagcli.reader.misshapen import as_list, source_of, texts_of
+from lagcli.reader.misshapen import as_flow, as_list, by_key, source_of, texts_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import STATE
@@ -33,6 +33,11 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
             said = f"{source_of(before)}, {key.label}"
             value = Scalar(key.text, before.start, key.end, said, "", True)
             entries[-1] = (name, value)
+        elif key.label == "gauge" and isinstance(value, Scalar) and entries:
+            name, before = entries[-1]
+            parts = by_key(before) | {key.label: source_of(value)}
+            hint = f"leave it out, and write {name.label}: {as_flow(parts)}"
+            file.error("the gauge stands inside of its symmetry", key.span, hint)
         else:
             entries.append((key, value))
     return tuple(_symmetry(file, key, value) for key, value in entries)

@@ -50,6 +50,11 @@ class SourceText(NamedTuple):
         """What the file has in a stretch."""
         return self.source.text[slice(*self.offsets(span))]
 
+    def written_sum(self, spans: Iterable[Span]) -> str:
+        """The texts of terms as one sum."""
+        whole = " + ".join(map(self.written, spans)).replace("+ -", "- ")
+        return f"-{whole[1:].lstrip()}" if whole[:1] == "-" else whole
+
     def span(self, start: int, end: int) -> Span:
         """The stretch from offset `start` up to, not including, `end`."""
         return Span(*self.position(start), *self.position(end))

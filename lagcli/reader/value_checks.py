@@ -6,7 +6,7 @@ Values are followed exactly where they are rational; others are looked at when t
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from fractions import Fraction
 from functools import partial
@@ -61,9 +61,13 @@ def slips(problem: Problem) -> list[Diagnostic]:
         hint = "a kinetic energy is positive, as in m*x'^2/2"
         found.append(_warning("T is negative", kinetic.span, hint))
     found += [] if kinetic is None else _turned_terms(kinetic)
+    if lost is not None and not problem.definitions and _parity(lost, {}) != -1:
+        names = {x.name for x in problem.coordinates}
+        found += _without_square("the dissipation", lost, names, "c*{0}'^2/2")
     if lost is not None and plain_sign(lost, signs, problem.definitions) == -1:
         hint = f"it drives the motion; {FRICTION}"
         found.append(_warning("the dissipation is negative", lost.span, hint))
+    found += _new_places(problem)
     for term in terms_of(problem.potential or ZERO):
         known = all(node.primes or node.name in signs for node in name_nodes(term))
         if known and has_velocity(term):
@@ -83,6 +87,21 @@ def slips(problem: Problem) -> list[Diagnostic]:
             hint = "a root is sqrt(x), or x^(1/2) with parentheses"
             found.append(_warning("a power of 1 is the base itself", last.span, hint))
     return found
+
+
+def _new_places(problem: Problem) -> Iterator[Diagnostic]:
+    """A warning for the change x + a of x, which is its new place: the change is a."""
+    constants = {one.name for one in problem.parameters}
+    text = SourceText.of(problem.source)
+    for one in problem.symmetries:
+        for x, change in (*one.changes.items(), ("t", one.time or ZERO)):
+            rest = [term for term in terms_of(change) if term != Name(x)]
+            is_one_less = len(rest) + 1 == len(terms_of(change))
+            if rest and is_one_less and {node.name for node in name_nodes(*rest)} <= constants:
+                step = text.written_sum(term.span for term in rest)
+                message = f"'{one.name}' changes {x} by {text.written(change.span)}"
+                hint = f"write {step}: a symmetry has the change, not the new {x}"
+                yield _warning(message, change.span, hint)
 
 
 def _turned_terms(kinetic: Expression) -> Iterator[Diagnostic]:
@@ -137,40 +156,53 @@ def _without_inertia(problem: Problem, kinetic: Expression) -> list[Diagnostic]:
         found.append(
             _warning(missing(one.name), one.span, f"no inertia: its velocity is {one.name}'")
         )
-    if not problem.definitions:
-        found += _in_products_alone(kinetic, moving)
+    if not problem.definitions and _parity(kinetic, {}) != -1:
+        coordinates = {x.name for x in problem.coordinates}
+        found += _without_square("T", kinetic, coordinates, "m*{0}'^2/2")
     return found
 
 
-def _in_products_alone(kinetic: Expression, moving: set[str]) -> Iterator[Diagnostic]:
-    """A warning for each velocity that T has beside others alone, as in `m*x'*y'`.
+def _without_square(
+    key: str, formula: Expression, coordinates: set[str], usual: str
+) -> Iterator[Diagnostic]:
+    """A warning for each velocity that is linear, as in `x'^2 + y'`, or beside others alone.
 
-    Where the others are 0, such a T is 0 for any value of it, and negative close by.
+    Where the others are 0, a T of `m*x'*y'` is 0 for any value of it, and negative close by.
     """
-    for name in sorted(moving):
-        node = next(one for one in name_nodes(kinetic) if one.name == name and one.primes)
-        if folded(kinetic, partial(_degree_alone, name)) != 1:
-            hint = f"the square of {name}' is missing, as in m*{name}'^2/2"
-            message = f"T has {name}' in products with other velocities alone"
-            yield _warning(message, node.span, hint)
+    first = {node.name: node for node in reversed(name_nodes(formula)) if node.primes}
+    for name, node in sorted(first.items()):
+        degree = folded(formula, partial(_degree_alone, name, coordinates)) or 0
+        if degree < 2 and (key == "T" or degree):
+            where = "without its square" if degree else "in products with other velocities alone"
+            hint = f"the square of {name}' is missing, as in {usual.format(name)}"
+            yield _warning(f"{key} has {name}' {where}", node.span, hint)
 
 
-def _degree_alone(name: str, node: Expression, parts: list[int | None]) -> int | None:
-    """Whether a velocity occurs where all others are 0: 1, else 0; None where the formula is 0.
+def _degree_alone(
+    name: str, coordinates: set[str], node: Expression, parts: list[float | None]
+) -> float | None:
+    """The degree in a velocity and coordinates where all other velocities are 0; None for 0.
 
-    A sum occurs with one of its terms, a product is 0 with one of its factors.
+    Functions and roots are of second degree, as sqrt(x'^2 + y'^2) and cos(x).
     """
+    degrees = [each for each in parts if each is not None]
     match node:
         case Name(primes=primes) if primes:
             return 1 if node.name == name else None
+        case Name():
+            return float(node.name in coordinates)
         case Sum():
-            return max((each for each in parts if each is not None), default=None)
+            return max(degrees, default=None)
         case Product() | Power() | Quotient() | Negative() if None in parts[:1] or (
             isinstance(node, Product) and None in parts
         ):
             return None
+        case Power(exponent=Number(value=power)) if power.denominator == 1 and power > 0:
+            return degrees[0] * float(power)
+        case Call() | Power():
+            return 2 * float(any(degrees))
         case _:
-            return max((each or 0 for each in parts), default=0)
+            return sum(degrees)
 
 
 def check_values(file: FileReader, problem: Problem) -> None:
@@ -270,13 +302,9 @@ def _check_potential(file: FileReader, problem: Problem) -> None:
     wrong = [each for each in terms if not isinstance(each, Negative) and _is_misplaced(file, each)]
     if not wrong:
         return
-    text = SourceText.of(problem.source)
-
-    def written(parts: Iterable[Expression]) -> str:
-        each = (text.written(part.span) for part in parts)
-        return " + ".join(each).replace("+ -", "- ")
-
-    rest, moved = written(term for term in terms if term not in wrong), written(wrong)
+    written = SourceText.of(problem.source).written_sum
+    rest = written(term.span for term in terms if term not in wrong)
+    moved = written(term.span for term in wrong)
     sums = [node for term in wrong for node in walk(term) if isinstance(node, Sum)]
     rates = {node.name for term in wrong for node in name_nodes(term) if node.primes}
     if any(len({*map(has_velocity, each.terms)}) > 1 for each in sums):
@@ -284,7 +312,7 @@ def _check_potential(file: FileReader, problem: Problem) -> None:
     elif len(rates) == 1 and any(_parity(term, problem.definitions) == -1 for term in wrong):
         hint = f"a law of a force: write forces: {{{''.join(rates)}: -{moved}}}"
     else:
-        given = f"{written([problem.dissipation])} + " if problem.dissipation else ""
+        given = f"{written([problem.dissipation.span])} + " if problem.dissipation else ""
         hint = f"friction has no potential: write dissipation: {given}{moved}"
         hint += f", and V: {rest}" if rest else " in place of V"
     file.error("a term of V is not linear in the velocities", wrong[0].span, hint)

@@ -7,6 +7,7 @@ from fractions import Fraction
 import pytest
 
 from lagcli.reader import read_problem
+from lagcli.values import off_constraints
 
 BEGIN = "coordinates: [x, theta]\nparameters: {m: 1, k: 2}\nT: m*(x'^2 + theta'^2)/2\n"
 #: How others write the first and the second derivative.
@@ -236,3 +237,39 @@ def test_names_of_a_list_stay_beside_an_entry_with_a_value():
     begin = "coordinates: [x]\nparameters: [m, k]\nT: m*x'^2/2\nV: k*x^2/2\n"
     [only] = read_problem("p.yaml", f"{begin}c: 3\n".encode()).diagnostics
     assert only.hint.endswith("write all as parameters: {m, k, c: 3}")
+
+
+def test_the_force_on_a_point_has_the_key_force():
+    points = "points: {P: {position: [x, theta], mass: m, F: [k, 0]}}\n"
+    assert only_hint(points) == "the key is force"
+    assert read(points.replace("F:", "force:")).diagnostics == ()
+
+
+def test_a_coordinate_is_not_a_parameter_as_well():
+    both = BEGIN.replace("k: 2", "k: 2, theta: {unit: rad}").encode()
+    [found] = read_problem("p.yaml", both).diagnostics
+    assert (found.message, found.hint[:13]) == ("'theta' is declared twice", "leave it out:")
+
+
+def test_an_integer_has_an_attribute_of_its_own():
+    written = BEGIN.replace("k: 2", "n: {assume: integer}")
+    [found] = read_problem("p.yaml", written.encode()).diagnostics
+    assert found.hint == "in place of assume write integer: yes"
+    assert read_problem(
+        "p.yaml", written.replace("assume: integer", "integer: yes").encode()
+    ).problem
+
+
+@pytest.mark.parametrize("comment", ["# k' is stiff", "# with k' and m"])
+def test_a_name_that_is_none_is_not_looked_for_in_comments(comment):
+    written = f"{comment}\n" + BEGIN.replace("k: 2", "k: 2, k': 3") + "V: k*x^2 + k'*theta^2 # k'\n"
+    [found] = read_problem("p.yaml", written.encode()).diagnostics
+    assert found.hint == "write k2: a prime is a velocity"
+    assert [place.line for place, _ in found.related] == [5]
+
+
+def test_a_start_inside_of_a_wall_is_shown_where_it_is_written():
+    contact = "contacts: {wall: {gap: x >= k, restitution: 0.5}}\ninitial: {theta: 0, x: 1}\n"
+    [found] = off_constraints(read(contact).checked())
+    assert (found.span.line, found.span.column) == (5, 24)
+    assert found.hint.startswith("start where x >= k: ")

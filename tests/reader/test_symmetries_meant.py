@@ -57,3 +57,25 @@ def test_pairs_of_coordinates_are_read_as_their_transformations():
     assert "continuous symmetries" in found
     [found] = messages(text(**FILE, symmetries="{p: '(x, y) -> (x + s*y, y - s*x)'}"))
     assert found.endswith("write {x: y, y: -x}")
+
+
+@pytest.mark.parametrize("symmetry", ["boost: {x: t}", "rise: {x: t, y: 2*t}"])
+@pytest.mark.parametrize("gauge", ["m*x", "2*m*y + k"])
+def test_a_gauge_beside_its_symmetry_belongs_in_it(symmetry, gauge):
+    [found] = messages(text(**FILE, symmetries=f"{{{symmetry}, gauge: {gauge}}}"))
+    right = f"{symmetry[:-1]}, gauge: {gauge}}}"
+    assert found.endswith(f"leave it out, and write {right}")
+    assert messages(text(**FILE, symmetries=f"{{{right}}}")) == []
+
+
+@pytest.mark.parametrize("step", ["k", "- k", "m*k", "- 2*k + m", "1"])
+@pytest.mark.parametrize("name", ["x", "y", "t"])
+def test_the_change_is_not_the_new_place(name, step):
+    sign = "" if step[0] == "-" else "+ "
+    [found] = messages(text(**FILE, symmetries=f"{{shift: {{{name}: {name} {sign}{step}}}}}"))
+    assert f"; write {step.replace('- ', '-', 1)}: a symmetry has the change" in found
+
+
+@pytest.mark.parametrize("change", ["{x: x}", "{x: x + y}", "{x: 2*x + k}", "{x: k}", "{x: y - k}"])
+def test_other_changes_are_read(change):
+    assert messages(text(**FILE, symmetries=f"{{name: {change}}}")) == []
