@@ -75,13 +75,7 @@ class Automaton:
         self._look = look
 
     def parse(self, text: str, start: str) -> Any:
-        """What the builder makes of a text.
-
-        Raises
-        ------
-        Unexpected
-            Where the text is not of the language.
-        """
+        """What the builder makes of a text; `Unexpected` where it is not of the language."""
         states: list[int] = [self._starts[start]]
         values: list[Any] = []
         for token in self._look(self.tokens(text)):

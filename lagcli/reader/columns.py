@@ -36,13 +36,7 @@ _ENERGY = "energy"
 
 
 def read_columns(problem: Problem, words: Sequence[str]) -> list[Column]:
-    """The columns of `--show a,b,c`, the time first.
-
-    Raises
-    ------
-    ProblemError
-        At the first column that is no expression of the problem.
-    """
+    """The columns of `--show a,b,c`, the time first; `ProblemError` at the first that is none."""
     scope = scope_of(problem)
     shown = {"t": Column("t", None)}
     for word in pieces_of(words):

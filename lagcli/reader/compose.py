@@ -46,20 +46,10 @@ _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 def compose(text: SourceText) -> tuple[DocumentNode, list[Diagnostic]]:
-    """The one document of a file.
+    """The one document of a file, and mistakes after which the rest of it can still be read.
 
-    Returns
-    -------
-    root : Node
-        The document.
-    diagnostics : list of Diagnostic
-        Mistakes after which the rest of the file can still be read: duplicate keys, tags,
-        commas that cut a formula in two.
-
-    Raises
-    ------
-    Mistake
-        When there is no document, more than one, or none that YAML can read.
+    These are duplicate keys, tags, commas that cut a formula in two.  `Mistake` when there is no
+    document, more than one, or none that YAML can read.
     """
     if not text.source.text.isascii() and (found := _INDENTED.search(text.source.text)):
         message = f"the blank U+{ord(found[1]):04X} cannot indent"

@@ -45,13 +45,7 @@ def read_comparison(excerpt: Excerpt) -> Inequality:
 
 
 def parse_text(text: str) -> Expression:
-    """Read back one printed expression; any name is allowed.
-
-    Raises
-    ------
-    ProblemError
-        If the text is no expression.
-    """
+    """Read back one printed expression with any names; `ProblemError` if it is none."""
     return _read_back(text, "<expression>", read_expression)
 
 
@@ -76,13 +70,7 @@ def signed_terms(text: str) -> list[tuple[bool, str]]:
 
 
 def parse_equation_text(text: str) -> Equation:
-    """Read back one printed equation; any name is allowed.
-
-    Raises
-    ------
-    ProblemError
-        If the text is no equation.
-    """
+    """Read back one printed equation with any names; `ProblemError` if it is none."""
     return _read_back(text, "<equation>", read_equation)
 
 

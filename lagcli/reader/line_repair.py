@@ -231,14 +231,7 @@ def all_mistakes(
 ) -> tuple[Diagnostic, ...]:
     """The mistakes of a file that is not YAML: of its lines, and of the rest.
 
-    Parameters
-    ----------
-    text
-        The file.
-    mistakes
-        What YAML complains about.
-    fully, read
-        Whether YAML reads a text, and the mistakes in it, with those that others hide or without.
+    Whether YAML reads a text is known with the mistakes that others hide (`fully`), or without.
     """
     found: list[Diagnostic] = []
     cuts: list[tuple[int, int]] = []  # lines that are two, and where the second begins

@@ -220,17 +220,9 @@ def mended(
 ) -> list[Diagnostic]:
     """The mistakes of a file and those that they hide, with hints that lead to a file that is read.
 
-    Parameters
-    ----------
-    source
-        The file.
-    read
-        The document of a text, the problem where only dimensions are wrong, and the mistakes;
-        `Mistake` where YAML does not read it.
-    fully
-        The same with the best advice on dimensions, which takes longer.
-    first
-        Whether a mistake is one of those that are mended before others.
+    To read a text gives its document, the problem where only dimensions are wrong, and the
+    mistakes, or raises `Mistake`; `fully` also gives the best advice on dimensions, and takes
+    longer.  What is `first` is mended before others.
     """
     state = _state(source, [*range(len(source.text))], fully)
     if len(source.text) > _LONGEST:

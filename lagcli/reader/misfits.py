@@ -26,12 +26,7 @@ Reading = Callable[[Source], tuple[Problem | None, list[Diagnostic]]]
 def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnostic]:
     """The terms that do not fit, or the one place that explains several of them.
 
-    Parameters
-    ----------
-    problem
-        A problem without other mistakes.
-    read
-        The problem that a text writes, and its mistakes; None where no other text is tried.
+    Where nothing reads a text, no other text of a term is tried.
     """
     if all(quantity.unit is None for quantity in (*problem.coordinates, *problem.parameters)):
         return []

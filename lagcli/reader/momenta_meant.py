@@ -34,14 +34,7 @@ _HALF = regex(r"0\.5|\(\w+/2\)")
 def with_momenta(text: str, kinetic: Expression, source: SourceText) -> str:
     """The text with momenta for velocities; nothing where T mixes velocities or lacks one.
 
-    Parameters
-    ----------
-    text
-        A formula of coordinates and velocities.
-    kinetic
-        T.
-    source
-        The text that the places of T point into.
+    The places of T point into the `source`.
     """
     squares: dict[str, _Factors] = {}
     used = {*re.findall(r"([^\W\d]\w*)'(?!')", text)}

@@ -32,20 +32,9 @@ _ORDERS = ("coordinate", "velocity", "acceleration", "third derivative")
 def name_mistakes(
     expression: Expression, scope: Scope, role: Role, what: str, before: int | None = None
 ) -> Iterator[Diagnostic]:
-    """Every wrong name in an expression.
+    """Every wrong name in an expression that stands at a place, as in "unknown name 'tetha' in V".
 
-    Parameters
-    ----------
-    expression : Expression
-        The expression.
-    scope : Scope
-        The declared names.
-    role : Role
-        What may stand here.
-    what : str
-        The place, as in "unknown name 'tetha' in V".
-    before : int, optional
-        In a definition, its rank: only earlier ones can be used.
+    In a definition only those of a lower rank than `before` can be used.
     """
     times = (isinstance(node, Name) and node.name == "t" for node in walk(expression))
     role = role._replace(driven=any(times))

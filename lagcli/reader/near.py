@@ -59,13 +59,7 @@ class Near:
 
 
 def near(text: str, values: Mapping[str, Near]) -> Near:
-    """The value and the derivative of a formula, by those of its names.
-
-    Raises
-    ------
-    KeyError
-        Where the derivative of a part is not known.
-    """
+    """The value and the derivative of a formula, by those of its names; `KeyError` if not known."""
     formula = formula_or_none(text)
     if formula is None:
         raise KeyError(text)

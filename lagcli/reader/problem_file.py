@@ -61,33 +61,14 @@ class ProblemReading:
     diagnostics: tuple[Diagnostic, ...] = ()
 
     def checked(self) -> Problem:
-        """The problem.
-
-        Raises
-        ------
-        ProblemError
-            With all diagnostics, when there is none.
-        """
+        """The problem; `ProblemError` with all diagnostics, when there is none."""
         if self.problem is None:
             raise ProblemError(self.source, self.diagnostics)
         return self.problem
 
 
 def read_problem(source_name: str, data: bytes) -> ProblemReading:
-    """Read a problem file.
-
-    Parameters
-    ----------
-    source_name : str
-        The file's name as the user knows it; `-` is standard input.
-    data : bytes
-        What is in the file.
-
-    Returns
-    -------
-    Reading
-        The problem and the diagnostics, sorted by their place in the file.
-    """
+    """The problem of a file and the diagnostics, sorted by their place; `-` is standard input."""
     source, diagnostics = decode(source_name, data)
     if diagnostics:
         return ProblemReading(source, None, tuple(diagnostics))

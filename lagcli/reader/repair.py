@@ -85,21 +85,7 @@ def with_whole(
     role: Role,
     read: Callable[[Excerpt], Expression | Equation | Inequality],
 ) -> list[Diagnostic]:
-    """The mistakes of a formula as one, with the whole of it as the reader accepts it.
-
-    Parameters
-    ----------
-    found
-        The mistakes.
-    node
-        The text.
-    what
-        Its place, as in "unknown name 'k' in V".
-    scope, role
-        The names of the file, and what may stand there.
-    read
-        Reads an expression, an equation or a comparison.
-    """
+    """The mistakes of a formula as one, with the whole of it as the reader accepts it."""
     if what in {"T", "L"} and (energy := _energy_meant(found, node, what, scope, role)):
         return [energy]
     of_key = what not in {"T", "V"} and any("is a key and not a name" in x.hint for x in found)

@@ -26,14 +26,7 @@ _PRIMES = str.maketrans("’′", "''")
 
 
 def set_parameters(problem: Problem, settings: Iterable[str]) -> Problem:
-    """The problem with other values of its parameters.
-
-    Parameters
-    ----------
-    problem : Problem
-        The problem; it stays as it is.
-    settings : iterable of str
-        Each `name=value`; a value is a number or an expression of parameters.
+    """The problem with other values of its parameters, each `name=value`.
 
     Raises
     ------
@@ -53,14 +46,7 @@ def set_parameters(problem: Problem, settings: Iterable[str]) -> Problem:
 
 
 def set_state(problem: Problem, settings: Iterable[str]) -> Problem:
-    """The problem with another state at t = 0; what is not named stays as it was.
-
-    Parameters
-    ----------
-    problem : Problem
-        The problem; it stays as it is.
-    settings : iterable of str
-        Each `x=value` or `x'=value`; a value is a number or an expression of parameters.
+    """The problem with another state at t = 0, `x=value` or `x'=value`; the rest stays as it was.
 
     Raises
     ------

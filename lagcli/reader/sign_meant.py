@@ -34,12 +34,7 @@ _OF_PARAMETER = (
 def sign_meant(text: str, relation: str = "") -> str:
     """`positive` for `real, positive`, `> 0`, `m > 1` and `[1, 3]`; nothing for other texts.
 
-    Parameters
-    ----------
-    text
-        An assumption, a relation or a range.
-    relation
-        That of the quantity to the number in the text, where it is a bound.
+    A number that is a bound has a relation to the quantity.
     """
     parts = re.split(r"\s*(?:&&|∧|\band\b|,(?!.*[\])}]))\s*", text)
     if parts[1:]:
@@ -83,16 +78,7 @@ _MIRROR = str.maketrans("<>≤≥", "><≥≤")
 def range_meant(relation: str, value: DocumentNode, what: str, given: Collection[str]) -> str:
     """`write assume: positive` for `r > 0`, `(0, inf]`, `[1, 3]` and the bound `gt: 0`.
 
-    Parameters
-    ----------
-    relation
-        Of the quantity to the value; nothing where the value has it.
-    value
-        A number, a range, a relation or an assumption.
-    what
-        As in "the parameter 'm'".
-    given
-        The keys of the entry.
+    Nothing is the relation of a value that has it; `given` are the keys of the entry.
     """
     written, is_parameter = source_of(value).strip("'\" "), what.startswith("the parameter")
     written = number_and_unit(written)[0]

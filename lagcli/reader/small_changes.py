@@ -41,14 +41,8 @@ def small_change(
 ) -> str:
     """`{x: t}`, the change per unit of the only name that is not known; else nothing.
 
-    Parameters
-    ----------
-    finite
-        What each coordinate becomes, or its change with the parameter as a factor.
-    coordinates, known
-        The names of the file.
-    declared
-        Whether the parameter may be one of the file, where all names are known.
+    The finite transformation is what each coordinate becomes, or its change with the parameter as a
+    factor; this may be `declared`, where all names are known.
     """
     words = {word for text in finite.values() for word in re.findall(r"[^\W\d]\w*", text)}
     unknown = words - {*known, *coordinates, "t", "pi", *FUNCTIONS}

@@ -36,18 +36,9 @@ _ONE_SIGN = "write one sign: each is a problem of its own"
 
 
 def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str) -> Diagnostic:
-    """The sentence for a syntax error.
+    """The sentence for a syntax error of an `expression`, an `equation` or a `comparison`.
 
-    Parameters
-    ----------
-    error : Unexpected
-        What the parser says.
-    tokens : list of Token
-        The tokens up to the first character that begins none.
-    excerpt : Excerpt
-        The text.
-    start : str
-        What it should be: `expression`, `equation` or `comparison`.
+    The tokens are those up to the first character that begins none.
     """
     if not excerpt.value.strip():
         return Diagnostic(f"an empty {start}", excerpt.everything)

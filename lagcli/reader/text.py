@@ -70,13 +70,7 @@ def also_in_lines(numbers: Iterable[int]) -> str:
 def decode(name: str, data: bytes) -> tuple[Source, list[Diagnostic]]:
     """The text of a file: UTF-8, without byte-order mark, lines ended by line feeds.
 
-    Returns
-    -------
-    source : Source
-        The text, cut or patched where it is not acceptable, so that a diagnostic can
-        show the line.
-    diagnostics : list of Diagnostic
-        Empty when the text can be used.
+    Where it is not acceptable it is cut, so that a diagnostic can show the line.
     """
     if len(data) > FILE_BYTES:
         message = f"the file has {len(data):,} bytes, the limit is 1 MiB ({FILE_BYTES:,} bytes)"

@@ -27,18 +27,9 @@ HAPPENINGS = (
 
 @record
 class TrajectoryReader:
-    """Reads the section.
+    """Reads the section; events are about `contacts`, `named` columns are no expressions.
 
-    Attributes
-    ----------
-    file
-        The names and the mistakes.
-    contacts
-        What an event may be about.
-    named
-        Columns that are no expressions.
-    spans
-        Where each expectation stands, which is added to.
+    The places of the expectations are added to `spans`.
     """
 
     file: FileReader

@@ -53,14 +53,8 @@ def once(
 ) -> tuple[Diagnostic, ...]:
     """The mistakes by their place, with one for those that have one cause.
 
-    Parameters
-    ----------
-    mistakes
-        Of one file.
-    sections
-        The lines at which the sections begin, with their names.
-    parameters
-        The list or map of parameters as the file writes it; nothing where it has none.
+    The sections are the lines where they begin, with their names; the parameters are those of the
+    file as it writes them.
     """
     starts = [line for line, _ in sections]
     caused = _one_for_cause(sorted(mistakes, key=lambda each: each.span))

@@ -76,20 +76,9 @@ def unknown_key(
     around: Mapping,
     scope: Scope,
 ) -> UnknownKey:
-    """What is wrong with a key.
+    """What is wrong with a key of the map `around`, which is that of a section with keys `names`.
 
-    Parameters
-    ----------
-    key, value
-        The entry.
-    what
-        The section, as in "the parameter 'm'".
-    names
-        The keys that the section has.
-    around
-        The map in which the entry stands.
-    scope
-        The names of the file; one that cannot be declared for this key is noted as refused.
+    A name that cannot be declared for this key is noted as refused.
     """
     word, written = key.label, value.value if isinstance(value, Scalar) else ""
     if broken := re.fullmatch(r"(\w+)(?<!_)\s*([\[{].*)", word):

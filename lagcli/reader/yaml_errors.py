@@ -16,15 +16,7 @@ from lagcli.reader.text import SourceText
 
 
 def explain(error: Exception, text: SourceText) -> Diagnostic:
-    """A syntax error of YAML as a diagnostic with its place.
-
-    Parameters
-    ----------
-    error : yaml.YAMLError
-        A marked error, or one of the reader's about a character.
-    text : Text
-        The file.
-    """
+    """A syntax error of YAML as a diagnostic with its place."""
     mark: Any = getattr(error, "problem_mark", None)
     problem = str(getattr(error, "problem", None) or getattr(error, "reason", None) or error)
     context = str(getattr(error, "context", None) or "")

@@ -36,10 +36,7 @@ _MOST = 12
 def written_out(text: str, names: Vocabulary) -> str:
     """The text with the terms of each sum over an index in its place.
 
-    Raises
-    ------
-    UnclearText
-        Where the range of an index is neither given nor that of names with it.
+    `UnclearText` where the range of an index is neither given nor that of names with it.
     """
     text = re.sub(r"(?<=_[i-n])_dot\b", "'", text)
     if re.search(r"[Σ∑]|\b[sS]um\b", text):  # m*xi'^2 beside x1

@@ -17,13 +17,7 @@ METHODS = {**dict.fromkeys("diff dt dot d der deriv derivative".split(), 1), "dd
 
 
 def translated(text: str, names: Vocabulary) -> str:
-    """The formula, or the equation, in the notation of a problem file.
-
-    Raises
-    ------
-    UnclearText
-        Where it is not known what is meant.
-    """
+    """The formula, or the equation, in the notation of a problem file; `UnclearText` if unclear."""
     return _Translation(text, names).whole()
 
 

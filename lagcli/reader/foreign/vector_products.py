@@ -44,19 +44,7 @@ _AXES_OF = ("x", "y", "z")
 def vector_product(text: str, coordinates: tuple[str, ...], known: AbstractSet[str]) -> list[str]:
     """The components of `q*(v × B)`: of a product along z alone in a plane, its only one.
 
-    Parameters
-    ----------
-    text
-        What may be a product of two vectors, with a factor.
-    coordinates
-        Those of the file: the product is taken in Cartesian ones.
-    known
-        The names of the file.
-
-    Returns
-    -------
-    list of str
-        Empty where the text is not such a product, or a vector has no known components.
+    It is taken in Cartesian coordinates; empty for other texts, and where a vector is not known.
     """
     has_product = _SIGN.search(text[:_LONGEST])
     found = _CROSS.fullmatch(text.strip()) if has_product and not text[_LONGEST:] else None

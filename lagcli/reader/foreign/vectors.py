@@ -65,21 +65,10 @@ def _directed(text: str, known: Container[str], length: int) -> list[str]:
 
 
 def components(text: str, known: Container[str], length: int = 0) -> list[str]:
-    r"""The components of `a*N.x + b*N.y`, `a i + b j`, `<a, b>`, `l*(a, b)`, `np.array([a, b])`.
+    """The components of `a*N.x + b*N.y`, `a i + b j`, `<a, b>`, `l*(a, b)`, `np.array([a, b])`.
 
-    Parameters
-    ----------
-    text
-        What may be a vector.
-    known
-        The names of the file: none of them is a unit vector.
-    length
-        The number of components, where it is known; those that are not written are 0.
-
-    Returns
-    -------
-    list of str
-        Empty where the text is no vector.
+    Those that are not written are 0 where the `length` is known.  No name that is `known` is a unit
+    vector.  Empty where the text is no vector.
     """
     text = " ".join(text.translate(_HATS).replace("x\u0302", "xhat").split())
     if told := _IN_WORDS.fullmatch(text):
