@@ -13,8 +13,8 @@ from lagcli.expression import Expression, name_nodes, terms_of
 from lagcli.problem_data import Problem
 from lagcli.reader.text import SourceText
 
-#: V of more terms is compared as a whole.
-_MOST = 30
+#: Terms of V times coordinates times definitions; larger problems are not looked at.
+_MOST = 3000
 _STEP = 1e-4
 
 
@@ -40,8 +40,9 @@ def counted_twice(problem: Problem) -> Iterator[Diagnostic]:
         both = zip(values(formula, x, _STEP), values(formula, x, -_STEP), strict=True)
         return [(after - before) / (2 * _STEP) for after, before in both]
 
-    terms = terms_of(potential)
-    energies = [*(terms if 1 < len(terms) <= _MOST else ()), potential]
+    energies = [*terms_of(potential), potential]
+    if len(energies) * len(names) * (1 + len(problem.definitions)) > _MOST:
+        return
     acting = [
         [({x: values(each)}, each) for each in dict.fromkeys([force, *terms_of(force)])]
         for x, force in problem.forces.items()

@@ -76,7 +76,7 @@ def slips(problem: Problem) -> list[Diagnostic]:
     coordinates = tuple(x.name for x in problem.coordinates)
     found += degrees_meant(problem, _known(problem))
     found += friction_slips(problem.forces, coordinates, signs, problem.source)
-    with suppress(KeyError, ArithmeticError, ValueError):  # a function without a formula
+    with suppress(KeyError, ArithmeticError, ValueError, TypeError):  # U(r), roots below 0
         found += counted_twice(problem)
     energies = (problem.kinetic, problem.potential, problem.lagrangian, problem.hamiltonian)
     roots = (n for formula in energies if formula is not None for n in walk(formula))
@@ -169,28 +169,27 @@ def _without_square(
 
     Where the others are 0, a T of `m*x'*y'` is 0 for any value of it, and negative close by.
     """
+    products = [{*name_nodes(one)} for one in walk(formula) if isinstance(one, Product)]
+    places = {Name(x) for x in coordinates}
     first = {node.name: node for node in reversed(name_nodes(formula)) if node.primes}
     for name, node in sorted(first.items()):
-        degree = folded(formula, partial(_degree_alone, name, coordinates)) or 0
-        if degree < 2 and (key == "T" or degree):
+        degree = folded(formula, partial(_degree_alone, name)) or 0
+        is_mixed = any(node in each and places & each for each in products)
+        if degree < 1 + (not is_mixed) and (key == "T" or degree):
             where = "without its square" if degree else "in products with other velocities alone"
             hint = f"the square of {name}' is missing, as in {usual.format(name)}"
             yield _warning(f"{key} has {name}' {where}", node.span, hint)
 
 
-def _degree_alone(
-    name: str, coordinates: set[str], node: Expression, parts: list[float | None]
-) -> float | None:
-    """The degree in a velocity and coordinates where all other velocities are 0; None for 0.
+def _degree_alone(name: str, node: Expression, parts: list[float | None]) -> float | None:
+    """The degree in a velocity where all others are 0; None where the formula is 0.
 
-    Functions and roots are of second degree, as sqrt(x'^2 + y'^2) and cos(x).
+    Functions and roots are of second degree, as in sqrt(x'^2 + y'^2).
     """
     degrees = [each for each in parts if each is not None]
     match node:
         case Name(primes=primes) if primes:
             return 1 if node.name == name else None
-        case Name():
-            return float(node.name in coordinates)
         case Sum():
             return max(degrees, default=None)
         case Product() | Power() | Quotient() | Negative() if None in parts[:1] or (

@@ -56,3 +56,9 @@ def test_the_weight_of_a_bob_is_that_of_its_angle():
 def test_another_force_is_not_warned_of(force):
     rest = f"T: m*(x'^2 + y'^2)/2\nV: m*g*y + k*x^2/2\nforces: {{y: {force}}}\n"
     assert warned(HEAD + rest) == []
+
+
+@pytest.mark.parametrize("potential", ["U(x)", "k*(-x)^(3/2)", "k*log(-x)", "k/(x - x)", "k*x^l"])
+def test_a_potential_without_numbers_is_not_compared(potential):
+    rest = f"functions: {{U: [x]}}\nT: m*(x'^2 + y'^2)/2\nV: {potential}\nforces: {{x: -k*x}}\n"
+    assert warned(HEAD + rest) == []
