@@ -470,7 +470,8 @@ class FileReader:
             message = f"'{name}' is declared twice"
             if taken == "coordinate" and kind == "parameter":
                 hint = f"leave it out of the coordinates: {name}' occurs nowhere"
-                hint = "leave it out: it is a coordinate" if self._has_rate(name) else hint
+                other = "leave it out here, or give one of them another name"
+                hint = other if self._has_rate(name) else hint
             if kind in ("multiplier", "contact force"):
                 message = f"'{name}', its {kind}, is declared twice"
                 hint += ", this one by the key multiplier"

@@ -248,7 +248,7 @@ def test_the_force_on_a_point_has_the_key_force():
 def test_a_coordinate_is_not_a_parameter_as_well():
     both = BEGIN.replace("k: 2", "k: 2, theta: {unit: rad}").encode()
     [found] = read_problem("p.yaml", both).diagnostics
-    assert (found.message, found.hint[:13]) == ("'theta' is declared twice", "leave it out:")
+    assert (found.message, found.hint[:17]) == ("'theta' is declared twice", "leave it out here")
 
 
 def test_an_integer_has_an_attribute_of_its_own():

@@ -210,9 +210,12 @@ def test_a_bracket_keeps_its_own_functions(given, meant):
     ("kinetic", "meant"),
     [
         ("T: x'^2/2", "leave it out of the coordinates: r' occurs nowhere"),
-        ("T: x'^2/2 + r'^2/2", "give one of them another name"),
-        ("T: x'^2/2 + r\u0307^2/2", "give one of them another name"),
-        ("points: {P: {position: [x, r], mass: 1}}", "give one of them another name"),
+        ("T: x'^2/2 + r'^2/2", "leave it out here, or give one of them another name"),
+        ("T: x'^2/2 + r\u0307^2/2", "leave it out here, or give one of them another name"),
+        (
+            "points: {P: {position: [x, r], mass: 1}}",
+            "leave it out here, or give one of them another name",
+        ),
     ],
 )
 def test_a_parameter_among_the_coordinates_is_left_out_where_it_has_no_rate(kinetic, meant):

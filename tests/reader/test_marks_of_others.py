@@ -223,7 +223,7 @@ def test_a_call_in_brackets_is_written_with_parentheses(seed):
         (text(version="2"), "leave it out"),
         (text(energy="conserved"), "what is conserved is found"),
         (text(**{"degree-of-freedom": "1"}), "write expect: {degrees_of_freedom: 1}"),
-        (text(fuerzas="{x: -k*x}"), "the key is forces"),
+        (text(fuerzas="{x: -g*x}"), "the key is forces"),
         (text(constraints="{rod: the length is constant}"), "write left = right"),
         (text(points="{A: {polar: [x, k], mass: m}}"), "[r*cos(phi), r*sin(phi)]"),
         (text(points="{A: {position: {r: x}, mass: m}}"), "[r*cos(phi), r*sin(phi)]"),
@@ -269,8 +269,8 @@ def test_sympy_and_placeholders(written, hint):
 @pytest.mark.parametrize(
     ("written", "hint"),
     [
-        (text(F="{x: -k*x}"), "the key is forces"),
-        (text(**{"generalised-forces": "{x: -k*x}"}), "the key is forces"),
+        (text(F="{x: -g*x}"), "the key is forces"),
+        (text(**{"generalised-forces": "{x: -g*x}"}), "the key is forces"),
         (text(V=None, potentials="k*x^2"), "the key is V"),
         (
             text(coordinates="[theta]", T="m*theta'^2/2", V=None, theta0="30°"),
