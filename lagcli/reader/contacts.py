@@ -109,7 +109,7 @@ def _with_its_side(
     if file.scope.kinds.get(x) != "coordinate" or is_relation or formula_or_none(law) is None:
         return ""
     is_known = words & {*file.scope.kinds} or not words
-    whole = f"{key.label} {sign} {law}"
+    whole = f"{x}{chr(39) * (chr(39) in key.label + law)} {sign} {law}"  # x' = R*theta'
     inner = ", ".join(map(": ".join, (given | {known[0]: whole}).items()))
     return f"write {x}: {f'{{{inner}}}' if given else whole}" if is_known else ""
 
