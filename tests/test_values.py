@@ -148,7 +148,7 @@ initial: {initial}
 @pytest.mark.parametrize(
     ("gap", "hint"),
     [("x - y >= d", "write y - x >= d"), ("y - x >= d", None), ("x - y + d >= 0", None),
-     ("x >= d", "a gap is positive")],
+     ("x >= d", "start where x >= d: a gap is positive")],
 )  # fmt: skip
 def test_a_negative_gap_of_the_initial_state_is_a_warning(gap, hint):
     written = f"""coordinates: [x, y]
