@@ -14,6 +14,7 @@ import sympy
 from lagcli import load
 from lagcli.algebra import is_zero
 from lagcli.mechanics.derivation import Derivation
+from lagcli.mechanics.discovery.constrained import rank_on_surface
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.mechanics.discovery.surface import independent_on_surface
@@ -493,3 +494,62 @@ constraints: {suslov: phi'*cos(theta) + psi' = 0}
     for component in in_space:
         ratios = [[(c / component).subs(state).evalf(30) for state in states] for c in charges]
         assert any(abs(one - other) < 1e-20 * abs(one) for one, other in ratios)
+
+
+ROLLING = {
+    # Routh, Advanced Rigid Dynamics, article 225; the cone's half angle is 30 degrees
+    "cone": ("""
+coordinates: {s: {assume: positive}, phi: {}, f: {}, th: {}, h: {}}
+parameters: {m: {assume: positive}, a: {assume: positive}, g: {assume: positive}}
+definitions:
+  wx: th'*cos(f) + h'*sin(th)*sin(f)
+  wy: th'*sin(f) - h'*sin(th)*cos(f)
+  wz: f' + h'*cos(th)
+T: m*(s'^2 + s^2*phi'^2/4)/2 + m*a^2*(wx^2 + wy^2 + wz^2)/5
+V: m*g*s*sqrt(3)/2
+constraints:
+  up: s' = a*(-wx*sin(phi) + wy*cos(phi))
+  around: s*phi'/2 = -a*((wx*cos(phi) + wy*sin(phi))/2 + wz*sqrt(3)/2)
+""", "s^2*phi'", 3),
+    # Neimark, Fufaev, Dynamics of Nonholonomic Systems, chapter III
+    "lying cylinder": ("""
+coordinates: [theta, z, f, h, s]
+parameters: {m: {assume: positive}, a: {assume: positive}, rho: {assume: positive}, g: {assume: positive}}
+definitions:
+  wx: h'*cos(f) + s'*sin(h)*sin(f)
+  wy: h'*sin(f) - s'*sin(h)*cos(f)
+  wz: f' + s'*cos(h)
+T: m*(rho^2*theta'^2 + z'^2)/2 + m*a^2*(wx^2 + wy^2 + wz^2)/5
+V: -m*g*rho*cos(theta)
+constraints:
+  across: rho*theta' = -a*wz
+  along: z' = a*(-wx*sin(theta) + wy*cos(theta))
+""", ("z'*cos(sqrt(2/7)*theta) + a*sqrt(2/7)*(h'*cos(f - theta)"
+      "+ s'*sin(h)*sin(f - theta))*sin(sqrt(2/7)*theta)"), 3),
+    "skate on a turntable": ("""
+coordinates: [x, y, phi]
+parameters: {m: {assume: positive}, J: {assume: positive}, W: {assume: positive}}
+T: m*(x'^2 + y'^2)/2 + J*phi'^2/2
+constraints: {blade: (x' + W*y)*sin(phi) = (y' - W*x)*cos(phi)}
+""", "(W - phi')*(x'*cos(phi) + y'*sin(phi)) - W*phi'*(y*cos(phi) - x*sin(phi))", 4),
+    "wheel on a turntable": ("""
+coordinates: [x, y, phi, psi]
+parameters: {m: {assume: positive}, I: {assume: positive}, J: {assume: positive}, R: {assume: positive}, W: {assume: positive}}
+T: m*(x'^2 + y'^2)/2 + J*phi'^2/2 + I*psi'^2/2
+constraints:
+  along: x' + W*y = R*psi'*cos(phi)
+  across: y' - W*x = R*psi'*sin(phi)
+""", "(W - phi')*R*psi' - m*R^2/(m*R^2 + I)*W^2*(y*cos(phi) - x*sin(phi))", 4),
+}  # fmt: skip
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", ROLLING)
+def test_of_what_rolls_on_a_moving_or_curved_ground_all_are_found(name):
+    text, wanted, number = ROLLING[name]
+    found = derive(text)
+    discovery, system = found.discovery, found.dynamics.system
+    expected = system.build(parse_text(wanted))
+    charges = [c.charge for c in discovery.charges]
+    assert rank_on_surface(found.dynamics, charges) == number
+    assert rank_on_surface(found.dynamics, [*charges, expected]) == number

@@ -37,6 +37,7 @@ LINEAR = {
     "driven": ("m*x'^2/2 - k*x^2/2 + F*x*cos(Omega*t)", ""),
     "driven by a sum": ("m*x'^2/2 - k*x^2/2 + F*x*(sin(Omega*t) - g)", ""),
     "driven and dying out": ("m*x'^2/2 - k*x^2/2 + F*x*exp(-b*t)", ""),
+    "driven by what fades": ("m*x'^2/2 - k*x^2/2 + F*x*exp(-b*t)*cos(Omega*t)", ""),
     "driven without a spring": ("m*x'^2/2 + F*x*sin(Omega*t)", ""),
     "repelled and driven": ("m*x'^2/2 + k*x^2/2 + F*x*cos(Omega*t)", ""),
     "growing mass": ("m*exp(c*t)*x'^2/2", ""),
@@ -736,3 +737,23 @@ def test_the_lagrangian_of_a_mass_that_depends_on_the_place_is_negative(mass):
     known = derive(f"{head}L: -({mass})*sqrt(1 - x'^2 - y'^2)\n").system
     values = dict(zip(sorted(L.free_symbols, key=str), (3, 5, 2, 0.3, 7, 0.4), strict=True))
     assert abs(sympy.N((L - known.L).xreplace(values))) < 1e-12
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("factor", "spring"),
+    [
+        ("(1 + a*t)^2", "w^2*(x^2 + y^2)/2 - c*x*y"),
+        ("(1 + a*t)^2", "w^2*x^2 + (x - 2*y)^2*c/2"),
+        ("1/(1 + a*t)^2", "w^2*(x^2 + y^2)/2 - c*x*y"),
+        ("t^4", "w^2*(x^2 + y^2)/2 + 2*c*x*y"),
+    ],
+)
+def test_two_coupled_oscillators_of_one_changing_mass_have_their_phases(factor, spring):
+    """By the normal modes each has u'' + (f'/f) u' + k u = 0: two solutions for each of two."""
+    found = derive(
+        f"{{coordinates: [x, y], parameters: {{a: {POS}, w: {POS}, c: {POS}}}, "
+        f"L: \"{factor}*((x'^2 + y'^2)/2 - ({spring}))\"}}"
+    )
+    assert summary(found.discovery).independent == 4
+    assert not found.discovery.stopped

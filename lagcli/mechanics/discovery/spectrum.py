@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, product
 
 import sympy
 from sympy import Expr, Symbol
@@ -162,11 +162,19 @@ def forced_motion(
         free = [x for x in terms if not x.free_symbols & {*q, *v}]
         if any(t in sympy.denom(x).free_symbols for x in free):  # m/(m - t) - t/(m - t)
             free = list(sympy.Add.make_args(sympy.expand(sympy.cancel(sympy.Add(*free)))))
-        waves = {f for x in free for f in x.atoms(*_WAVES) if t in f.free_symbols}
-        for wave in sorted(waves, key=sympy.default_sort_key):
-            inside = wave.args[0]
-            both = [sympy.sin(inside), sympy.cos(inside)]
-            found |= dict.fromkeys([wave] if wave.func is sympy.exp else both)
+        for term in free:
+            waves = sorted(
+                (f for f in term.atoms(*_WAVES) if t in f.free_symbols),
+                key=sympy.default_sort_key,
+            )
+            alike = [
+                [wave]
+                if wave.func is sympy.exp
+                else [f(wave.args[0]) for f in (sympy.sin, sympy.cos)]
+                for wave in waves
+            ]
+            if waves:  # exp(-a t) cos(b t) returns with exp(-a t) sin(b t)
+                found |= dict.fromkeys(sympy.Mul(*choice) for choice in product(*alike))
         powers = sympy.Add(*(x for x in free if x.is_polynomial(t)))
         if powers != 0:  # a motion of the same degree, of two more without a spring
             degree = int(sympy.degree(powers, t)) if t in powers.free_symbols else -1

@@ -33,6 +33,7 @@ from lagcli.mechanics.discovery.kovacic import elementary_solutions, positive
 from lagcli.mechanics.discovery.spectrum import Exponent, differences, exponents, frequency_of
 
 _MOST_OPERATIONS = 200  # measured: at most 25
+_MOST_MODES = 3
 
 
 def of_changing_coefficients(
@@ -48,7 +49,7 @@ def of_changing_coefficients(
     solved = True
     time, t = t, sympy.Dummy("t", positive=True)  # for t < 0 the functions differ by a sign
     moving = {*q, *v}
-    given = [acceleration.xreplace({time: t}) for acceleration in accelerations]
+    given = _by_modes([a.xreplace({time: t}) for a in accelerations], q, v, t)
     tau, found, rows = of_euler(given, q, v, t)
     s = sympy.log(tau)
     translations += [f for each in found for f in each.functions(s)] + ([s] if rows else [])
@@ -79,6 +80,32 @@ def of_changing_coefficients(
         _distinct(each, t, time) for each in (translations, others, forced)
     )
     return translations, others, forced, solved
+
+
+def _by_modes(
+    accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
+) -> Sequence[Expr]:
+    """Those of the modes, where x'' = d(t) x' + (f(t) K + g(t)) x + F(t) with a constant K."""
+    n, still = len(q), dict.fromkeys((*q, *v), sympy.S.Zero)
+    if not 1 < n <= _MOST_MODES or any(x.count_ops() > _MOST_OPERATIONS for x in accelerations):
+        return accelerations
+    S, D = (sympy.Matrix([[simplify(a.diff(x)) for x in y] for a in accelerations]) for y in (q, v))
+    across = [S[i, j] for i in range(n) for j in range(n) if i != j and S[i, j] != 0]
+    entries = sympy.Tuple(*S, *D)
+    if not across or not free_of(entries, [*q, *v]) or free_of(entries, [t]):
+        return accelerations
+    f = across[0].as_independent(t, as_Add=False)[1]
+    K = ((S - S[0, 0] * sympy.eye(n)) / f).applyfunc(simplify)
+    if not free_of(sympy.Tuple(*K), [t]) or any((D - D[0, 0] * sympy.eye(n)).applyfunc(simplify)):
+        return accelerations
+    modes = [(value, u) for value, _, vectors in K.T.eigenvects() for u in vectors]
+    if len(modes) < n or any(value.has(sympy.I) for value, _ in modes):
+        return accelerations
+    forces = [dot(u, [a.xreplace(still) for a in accelerations]) for _, u in modes]
+    return [
+        simplify(f * value + S[0, 0]) * x + D[0, 0] * rate + simplify(force)
+        for (value, _), x, rate, force in zip(modes, q, v, forces, strict=True)
+    ]
 
 
 def of_euler(

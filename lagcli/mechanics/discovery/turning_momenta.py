@@ -40,25 +40,45 @@ def turning(dynamics: Dynamics, forms: Sequence[Expr], allowed: Allowance) -> It
     system, motion = dynamics.system, dynamics.motion
     if motion is None:
         return
-    w = [forms[k] for k in independent_on_surface(forms, dynamics, allowed)][:_MOST]
+    relations = dynamics.constraints.relations
+    assert relations is not None
     solved = dict(zip(system.qddot, motion.accelerations, strict=True))
-    rates = [simplify(system.total_derivative(form).xreplace(solved)) for form in w]
+
+    def rate(form: Expr) -> Expr:
+        return simplify(relations.substitute(system.total_derivative(form).xreplace(solved)))
+
+    first = [forms[k] for k in independent_on_surface(forms, dynamics, allowed)][:_MOST]
+    rates = {form: rate(form) for form in first}
     for s, speed in ((system.t, sympy.S.One), *zip(system.q, system.qdot, strict=True)):
         allowed.check()
-        vectors = [*([rate] for rate in rates), *([speed * form] for form in w)]
+        w = list(first)
+        for form in w:  # what a rate is made of is one of them
+            more = _linear(rates[form] / speed, system.qdot) if len(w) < 2 * _MOST else None
+            if more is None:
+                continue
+            if len(independent_on_surface([*w, more], dynamics, allowed)) > len(w):
+                w.append(more)
+                rates[more] = rate(more)
+        n, vectors = len(w), [*([rates[form]] for form in w), *([speed * form] for form in w)]
         found = relations_on_surface(vectors, dynamics, allowed)
-        n = len(w)
-        pairs = [
-            ([c.get(k, sympy.S.Zero) for k in range(n)],
-             [-c.get(n + k, sympy.S.Zero) for k in range(n)])
-            for c in found
-        ]  # fmt: skip
-        rows, images = _closed([a for a, _ in pairs], [b for _, b in pairs])
+        rows, images = _closed(
+            [[c.get(k, sympy.S.Zero) for k in range(n)] for c in found],
+            [[-c.get(n + k, sympy.S.Zero) for k in range(n)] for c in found],
+        )
         if rows:
             turned = [
                 sympy.Add(*(c * form for c, form in zip(row, w, strict=True))) for row in rows
             ]
             yield from _constants(Matrix(images), turned, s)
+
+
+def _linear(formula: Expr, v: Sequence[Symbol]) -> Expr | None:
+    """The formula where it is homogeneous of first degree in the velocities."""
+    formula = sympy.cancel(formula) if formula.is_rational_function(*v) else formula
+    slopes = [simplify(formula.diff(x)) for x in v]
+    if not any(slopes) or not all(free_of(c, v) for c in slopes):
+        return None
+    return sympy.Add(*(c * x for c, x in zip(slopes, v, strict=True)))
 
 
 def _closed(

@@ -26,6 +26,7 @@ from lagcli.record import replace as changed
 
 _MOST_LINEAR = 420  # measured: at most 314
 _MOST_QUADRATIC = 300
+_MOST_BESIDE = 16  # linear terms beside those of second degree
 _ENERGY = (-1,)  # the mark of T, which is no pair of fields
 
 
@@ -118,7 +119,8 @@ class UnderConstraints:
         self.timed = bool(along)
         if along:
             values += [c.charge for c in found]
-            found += self._charges(self._integrals(self._timed_terms(len(along)), values, along))
+            terms = self._timed_terms(len(along))
+            found += self._charges(self._integrals(terms, values, [*along, *self.fields]))
         return found
 
     def turning(self, known: Sequence[Expr]) -> list[NoetherCharge]:
@@ -206,6 +208,8 @@ class UnderConstraints:
         terms = [IntegralTerm((a,), T, one) for a in range(number) for T in times]
         turned = affine(self.kinds)[: _MOST_LINEAR // (2 * number)]
         terms += [IntegralTerm((a,), one, g) for a in range(number) for g in turned]
+        others = range(number, number + len(self.fields))
+        terms += [IntegralTerm((a,), one, g) for a in others for g in plain]
         terms += [IntegralTerm((), T, g) for T in (one, *times) for g in self._still(plain)]
         return _ordered([x for x in terms if x.fields or x.function != 1])
 
@@ -267,13 +271,18 @@ class UnderConstraints:
         functions = quadratic(self.kinds, _MOST_QUADRATIC // len(pairs)) or [sympy.S.One]
         one = sympy.S.One
         terms = [IntegralTerm(pair, one, g) for pair in pairs for g in functions]
-        if not all(is_zero(f.xreplace({v: -v for v in self.system.qdot}) - f) is True
-                   for f in self.noether.dynamics.lagrange.forcing):  # fmt: skip
-            terms += [
-                IntegralTerm((a,), one, g) for a in range(len(self.fields)) for g in functions[:12]
-            ]
+        if not self._is_reversible():
+            linear = affine(self.kinds)[:_MOST_BESIDE]
+            terms += [IntegralTerm((a,), one, g) for a in range(len(self.fields)) for g in linear]
         terms += [IntegralTerm((), one, g) for g in self._potentials(functions)]
         return self._charges(self._integrals(_ordered(terms), self._products(known)))
+
+    def _is_reversible(self) -> bool:
+        """Whether a motion may run backwards: then terms of odd degree are apart."""
+        back = {v: -v for v in self.system.qdot}
+        forcing = self.noether.dynamics.lagrange.forcing
+        drift = any(e.drift != 0 for e in self.dynamics.constraints.equations)
+        return not drift and all(is_zero(f.xreplace(back) - f) is True for f in forcing)
 
     def of_velocities(self, known: Sequence[NoetherCharge]) -> list[NoetherCharge]:
         """Integrals K_ij(q) q_i' q_j' + S: K q' is tangent only with a part along the gradients.
