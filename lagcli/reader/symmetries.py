@@ -6,6 +6,7 @@ import re
 
 from lagcli.expression import Expression
 from lagcli.problem_data import Symmetry
+from lagcli.reader.expressions import formula_or_none, signed_terms
 from lagcli.reader.file_reader import FileReader
 from lagcli.reader.habits import is_angle, name_meant
 from lagcli.reader.misshapen import as_flow, as_list, by_key, source_of, texts_of
@@ -17,6 +18,8 @@ from lagcli.reader.suggest import did_you_mean
 
 _REFLECTION = regex(r"(?:mirror|parity|reflection|inversion|spiegelung)", re.IGNORECASE)
 _CONTINUOUS = "leave it out: conserved quantities belong to continuous symmetries"
+#: `d/dx`, `∂/∂x`, `∂_x` and `d_x`.
+_PARTIAL = regex(r"(?:(?<!\w)d(?:\s*/\s*d\s*|_)|∂(?:\s*/\s*∂\s*|_?)|\\partial\s*_?)([^\W\d]\w*)")
 _WORDS = frozenset("yes no true false True False none None null auto".split())
 
 
@@ -103,12 +106,16 @@ def _entries(
         hint = f"a formula of velocities stands under observables: write {place}"
         file.error(f"{what} must be a map, not a formula", value.span, hint)
         return []
+    generated = _generated(said, {*coordinates, "t"})
     if changed and "time" not in key.label and not is_charge:
-        usual = _shift(changed)
+        is_formula = re.search(r"[*/^∂]", said) or (changed[1:] and re.search("[-+]", said))
+        usual = "" if is_formula and not rates else _shift(changed)
     items = [*map(source_of, getattr(value, "items", ()))]
     if len(items) == len(coordinates) and not {*items} <= {*coordinates}:  # [-y, x]
         usual = f"{{{', '.join(map('{}: {}'.format, coordinates, items))}}}"
-    hint = f"write {'shift: ' * (said == key.label)}{_changes_meant(file, said) or usual}"
+    meant = _changes_meant(file, said) or generated or usual
+    hint = f"write {'shift: ' * (said == key.label)}{meant}"
+    hint = hint if meant else "write coordinate: change, as in {x: -y, y: x}"
     if isinstance(value, Mapping) or said == key.label:
         span = key.span if said == key.label else value.span
         file.error(f"{what} must be a map, not a transformation", span, hint)
@@ -118,6 +125,20 @@ def _entries(
 
 def _shift(names: list[str]) -> str:
     return f"{{{(*names, 'x')[0]}: 1}}"
+
+
+def _generated(text: str, names: set[str]) -> str:
+    """`{x: -y, y: x}` for the generator `x*d/dy - y*d/dx`; nothing for other texts."""
+    changes: dict[str, str] = {}
+    marked = _PARTIAL.sub(r"(partial_\1)", re.sub(r"(?<=[\w)])\s+(?=\(?[d∂\\])", "*", text))
+    for is_minus, term in signed_terms(marked):
+        found = re.fullmatch(r"(?:(.*)\*)?\(*partial_(\w+)\)*", term)
+        factor, x = (found[1] or "1", found[2]) if found else ("", "")
+        if x not in names or "partial_" in factor or formula_or_none(factor) is None:
+            return ""
+        sign = " - " if is_minus else " + "
+        changes[x] = (changes[x] + sign if x in changes else "-" * is_minus) + factor.strip()
+    return as_flow({x: changes[x] for x in sorted(changes)}) if changes else ""
 
 
 def _listed(file: FileReader, texts: list[str]) -> str:

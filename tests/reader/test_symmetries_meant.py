@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import random
+import re
 
 import pytest
 
@@ -79,3 +80,30 @@ def test_the_change_is_not_the_new_place(name, step):
 @pytest.mark.parametrize("change", ["{x: x}", "{x: x + y}", "{x: 2*x + k}", "{x: k}", "{x: y - k}"])
 def test_other_changes_are_read(change):
     assert messages(text(**FILE, symmetries=f"{{name: {change}}}")) == []
+
+
+PARTIALS = ["d/d{}", "∂_{}", "∂/∂{}", "d_{}", "∂{}", "(d/d{})"]
+#: Generators, of which the partial derivatives are drawn, and their changes.
+GENERATORS = [
+    ("x*<y> - y*<x>", "{x: -y, y: x}"),
+    ("-y*<x> + x*<y>", "{x: -y, y: x}"),
+    ("y <x> - x <y>", "{x: y, y: -x}"),
+    ("<x> + <y>", "{x: 1, y: 1}"),
+    ("-2*(x + y)*<x>", "{x: -2*(x + y)}"),
+    ("k*<t> + m*x*<x> - y*<x>", "{t: k, x: m*x - y}"),
+]
+
+
+@pytest.mark.parametrize("partial", PARTIALS)
+@pytest.mark.parametrize(("given", "change"), GENERATORS)
+def test_a_generator_is_told_by_its_components(partial, given, change):
+    written = re.sub("<(.)>", lambda found: partial.format(found[1]), given)
+    [found] = messages(text(**FILE, symmetries=f"{{rotation: {written}}}"))
+    assert found.endswith(f"; write {change}")
+    assert messages(text(**FILE, symmetries=f"{{rotation: {change}}}")) == []
+
+
+@pytest.mark.parametrize("given", ["x*y", "x^2 + y", "y*d/dz", "x*d/dx*d/dy", "(x + y)/2"])
+def test_no_other_symmetry_is_proposed_for_a_formula(given):
+    [found] = messages(text(**FILE, symmetries=f"{{rotation: {given}}}"))
+    assert found.endswith("; write coordinate: change, as in {x: -y, y: x}")
