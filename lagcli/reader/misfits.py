@@ -7,6 +7,7 @@ from collections.abc import Callable
 from itertools import islice
 
 from lagcli.diagnostics import Diagnostic, Source
+from lagcli.expression import ZERO, Negative, terms_of
 from lagcli.problem_data import Problem
 from lagcli.reader.habits import is_angle
 from lagcli.reader.limits import MISTAKES
@@ -84,9 +85,9 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
         return units
     if not found[1:]:
         if places:
-            return [_with_term(found[0], places, text)]
+            return [_with_term(problem, found[0], places)]
         places = factor(found[0], _other_factors(problem, text, found[0]), [])
-        return [_with_term(found[0], places, text, unit)]
+        return [_with_term(problem, found[0], places, unit)]
     causes = [_prime_elsewhere(found[0], place, text) for place in places]
     known = causes if unit is None else [*causes, unit]
     if len(known) == 1:
@@ -97,7 +98,7 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
         is_bare = not any(re.search(rf"\b{one.name}\b", term) for one in problem.parameters)
         factors = _other_factors(problem, text, each)
         powers = [place for place in factors if is_bare or place[0] != place[1]]
-        found[number] = _with_term(each, factor(each, powers, others), text)
+        found[number] = _with_term(problem, each, factor(each, powers, others))
     return found
 
 
@@ -124,7 +125,7 @@ def _prime_elsewhere(first: Diagnostic, place: _Place, text: SourceText) -> Diag
 
 
 def _with_term(
-    mistake: Diagnostic, places: list[_Place], text: SourceText, unit: Diagnostic | None = None
+    problem: Problem, mistake: Diagnostic, places: list[_Place], unit: Diagnostic | None = None
 ) -> Diagnostic:
     """The mistake with its term, in one way or two, or with the unit, as it fits.
 
@@ -132,8 +133,8 @@ def _with_term(
     """
     if mistake.hint.startswith(("write ", "give ", "declare ")):  # of units and numbers
         return mistake
+    text, written = SourceText.of(problem.source), problem.source.text
     begin, stop = text.offsets(mistake.span)
-    written = text.source.text
     fitting = " or ".join(
         written[begin:first] + better + written[last:stop]
         for first, last, better in places
@@ -145,6 +146,14 @@ def _with_term(
         better = unit.hint.removeprefix("write ")
         is_torque = better == "J" and "must be a torque" in mistake.message
         fitting = f"{'N m' if is_torque else better} for the unit {given} of {quantity}"
+    potential = problem.potential or ZERO
+    subtracted = [x for x in terms_of(potential) if isinstance(x, Negative)]
+    if fitting.endswith("^2/2") and mistake.span in {each.operand.span for each in subtracted}:
+        sign = written.rindex("-", 0, begin)  # -k*x, the force of a spring
+        others = "+ " * (text.offsets(potential.span)[0] < sign)
+        hint = f"write {others}{fitting}: V is minus the integral of the force"
+        message = mistake.message.replace("'", "'-", 1)
+        return replace(mistake, message=message, span=text.span(sign, stop), hint=hint)
     return replace(mistake, hint=f"write {fitting}: {mistake.hint}") if fitting else mistake
 
 

@@ -238,3 +238,18 @@ def test_a_number_that_lacks_a_unit_becomes_a_parameter_with_it(force, number, u
     declared = f", {name}: {{unit: {unit}, value: {number}}}"
     written = force.replace(only.message.split("'")[1], meant)
     assert errors(f"{begin % declared}forces: {{x: {written}}}\n") == []
+
+
+@pytest.mark.parametrize("arm", ["x", "(x - l)"])
+@pytest.mark.parametrize("others", ["", "m*g*x "])
+def test_the_force_of_a_spring_in_V_loses_its_minus(arm, others):
+    sign = "- " if others else "-"
+    file = SPRING.format("N/m", "m*x'^2/2", f"{others}<V>").replace("k:", "l: {unit: m}, k:")
+    [only] = errors(file.replace("<V>", f"{sign}k*{arm}"))
+    assert only.message.startswith(f"'-k*{arm}' is a force (N)")
+    better = f"{'+ ' * bool(others)}k*{arm}^2/2"
+    assert only.hint == f"write {better}: V is minus the integral of the force"
+    line = file.replace("<V>", f"{sign}k*{arm}").split("\n")[only.span.line - 1]
+    stretch = slice(only.span.column - 1, only.span.end_column - 1)
+    assert line[stretch] == f"{sign}k*{arm}"
+    assert errors(file.replace("<V>", better)) == []
