@@ -122,6 +122,8 @@ def _apart(problem: Problem, contact: Contact, given: Values) -> Diagnostic | No
     apart = _residual(turned, given)
     if written and apart is not None and apart[0] >= 0:
         hint = f"write {written[2]} - {written[1]} >= {written[3]}: {hint}"
+    elif re.search(r"<=? *0$|^0 *>=?", line):
+        hint = f"write {line.translate(str.maketrans('<>', '><'))}: {hint}"  # y <= 0
     elif isinstance(contact.equation.left, Name) and contact.equation.left in problem.initial:
         at = problem.initial[contact.equation.left].span  # y >= R
         hint = f"start where {line}: {hint}"

@@ -148,6 +148,7 @@ initial: {initial}
 @pytest.mark.parametrize(
     ("gap", "hint"),
     [("x - y >= d", "write y - x >= d"), ("y - x >= d", None), ("x - y + d >= 0", None),
+     ("y <= 0", "write y >= 0: a gap"), ("0 >= y", "write 0 <= y: a gap"), ("x <= 0", None),
      ("x >= d", "start where x >= d: a gap is positive")],
 )  # fmt: skip
 def test_a_negative_gap_of_the_initial_state_is_a_warning(gap, hint):
