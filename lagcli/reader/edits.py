@@ -73,6 +73,9 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
     if moved := _moved(mistake, end, text):
         return [moved]
     if hint.partition(":")[0] == "leave it out":
+        if mistake.message.endswith(" has no meaning in an expression"):  # ...
+            marks = re.match(r"(.)\1*", text.source.text[start:])
+            return [[Edit(start, start + len(marks[0]), "")]] if marks else []
         return [[_without(start, end, text, root)]]
     section = hint[:12] == "in place of " and hint.split()[3]
     for key, value in getattr(root, "entries", ()):

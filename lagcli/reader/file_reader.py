@@ -377,7 +377,8 @@ class FileReader:
         is_open = role in {*_NUMERIC, NUMBERS} and alone not in self.scope.kinds
         names = {*self.scope.kinds} - {what.split("'")[1] if what.startswith("the value") else ""}
         number = in_digits(alone, names) if is_open else alone
-        wrong = unit_in_formula(number, what, self.scope.kinds, role in _NUMERIC)
+        units = "unit" in self.text
+        wrong = unit_in_formula(number, what, self.scope.kinds, role in _NUMERIC, units)
         if number != alone and not wrong:
             wrong = "a value is one number in digits", f"write {number}"
         if wrong:

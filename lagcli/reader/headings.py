@@ -39,7 +39,7 @@ SECTIONS = {
     **dict.fromkeys(("value", "integer"), "parameters"),
     **dict.fromkeys(("position", "mass", "force"), "points"),
     **dict.fromkeys(("equation", "multiplier", "holds_while", "on_loss", "acts_as"), "constraints"),
-    **dict.fromkeys(("gap",), "contacts"),
+    **dict.fromkeys(("gap", "restitution"), "contacts"),
     **dict.fromkeys(("where", "for", "in_terms_of", "always", "reaches"), "find"),
 }
 

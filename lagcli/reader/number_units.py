@@ -128,7 +128,7 @@ def unit_mistake(
 
 
 def unit_in_formula(
-    text: str, what: str, names: Container[str], is_number: bool
+    text: str, what: str, names: Container[str], is_number: bool, gives_units: bool
 ) -> tuple[str, str] | None:
     """What is wrong with a formula that has a unit, and what to write; None without one."""
 
@@ -147,6 +147,13 @@ def unit_in_formula(
         text = product
     unit = unit_behind(text)
     is_product = " " in unit and all(w in names for w in re.findall(r"[^\W\d]\w*", unit))
+    if what.startswith("the force ") and gives_units and unit and is_unit(unit):
+        name, number = _LETTERS.get(unit, "F"), number_and_unit(text)[0]
+        name = next(x for x in (name, f"{name}_0", f"{name}_1", "") if x not in names)
+        minus, size = "-" * number.startswith("-"), number.lstrip("+-")
+        hint = f"declare {name}: {{unit: {unit}, value: {size}}} under parameters"
+        hint = f"{hint}, and write {minus}{name}" if name else ""
+        return f"the unit '{unit}' cannot stand behind a number", hint
     if unit and ((is_number and not is_product) or is_unit(unit)):
         return unit_mistake(text, names, declared=declared, what=what)
     if (unit := unit_at_end(text)) and is_unit(unit):

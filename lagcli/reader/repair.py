@@ -10,7 +10,13 @@ from lagcli.diagnostics import Diagnostic, Source
 from lagcli.expression import ZERO, Equation, Expression, Sum, terms_of
 from lagcli.problem_data import Inequality
 from lagcli.reader.clauses import of_clause
-from lagcli.reader.expressions import formula_or_none, read_equation, read_expression, sides_of
+from lagcli.reader.expressions import (
+    formula_or_none,
+    read_equation,
+    read_expression,
+    sides_of,
+    signed_terms,
+)
 from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, square_of_speed
@@ -58,10 +64,12 @@ _CONSTANT = regex(
 _LAGRANGE = regex(r"(?:d|∂|\\partial)\s*[LTV]\s*/\s*(?:d|∂|\\partial)")
 #: `d(x - R*phi)/dt` and `d/dt (x - R*phi)`.
 _TOTAL_RATE = regex(
-    r"(?<![\w.])d\s*\((?P<inner>(?:[^()]|\([^()]*\))+)\)\s*/\s*\(?dt\)?(?!\w)"
+    r"(?<![\w.])d\s*\((?P<inner>(?:[^()]|\([^()]*\))+)\)\s*/\s*(?:dt(?!\w)|\(dt\))"
     r"|(?<![\w.])d\s*/\s*dt\s*\(?\((?P<behind>(?:[^()]|\([^()]*\))+)\)"
     r"|(?<![\w.])\((?P<primed>(?:[^()]|\([^()]*\))+)\)['’′]"
 )
+#: Names of definitions that a hint proposes.
+_FRESH = ("u", "v", "w", *(f"u_{place}" for place in range(1, 10)))
 #: The name of a velocity or a height: omega1, w_x, v2, h.
 _MOVING = r"(?:omega|Omega|ω|Ω|w|v|u)_?(?:[1-9]|[xyz])|h|height"
 #: A product of two vectors within a formula.
@@ -93,12 +101,14 @@ def with_whole(
     by_momenta = _hamiltonian_meant(given) if what == "H" or (of_key and role.momenta) else ""
     if by_momenta and _is_read(by_momenta, scope, role, what):
         why = found[0].hint.removesuffix(": write its formula")
-        return [replace(found[0], hint=f"write {by_momenta}: {why}")]
+        return [replace(found[0], span=node.span, hint=f"write {by_momenta}: {why}")]
     if what == "V" and (force := _FORCE.fullmatch(node.value)):
         along, *others = [*scope.of_kind("coordinate"), "x"]
         law = "…" if others[1:] else force[1].strip()
         hint = f"V is an energy; a force stands by its coordinate: write forces: {{{along}: {law}}}"
         return [replace(found[0], hint=hint)]
+    if what.startswith("the force along ") and (mass := _added_mass(found, node, what, scope)):
+        return [mass]
     if what == "T" and (still := unmoved(found, node, what, scope)) != found:
         return still
     if read is not read_equation and (clause := of_clause(node, scope)):
@@ -281,6 +291,21 @@ def _of_matrices(node: Scalar, what: str, scope: Scope) -> Diagnostic | None:
     return Diagnostic("a formula has no matrices", node.span, hint)
 
 
+def _added_mass(
+    found: list[Diagnostic], node: Scalar, what: str, scope: Scope
+) -> Diagnostic | None:
+    """What is written for the force `-ma*x''`, whose ma is added to a mass; None for others."""
+    x, terms = what.split("'")[1], signed_terms(node.value)
+    masses = [each[: -len(x) - 3] for minus, each in terms if minus and each.endswith(f"*{x}''")]
+    words, known = {*re.findall(r"[^\W\d]\w*", "".join(masses))}, {*scope.of_kind("parameter")}
+    if not (node.value.count("''") == len(masses) == len(found) == 1 and words <= known):
+        return None
+    energy = next((each for each in "TL" if each in scope.energies), "T")
+    lost = f"-{masses[0]}*{x}''" if terms[1:] else "it"
+    hint = f"leave {lost} out here and add {masses[0]}*{x}'^2/2 to {energy}"
+    return replace(found[0], span=node.span, hint=hint)
+
+
 def _of_rates(node: Scalar, scope: Scope) -> Diagnostic | None:
     """What is written for `d(x - R*phi)/dt`; None where no rate of a formula is meant."""
     text = re.sub(r"(?<!\w)\((\w+)\)(?=['’′])", r"\1", node.value)
@@ -290,10 +315,15 @@ def _of_rates(node: Scalar, scope: Scope) -> Diagnostic | None:
     if _LAGRANGE.search(text):
         hint = "leave it out, or give the force alone"
         return Diagnostic("the equations of motion are derived", node.span, hint)
-    inner = total["inner"] or total["behind"] or total["primed"]
-    whole = f"{text[: total.start()]}u'{text[total.end() :]}".strip()
+    inner = [next(filter(None, each.groups())) for each in _TOTAL_RATE.finditer(text)]
+    taken = {*scope.kinds, *re.findall(r"[^\W\d]\w*", node.text.source.text)}
+    names = dict(zip(dict.fromkeys(inner), (x for x in _FRESH if x not in taken), strict=False))
     hint = "a total time derivative is the prime of a definition"
-    hint = f"{hint}: definitions: {{u: {inner}}} and here {whole}"
+    if {*inner} <= names.keys():
+        whole = _TOTAL_RATE.sub(lambda rate: f"{names[next(filter(None, rate.groups()))]}'", text)
+        given = ", ".join(f"{name}: {formula}" for formula, name in names.items())
+        given = f"under definitions {given}" if scope.definitions else f"definitions: {{{given}}}"
+        hint = f"{hint}: {given} and here {whole.strip()}"
     rate = "the prime" if total["primed"] else "'d/dt'"
     return Diagnostic(f"{rate} of a formula has no meaning", node.span, hint)
 

@@ -256,7 +256,7 @@ def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
     One value is that of the only name, values in a list are those of the names in order.  Nothing
     where the entries are not all names of sections that have the attribute.
     """
-    known = (*SECTIONS, *_SAID, "restitution")
+    known = (*SECTIONS, *_SAID)
     attribute = key_meant(word, known) or key_meant(word.removesuffix("s"), known)
     attribute = "mass" if word == "masses" else attribute or ""
     given = signs_of(value) if attribute == "assume" else by_key(value)

@@ -8,6 +8,7 @@ import pytest
 
 from lagcli.reader import read_problem
 from lagcli.values import off_constraints
+from tests.reader.test_habits import messages, text
 
 BEGIN = "coordinates: [x, theta]\nparameters: {m: 1, k: 2}\nT: m*(x'^2 + theta'^2)/2\n"
 #: How others write the first and the second derivative.
@@ -273,3 +274,73 @@ def test_a_start_inside_of_a_wall_is_shown_where_it_is_written():
     [found] = off_constraints(read(contact).checked())
     assert (found.span.line, found.span.column) == (5, 24)
     assert found.hint.startswith("start where x >= k: ")
+
+
+BEAD = """coordinates: [theta]
+parameters: {{m: {{assume: positive}}, l: {{assume: positive}}{}}}
+T: {}
+"""
+
+
+@pytest.mark.parametrize("taken", [[], ["u"], ["v"], ["u", "v"], ["u", "w", "u_1"]])
+def test_each_total_derivative_has_a_definition_of_its_own_name(taken):
+    declared = "".join(f", {name}: {{}}" for name in taken)
+    energy = "m*((l*sin(theta))'^2 + d(l*cos(theta))/dt*(l*cos(theta))')/2"
+    [found] = messages(BEAD.format(declared, energy))
+    first, second = [each for each in ("u", "v", "w", "u_1", "u_2") if each not in taken][:2]
+    given = f"definitions: {{{first}: l*sin(theta), {second}: l*cos(theta)}}"
+    assert found.endswith(f"{given} and here m*({first}'^2 + {second}'*{second}')/2")
+    better = found.partition(" and here ")[2]
+    assert messages(BEAD.format(declared, better) + f"{given}\n") == []
+
+
+def test_a_definition_beside_others_is_added_to_them():
+    energy = "m*(u'^2 + (l*cos(theta))'^2)/2\ndefinitions: {u: l*sin(theta)}"
+    [found] = messages(BEAD.format("", energy))
+    assert found.endswith("under definitions v: l*cos(theta) and here m*(u'^2 + v'^2)/2")
+
+
+@pytest.mark.parametrize(("left", "right"), ["[]", "()"])
+def test_a_factor_before_a_list_multiplies_each_component(left, right):
+    position = f'"l*{left}sin(x), -cos(x){right}"'
+    points = f"{{bob: {{position: {position}, mass: m}}}}"
+    [found] = messages(text(T=None, V=None, parameters="{m: 1, l: 2}", points=points))
+    assert found.endswith("; write [l*sin(x), -l*cos(x)]")
+
+
+@pytest.mark.parametrize(("force", "name"), [("5 N", "F"), ("-5 N", "-F"), ("2.5 kN", "F")])
+@pytest.mark.parametrize("taken", ["", "F: {unit: N}, "])
+def test_a_force_with_a_unit_is_declared_where_the_file_has_units(force, name, taken):
+    given = f"{{{taken}m: {{unit: kg}}}}"
+    file = {"coordinates": "{x: {unit: m}}", "parameters": given, "T": "m*x'^2/2", "V": None}
+    [found] = messages(text(**file, forces=f"{{x: {force}}}"))
+    name += "_0" * bool(taken)
+    value, unit = force.lstrip("-").split()
+    declared = f"{name.lstrip('-')}: {{unit: {unit}, value: {value}}}"
+    assert found.endswith(f"declare {declared} under parameters, and write {name}")
+
+
+def test_a_contact_in_a_list_is_given_a_name():
+    for item in ("gap: x >= 0\n    restitution: 0.7", "restitution: 0.7\n    gap: x >= 0"):
+        [found] = messages(text(contacts=f"\n  - {item}"))
+        inner = item.replace("\n    ", ", ")
+        assert found.endswith(f"write name: {{{inner}}}, without '-'")
+
+
+def test_energies_in_an_observable_are_underlined_as_one():
+    written = text(observables="{E: T + V}")
+    [found] = read_problem("p.yaml", written.encode()).diagnostics
+    line = written.split("\n")[found.span.line - 1]
+    assert line[found.span.column - 1 : found.span.end_column - 1] == "T + V"
+
+
+@pytest.mark.parametrize(("rest", "lost"), [("", "it"), (" - c*x'", "-m_a*x''")])
+def test_an_added_mass_belongs_to_the_kinetic_energy(rest, lost):
+    forces = f"{{x: -m_a*x''{rest}}}"
+    [found] = messages(text(parameters="{m: 1, k: 2, m_a: 1, c: 1}", forces=forces))
+    assert found.endswith(f"leave {lost} out here and add m_a*x'^2/2 to T")
+
+
+def test_an_energy_that_is_not_read_is_not_missing():
+    [found] = messages(text(T="m*x'^2/2 + ...\n   m*x'^2/2"))
+    assert found.startswith("'.' has no meaning")

@@ -111,8 +111,8 @@ def of_listed(texts: list[str], known: Container[str]) -> list[str]:
 
 
 def _scaled_list(text: str) -> list[str]:
-    """The components of `l*(a, b)`."""
-    for product in re.finditer(r"\s*\*\s*\((?=.*\)$)", text):
+    """The components of `l*(a, b)` and `l*[a, b]`."""
+    for product in re.finditer(r"\s*\*\s*(?:\((?=.*\)$)|\[(?=.*\]$))", text):
         factor, inside = text[: product.start()], text[product.end() : -1]
         if balanced(factor) and balanced(inside) and len(_split(factor, _TERMS)) == 1:
             parts = _split(inside, ",")
