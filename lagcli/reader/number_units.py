@@ -147,7 +147,8 @@ def unit_in_formula(
         text = product
     unit = unit_behind(text)
     is_product = " " in unit and all(w in names for w in re.findall(r"[^\W\d]\w*", unit))
-    if what.startswith("the force ") and gives_units and unit and is_unit(unit):
+    is_force = what.startswith("the force ") and gives_units and unit and is_unit(unit)
+    if is_force and abs(_in_base_units(unit)[0] - 1) < 1e-9:
         name, number = _LETTERS.get(unit, "F"), number_and_unit(text)[0]
         name = next(x for x in (name, f"{name}_0", f"{name}_1", "") if x not in names)
         minus, size = "-" * number.startswith("-"), number.lstrip("+-")

@@ -18,6 +18,7 @@ from lagcli.reader.suggest import did_you_mean
 
 _REFLECTION = regex(r"(?:mirror|parity|reflection|inversion|spiegelung)", re.IGNORECASE)
 _CONTINUOUS = "leave it out: conserved quantities belong to continuous symmetries"
+_CHANGE = "write coordinate: change, as in {x: -y, y: x}"
 #: `d/dx`, `∂/∂x`, `∂_x` and `d_x`.
 _PARTIAL = regex(r"(?:(?<!\w)d(?:\s*/\s*d\s*|_)|∂(?:\s*/\s*∂\s*|_?)|\\partial\s*_?)([^\W\d]\w*)")
 _WORDS = frozenset("yes no true false True False none None null auto".split())
@@ -106,16 +107,15 @@ def _entries(
         hint = f"a formula of velocities stands under observables: write {place}"
         file.error(f"{what} must be a map, not a formula", value.span, hint)
         return []
-    generated = _generated(said, {*coordinates, "t"})
     if changed and "time" not in key.label and not is_charge:
         is_formula = re.search(r"[*/^∂]", said) or (changed[1:] and re.search("[-+]", said))
         usual = "" if is_formula and not rates else _shift(changed)
     items = [*map(source_of, getattr(value, "items", ()))]
     if len(items) == len(coordinates) and not {*items} <= {*coordinates}:  # [-y, x]
         usual = f"{{{', '.join(map('{}: {}'.format, coordinates, items))}}}"
-    meant = _changes_meant(file, said) or generated or usual
+    meant = _changes_meant(file, said) or _generated(file, said) or usual
     hint = f"write {'shift: ' * (said == key.label)}{meant}"
-    hint = hint if meant else "write coordinate: change, as in {x: -y, y: x}"
+    hint = hint if meant else _CHANGE
     if isinstance(value, Mapping) or said == key.label:
         span = key.span if said == key.label else value.span
         file.error(f"{what} must be a map, not a transformation", span, hint)
@@ -127,8 +127,10 @@ def _shift(names: list[str]) -> str:
     return f"{{{(*names, 'x')[0]}: 1}}"
 
 
-def _generated(text: str, names: set[str]) -> str:
+def _generated(file: FileReader, text: str) -> str:
     """`{x: -y, y: x}` for the generator `x*d/dy - y*d/dx`; nothing for other texts."""
+    known = file.scope.kinds
+    names = {x for x in (*file.scope.of_kind("coordinate"), "t") if f"d_{x}" not in known}
     changes: dict[str, str] = {}
     marked = _PARTIAL.sub(r"(partial_\1)", re.sub(r"(?<=[\w)])\s+(?=\(?[d∂\\])", "*", text))
     for is_minus, term in signed_terms(marked):
@@ -151,10 +153,12 @@ def _listed(file: FileReader, texts: list[str]) -> str:
         return f"write {{{', '.join(shifts)}}}"
     found: dict[str, str] = {}
     for text in [whole] if _changes_meant(file, whole) else texts:
-        if change := _changes_meant(file, text):  # phi -> phi + const
+        if change := _changes_meant(file, text) or _generated(file, text):  # phi -> phi + const
             found[f"shift_{len(found) + 1}" if found else "shift"] = change
         elif change := _usual_change(text, coordinates):
             found[name_meant(text, one=True) or text] = change
+    if not found and re.search(r"[*/^∂]", whole) and "'" not in whole:
+        return "write name: {coordinate: change}, as in rotation: {x: -y, y: x}"
     found = found or {"shift": _shift(coordinates)}
     return f"write {{{', '.join(map('{0[0]}: {0[1]}'.format, found.items()))}}}"
 

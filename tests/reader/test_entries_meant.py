@@ -308,16 +308,19 @@ def test_a_factor_before_a_list_multiplies_each_component(left, right):
     assert found.endswith("; write [l*sin(x), -l*cos(x)]")
 
 
-@pytest.mark.parametrize(("force", "name"), [("5 N", "F"), ("-5 N", "-F"), ("2.5 kN", "F")])
+@pytest.mark.parametrize(("force", "name"), [("5 N", "F"), ("-5 N", "-F"), ("2.5 J", "E")])
 @pytest.mark.parametrize("taken", ["", "F: {unit: N}, "])
 def test_a_force_with_a_unit_is_declared_where_the_file_has_units(force, name, taken):
-    given = f"{{{taken}m: {{unit: kg}}}}"
+    letter = name.lstrip("-")
+    given = f"{{{taken.replace('F', letter)}m: {{unit: kg}}}}"
     file = {"coordinates": "{x: {unit: m}}", "parameters": given, "T": "m*x'^2/2", "V": None}
     [found] = messages(text(**file, forces=f"{{x: {force}}}"))
     name += "_0" * bool(taken)
     value, unit = force.lstrip("-").split()
     declared = f"{name.lstrip('-')}: {{unit: {unit}, value: {value}}}"
     assert found.endswith(f"declare {declared} under parameters, and write {name}")
+    [found] = messages(text(**file, forces="{x: 2.5 kN}"))
+    assert "write 2.5 with kN, 2500 with" in found
 
 
 def test_a_contact_in_a_list_is_given_a_name():

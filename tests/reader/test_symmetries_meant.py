@@ -101,9 +101,20 @@ def test_a_generator_is_told_by_its_components(partial, given, change):
     [found] = messages(text(**FILE, symmetries=f"{{rotation: {written}}}"))
     assert found.endswith(f"; write {change}")
     assert messages(text(**FILE, symmetries=f"{{rotation: {change}}}")) == []
+    for shape in ("[{}]", "{}"):
+        [found] = messages(text(**FILE, symmetries=shape.format(written)))
+        assert found.endswith(f"{{shift: {change}}}")
+
+
+def test_a_parameter_is_not_a_derivative():
+    file = FILE | {"parameters": "{m: 1, k: 2, d_x: 1}"}
+    [found] = messages(text(**file, symmetries="{rotation: y*d_x}"))
+    assert found.endswith("as in {x: -y, y: x}")
 
 
 @pytest.mark.parametrize("given", ["x*y", "x^2 + y", "y*d/dz", "x*d/dx*d/dy", "(x + y)/2"])
 def test_no_other_symmetry_is_proposed_for_a_formula(given):
     [found] = messages(text(**FILE, symmetries=f"{{rotation: {given}}}"))
     assert found.endswith("; write coordinate: change, as in {x: -y, y: x}")
+    [found] = messages(text(**FILE, symmetries=f"[{given}]"))
+    assert found.endswith("write name: {coordinate: change}, as in rotation: {x: -y, y: x}")
