@@ -73,7 +73,7 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
     if moved := _moved(mistake, end, text):
         return [moved]
     if hint.partition(":")[0] == "leave it out":
-        if mistake.message.endswith(" has no meaning in an expression"):  # ...
+        if hint.endswith("begins with blanks"):  # ...
             marks = re.match(r"(.)\1*", text.source.text[start:])
             return [[Edit(start, start + len(marks[0]), "")]] if marks else []
         return [[_without(start, end, text, root)]]
