@@ -406,7 +406,10 @@ class Discovery(Setting):
             return
         energy = "also at a fixed energy, "
         if not self.quadratic_mass:
-            self._of_whole(relativistic(self.system), energy + "of second degree in the momenta without explicit time")
+            self._of_whole(
+                relativistic(self.system),
+                energy + "of second degree in the momenta without explicit time",
+            )
             return
         if is_gyroscopic(self.equations):
             known = [w for w in known_factors(self.equations) if w != 1]
