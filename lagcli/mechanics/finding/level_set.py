@@ -77,6 +77,8 @@ class LevelSet:
     def _integrals_of_accelerations(self) -> list[Expr]:
         """q' - B where q'' = dB/dt: y' + g t of a fall, x' + k x of a drag -m k x'."""
         system, found = self.system, []
+        if not self._are_lasting:
+            return []
         for acceleration, rate in zip(system.qddot, system.qdot, strict=True):
             formula = self.dynamics.on_motion(acceleration)
             if formula is None or formula == 0:
@@ -96,7 +98,14 @@ class LevelSet:
             and all(free_of(law.diff(v), velocities) for v in velocities)
         ]
         found = [boundary_term(law, self.system) for law in linear]
-        return [F for F in found if F is not None]
+        timed = self._are_lasting
+        return [F for F in found if F is not None and (timed or free_of(F, [self.system.t]))]
+
+    @property
+    def _are_lasting(self) -> bool:
+        """Whether the same equations hold at all times: no impact, no contact that is lost."""
+        problem = self.system.problem
+        return not problem.contacts and all(c.holds_while is None for c in problem.constraints)
 
     def _since_start(self, quantities: Sequence[Expr]) -> list[Expr]:
         """Q - Q(initial), where that says something."""
