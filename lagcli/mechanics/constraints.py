@@ -145,6 +145,11 @@ class Constraints:
         """A q' + b, which vanish on the motion."""
         return tuple(map(self._velocity_form, self.equations))
 
+    @property
+    def moving(self) -> bool:
+        """Whether a constraint drives the velocities: b is not 0 in A q' + b = 0."""
+        return any(e.drift != 0 for e in self.equations)
+
     @cached_property
     def relations(self) -> Relations | None:
         """What holds on the motion: f = 0 for the holonomic ones, A q' + b = 0 for all."""
@@ -180,6 +185,11 @@ class Constraints:
             within = rank([*integrable_span, form]) == len(integrable_span)
             kinds[equation.name] = "integrable" if within else "nonholonomic"
         return kinds
+
+    @property
+    def nonholonomic(self) -> bool:
+        """Whether one of them cannot be integrated."""
+        return "nonholonomic" in self.kinds.values()
 
     def is_integrable_alone(self, equation: ConstraintEquation) -> bool:
         """Whether a relation between the coordinates follows from this one without the others."""

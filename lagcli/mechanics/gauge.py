@@ -122,8 +122,7 @@ class GaugeSearch:
         verdicts = {zero(each).holds for each in self._exterior(form)}
         if False in verdicts or None in verdicts:
             return False if False in verdicts else None
-        kinds = self.dynamics.constraints.kinds.values()
-        return None if "nonholonomic" in kinds else True
+        return None if self.dynamics.constraints.nonholonomic else True
 
     def _one_form(self, change: Expr) -> list[Expr] | bool | None:
         """The one-form that K dt is for the velocities w + sum c_i u_i that are allowed.

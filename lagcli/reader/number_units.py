@@ -100,7 +100,7 @@ def unit_mistake(
     """What is wrong with `10 kg`, and what to write; None where no unit stands behind a number.
 
     Numbers are in the units of the file, whose names may be letters that are units as well;
-    a parameter is declared with its own.  The rate of an angle is no number of turns.
+    a parameter is declared with its own.  The rate of an angle is not a number of turns.
     """
     number, unit = number_and_unit(text.replace("°", " deg"))
     if not unit:

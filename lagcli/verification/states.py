@@ -148,9 +148,7 @@ def _state(reference: Reference, random: Random, number: int, attempt: int) -> S
     near = number % 4 == 3 or attempt % 3 == 2
     environment = _anywhere(reference.problem, random, negative, wide=number % 3 == 2)
     if attempt > _ATTEMPTS // 2:  # lengths of another order: x = 4 a on x^2 + y^2 = l^2
-        for parameter in reference.problem.parameters:
-            if not parameter.integer:
-                environment[parameter.name, 0] *= arb(2) ** random.randint(-3, 3)
+        environment = with_other_orders(reference.problem, environment, random)
     if near:
         environment |= _near_the_file(reference, random)
     if reference.rows and not onto_constraints(reference, environment):
@@ -163,6 +161,15 @@ def _state(reference: Reference, random: Random, number: int, attempt: int) -> S
         except Unclear:
             return None
     return state if all(x.is_finite() for x in values) else None
+
+
+def with_other_orders(problem: Problem, environment: Environment, random: Random) -> Environment:
+    """With parameters of other orders of magnitude."""
+    known = dict(environment)
+    for parameter in problem.parameters:
+        if not parameter.integer:
+            known[parameter.name, 0] *= arb(2) ** random.randint(-3, 3)
+    return known
 
 
 def _anywhere(problem: Problem, random: Random, negative: float, *, wide: bool) -> Environment:

@@ -40,8 +40,8 @@ def search_on_surface(
     listing.add(search.linear(setting.point_charges))
     momenta = search.momenta(of_lagrangian, listing.points)
     listing.add(search.new(_values(setting), momenta.conserved))
-    kinds = setting.dynamics.constraints.kinds.values()
-    turning = "nonholonomic" in kinds and not all_are_known(setting)
+    nonholonomic = setting.dynamics.constraints.nonholonomic
+    turning = nonholonomic and not all_are_known(setting)
     if turning:
         listing.add(search.turning(_values(setting)))
     setting.words.append(_sentence(times))
@@ -67,7 +67,7 @@ def search_on_surface(
             solved = search.of_velocities([*setting.charges, *found])
             search.unsolved = max(0, search.unsolved - len(solved))  # the same, in other terms
             found += solved
-        if "nonholonomic" in setting.dynamics.constraints.kinds.values():
+        if nonholonomic:
             found = _independent(setting, found)
         listing.add_hidden(("", charge) for charge in found)
         setting.words.append(
@@ -124,10 +124,9 @@ def _independent(setting: Setting, found: Sequence[NoetherCharge]) -> list[Noeth
 def _few(setting: Setting, known: Sequence[NoetherCharge]) -> bool:
     """Whether fewer than n are known that do not contain the time, on a surface at rest."""
     constraints = setting.dynamics.constraints
-    still = all(e.drift == 0 for e in constraints.equations)
     holonomic = all(kind == "holonomic" for kind in constraints.kinds.values())
     fixed = [c.charge for c in known if setting.system.t not in c.charge.free_symbols]
-    if not (still and holonomic and len(setting.system.q) <= _MOST_IN_SPACE):
+    if constraints.moving or not (holonomic and len(setting.system.q) <= _MOST_IN_SPACE):
         return False
     number = rank_on_surface(setting.dynamics, fixed)
     return number is not None and number < setting.dynamics.degrees_of_freedom

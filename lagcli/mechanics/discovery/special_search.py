@@ -165,7 +165,7 @@ def _to_try(
     if searched.dynamics.constraints.equations:
         discovery.words.append(_NOT_ALL)
         values = exchanged(discovery.dynamics)
-        if "nonholonomic" in discovery.dynamics.constraints.kinds.values():
+        if discovery.dynamics.constraints.nonholonomic:
             values += [*equal_inertias(system), *missing(system.parameters)]
         return values, []
     factors, pairs = _factors(searched, allowed)

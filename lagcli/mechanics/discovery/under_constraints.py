@@ -66,8 +66,7 @@ class UnderConstraints:
         curved = relations is not None and any(
             not f.free_symbols & set(self.system.qdot) for f in relations.remaining
         )
-        nonholonomic = "nonholonomic" in self.dynamics.constraints.kinds.values()
-        if curved or not nonholonomic:
+        if curved or not self.dynamics.constraints.nonholonomic:
             return Momenta([], [])
         moving = (self.system.t, *self.system.qdot)
         given = (c.transformation for c in known)
@@ -125,31 +124,36 @@ class UnderConstraints:
 
     def turning(self, known: Sequence[Expr]) -> list[NoetherCharge]:
         """Linear functions of the velocities that turn into each other, made constant."""
-        system, equations = self.system, self.dynamics.constraints.equations
-        if any(e.drift != 0 for e in equations):
+        system, momenta = self.system, self.dynamics.lagrange.momenta
+        if self.dynamics.constraints.moving:
             return []
-        momenta = [dot(e, self.dynamics.lagrange.momenta) for e in self.fields]
-        still = dict.fromkeys(system.qdot, sympy.S.Zero)
+        moved = [p - rest for p, rest in zip(momenta, self._at_rest, strict=True)]
         forms = [
             *squares_of_velocities(system.L, system.qdot),
             *system.qdot,
-            *(simplify(p - p.xreplace(still)) for p in momenta),
+            *(simplify(dot(e, moved)) for e in self.fields),
         ]
         found: list[NoetherCharge] = []
+        number = rank_on_surface(self.dynamics, known)
         for pair in turning(self.dynamics, forms, self.allowed):
             values = [*known, *(c.charge for c in found)]
-            number, together = (rank_on_surface(self.dynamics, [*values, *x]) for x in ((), pair))
+            together = rank_on_surface(self.dynamics, [*values, *pair])
             if number != together:
                 found += [c for c in map(self._linear_charge, pair) if c.verified == "exact"]
+                number = rank_on_surface(self.dynamics, [*known, *(c.charge for c in found)])
         return found
+
+    @cached_property
+    def _at_rest(self) -> list[Expr]:
+        """The momenta without velocities."""
+        still = dict.fromkeys(self.system.qdot, sympy.S.Zero)
+        return [p.xreplace(still) for p in self.dynamics.lagrange.momenta]
 
     def _linear_charge(self, form: Expr) -> NoetherCharge:
         """Of a linear function of the velocities: p.eta without its part at rest is the form."""
         form, *_ = scaled((form,), set(self.system.parameters))
-        still = dict.fromkeys(self.system.qdot, sympy.S.Zero)
-        at_rest = [p.xreplace(still) for p in self.dynamics.lagrange.momenta]
         tangent = Transformation(self._tangent(form), sympy.S.Zero)
-        gauge = dot(at_rest, tangent.changes)
+        gauge = dot(self._at_rest, tangent.changes)
         charge = self.noether.charge("", "discovered", tangent, gauge)
         return changed(charge, charge=form if charge.conserved else charge.charge)
 
@@ -193,7 +197,7 @@ class UnderConstraints:
             velocities[x] for x in self.kinds.lengths
             if free_of(rates[x], others) and _is_linear(rates[x], moving)
         ]  # fmt: skip
-        moved = any(e.drift != 0 for e in self.dynamics.constraints.equations)
+        moved = self.dynamics.constraints.moving
         fields = {self._tangent(v): v for v in closed}  # p.e = v on A q' = 0
         return {e: dot(e, self.dynamics.lagrange.momenta) for e in fields} if moved else fields
 
@@ -281,8 +285,8 @@ class UnderConstraints:
         """Whether a motion may run backwards: then terms of odd degree are apart."""
         back = {v: -v for v in self.system.qdot}
         forcing = self.noether.dynamics.lagrange.forcing
-        drift = any(e.drift != 0 for e in self.dynamics.constraints.equations)
-        return not drift and all(is_zero(f.xreplace(back) - f) is True for f in forcing)
+        moving = self.dynamics.constraints.moving
+        return not moving and all(is_zero(f.xreplace(back) - f) is True for f in forcing)
 
     def of_velocities(self, known: Sequence[NoetherCharge]) -> list[NoetherCharge]:
         """Integrals K_ij(q) q_i' q_j' + S: K q' is tangent only with a part along the gradients.

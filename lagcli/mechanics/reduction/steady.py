@@ -123,7 +123,7 @@ class SteadyMotions:
         The constraints are then those of positions, and nothing turns or glides through rest.
         """
         constraints = self.dynamics.constraints
-        if "nonholonomic" in constraints.kinds.values():
+        if constraints.nonholonomic:
             return False
         if any(is_zero(e.drift) is not True for e in constraints.equations):
             return False

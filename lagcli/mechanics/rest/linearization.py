@@ -216,7 +216,7 @@ class Linearization:
     @property
     def nonholonomic(self) -> bool:
         """Whether a constraint cannot be integrated: displacements have other rules then."""
-        return "nonholonomic" in self.dynamics.constraints.kinds.values()
+        return self.dynamics.constraints.nonholonomic
 
     @cached_property
     def has_potential(self) -> bool:

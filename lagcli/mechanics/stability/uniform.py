@@ -61,7 +61,7 @@ def by_neighbouring_surfaces(near: Near) -> Stability | None:
     constraints, values = linear.dynamics.constraints, linear.point.values
     still = dict.fromkeys(linear.system.qdot, S.Zero)
     slopes = (f.diff(v).xreplace(still) for f in linear.rest.forcing for v in still)
-    if "nonholonomic" in constraints.kinds.values() or any(x != 0 for x in slopes):
+    if constraints.nonholonomic or any(x != 0 for x in slopes):
         return None
     if near.dimension != len(linear.M) or not near.inertia_is_definite:
         return None

@@ -15,7 +15,7 @@ from lagcli.verification.comparison import ComparisonVerdict, compare, is_zero
 from lagcli.verification.examination import LOOKED_AT, Examination
 from lagcli.verification.linear import Unclear, rank
 from lagcli.verification.phase_points import Environment
-from lagcli.verification.states import State, onto_constraints
+from lagcli.verification.states import State, onto_constraints, with_other_orders
 
 #: States of a special value beyond those that a rank needs.
 _MORE = 4
@@ -116,12 +116,8 @@ def _there(x: Examination, values: Mapping[str, int]) -> Iterator[State]:
 
 def _with_other_parameters(x: Examination) -> Iterator[Environment]:
     """States, then the same with parameters of other orders: w^2/4 - w0^2 is to be positive."""
-    random = Random(4)
-    free = [(p.name, 0) for p in x.problem.parameters if not p.integer]
-    for scaled in range(_SCALES):
+    random, problem = Random(4), x.problem
+    yield from (state.environment for state in x.states(LOOKED_AT))
+    for _ in range(1, _SCALES):
         for state in x.states(LOOKED_AT):
-            sizes = {key: arb(2) ** random.randint(-3, 3) for key in free if scaled}
-            yield {
-                key: value * sizes[key] if key in sizes else value
-                for key, value in state.environment.items()
-            }
+            yield with_other_orders(problem, state.environment, random)
