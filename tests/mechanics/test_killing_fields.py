@@ -103,6 +103,31 @@ def lie(g, xi, i, j):
                        + g.g[i][k] * xi[k].diff(g.q[j]) for k in n))  # fmt: skip
 
 
+# squares of the one-forms of two coordinates, and how many isometries there are
+PLANES = {
+    "sphere": (lambda x, y: (1, sin(x)), 3),
+    "half plane": (lambda x, y: (1 / y, 1 / y), 3),
+    "de Sitter": (lambda x, y: (sympy.sqrt(1 - y**2) * sympy.I, 1 / sympy.sqrt(1 - y**2)), 3),
+    "catenoid": (lambda x, y: (cosh(x), cosh(x)), 1),
+}
+
+
+@pytest.mark.parametrize("seed", [0, *(pytest.param(k, marks=pytest.mark.long) for k in (1, 2, 3))])
+def test_a_product_has_the_isometries_of_its_factors(seed):
+    """Of two lines those of their plane."""
+    draw = Random(seed)
+    (one, first), (other, second) = draw.sample(list(PLANES.values()), 2)
+    scale, forms = draw.choice([1, a, 3]), (*one(x, y), *other(u, v))
+    squares = [
+        ((scale if k < 2 else 1) * f**2, tuple(int(k == j) for j in range(4)))
+        for k, f in enumerate(forms)
+    ]
+    assert len(KillingFields(metric((x, y, u, v), *squares), Allowance()).fields) == first + second
+    lines = ((1, (0, 0, 1, 0)), (draw.choice([1 / w**2, exp(w), 1 + w**2]), (0, 0, 0, 1)))
+    plane = KillingFields(metric((x, y, z, w), *squares[:2], *lines), Allowance())
+    assert len(plane.fields) == plane.isometries == first + 3
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_a_throat_of_any_profile_has_four(seed):
     """f(u) (-r^2 dt^2 + dr^2/r^2 + du^2) + h(u) (dv + k r dt)^2 has sl(2,R) and d/dv."""

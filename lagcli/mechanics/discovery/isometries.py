@@ -1,17 +1,11 @@
 """The isometries of a kinetic energy of constant curvature, and the point symmetries from them.
 
 A point symmetry of L = T - V with T quadratic in the velocities moves q by an isometry of T,
-or by a dilation where time is stretched too.  With the functions X_a of `ambient` these are
-known in any coordinates, up to constant factors:
-
-    flat:    grad X_a,  X_a grad X_b - X_b grad X_a,  G^ab X_a grad X_b,
-    curved:  X_a grad X_b - X_b grad X_a,
-
-where G_ab = grad X_a . grad X_b.
+or by a dilation where time is stretched too.  With the functions X_a of `constant_curvature` these are
+known in any coordinates, up to constant factors.
 
 References
 ----------
-Eisenhart, *Riemannian Geometry*, section 71.
 Katzin, Levine, J. Math. Phys. 15 (1974) 1460 (symmetries of dynamical systems).
 """
 
@@ -19,15 +13,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from itertools import chain, combinations
+from itertools import chain
 
 import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
-from lagcli.mechanics.discovery.ambient import ambient_functions
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, affine, ordered, time_functions
+from lagcli.mechanics.discovery.constant_curvature import ConstantCurvature, Vector
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
@@ -40,13 +34,11 @@ from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 _MOST_COORDINATES = 6  # two bodies in space; coupled ones in spherical coordinates are not finished
 _MOST_TOGETHER = 4
 
-Vector = tuple[Expr, ...]
-
 #: What stands before the X_a that are Cartesian coordinates as they are, not but for factors.
 THEY_ARE = "The Cartesian coordinates are "
 
 
-class Isometries:
+class Isometries(ConstantCurvature):
     """The Killing vectors of a kinetic energy of constant curvature.
 
     Parameters
@@ -62,8 +54,7 @@ class Isometries:
         factor, mass = _time_apart(equations)
         self._rest = _by_parameters(rest / factor, equations.q)
         self._forcing = [f / factor for f in equations.forcing]
-        self.allowed = allowed
-        self.metric = Metric(equations.q, mass)
+        super().__init__(Metric(equations.q, mass), allowed)
 
     @staticmethod
     def apply(equations: SlotEquations) -> bool:
@@ -78,75 +69,16 @@ class Isometries:
             return False
         return all(factor.n <= _MOST_TOGETHER for factor in Metric(equations.q, mass).factors)
 
-    @cached_property
-    def functions(self) -> list[Expr]:
-        """X_a; none where the curvature is not constant, or they were not found."""
-        return ambient_functions(self.metric, self.allowed)
-
-    @property
-    def flat(self) -> bool:
-        """Whether the X_a are Cartesian coordinates."""
-        return bool(self.metric.curvature == 0)
-
-    @property
-    def translated(self) -> list[Expr]:
-        """X_a of a flat space."""
-        return self.functions if self.flat else []
-
-    @cached_property
-    def translations(self) -> list[Vector]:
-        """grad X_a of a flat space."""
-        return self._gradients if self.flat else []
-
-    @cached_property
-    def _gradients(self) -> list[Vector]:
-        return [self.metric.gradient(X) for X in self.functions]
-
-    @cached_property
-    def rotations(self) -> list[Vector]:
-        """X_a grad X_b - X_b grad X_a."""
-        pairs = combinations(zip(self.functions, self._gradients, strict=True), 2)
-        return [
-            tuple(simplify(X * y - Y * x) for x, y in zip(DX, DY, strict=True))
-            for (X, DX), (Y, DY) in pairs
-        ]
-
-    @cached_property
-    def _gram(self) -> sympy.Matrix:
-        """G_ab = grad X_a . grad X_b, constant in a flat space."""
-        lowered = [[dot(row, D) for row in self.metric.g] for D in self._gradients]
-        return sympy.Matrix([[simplify(dot(D, low)) for low in lowered] for D in self._gradients])
-
-    @property
-    def inertia(self) -> list[Expr]:
-        """m_a of T = sum m_a X_a'^2/2; none where the X_a are not at right angles."""
-        return [1 / k for k in self._gram.diagonal()] if self._gram.is_diagonal() else []
-
     @property
     def what_they_are(self) -> str:
         """The X_a of a flat space as what stands before them in a sentence."""
         if len(self.functions) == 1:
             return "The arc length is proportional to "
-        if not self._gram.is_diagonal():
+        if not self.gram.is_diagonal():
             return "Cartesian coordinates are linear combinations of "
-        if len({*self._gram.diagonal()}) > 1:
+        if len({*self.gram.diagonal()}) > 1:
             return "Cartesian coordinates are constant multiples of "
         return THEY_ARE
-
-    @cached_property
-    def dilation(self) -> Vector:
-        """G^ab X_a grad X_b, half the gradient of the square of the distance."""
-        inverse = self._gram.inv(method="ADJ")
-        n = range(len(self.functions))
-        square = sympy.Add(
-            *(inverse[a, b] * self.functions[a] * self.functions[b] for a in n for b in n)
-        )
-        return tuple(x / 2 for x in self.metric.gradient(square))
-
-    @property
-    def fields(self) -> list[Vector]:
-        """All Killing vectors."""
-        return [*self.translations, *self.rotations]
 
     @property
     def terms(self) -> list[Expr]:

@@ -7,6 +7,7 @@ With xi = f(q) e_i the change of the metric is
 so that constants c with sum c L_xi g = 2 k g are a linear system.  The f are products of functions
 of each coordinate: of a cyclic one those that `killing_jets` tells, of any other those of which the
 metric and its inverse consist, of few coordinates first, until there are as many as there can be.
+Of a product of metrics those of its factors are known first.
 
 References
 ----------
@@ -24,6 +25,7 @@ from sympy import Expr, Symbol
 from lagcli.algebra import derivative, dot
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, complexity, ordered
+from lagcli.mechanics.discovery.constant_curvature import ConstantCurvature, Vector
 from lagcli.mechanics.discovery.killing_jets import KillingJets
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import HYPERBOLIC, Metric
@@ -34,8 +36,6 @@ from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 _MOST_UNKNOWNS = 700
 _MOST_COORDINATES = 6
 _HALF = sympy.S.Half
-
-Vector = tuple[Expr, ...]
 
 
 class KillingFields:
@@ -86,6 +86,9 @@ class KillingFields:
         cyclic = [x for x in self.metric.q if self.metric.is_cyclic(x)]
         if self.number <= len(cyclic):
             return found
+        found += self._of_factors()
+        if len(found) == self.number:
+            return found
         along = {x: self._jets.along(x) for x in cyclic}
         if any(functions is None for functions in along.values()):
             return found
@@ -99,6 +102,24 @@ class KillingFields:
                     found += self._solutions(functions, found)
                 if len(found) == self.number:
                     return found
+        return found
+
+    def _of_factors(self) -> list[Vector]:
+        """Of a product those of each factor that is curved, and of all flat ones together."""
+        factors, q = self.metric.factors, self.metric.q
+        if len(factors) == 1:
+            return []
+        flat = [q.index(x) for factor in factors if factor.curvature == 0 for x in factor.q]
+        parts = [factor for factor in factors if factor.curvature != 0]
+        found = []
+        for part in [*parts, self.metric.of(flat)] if flat else parts:
+            fields = ConstantCurvature(part, self.allowed).fields
+            if part.curvature is None:
+                known = KillingFields(part, self.allowed)
+                fields = known.fields if known.isometries == known.number else []
+            for field in fields:
+                values = dict(zip(part.q, field, strict=True))
+                found.append(tuple(values.get(x, sympy.S.Zero) for x in q))
         return found
 
     def _of_coordinate(self, x: Symbol) -> list[Expr]:

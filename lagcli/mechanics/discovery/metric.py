@@ -56,10 +56,11 @@ class Metric:
                 old = {label[j] for j in ({i, k, *inside} if entry != 0 else {i})}
                 label = [label[i] if x in old else x for x in label]
         parts = [[i for i in range(self.n) if label[i] == x] for x in dict.fromkeys(label)]
-        return [
-            Metric([self.q[i] for i in part], [[self.g[i][k] for k in part] for i in part])
-            for part in parts
-        ]
+        return [self.of(part) for part in parts]
+
+    def of(self, part: Sequence[int]) -> Metric:
+        """The components of some of the coordinates, by their places."""
+        return Metric([self.q[i] for i in part], [[self.g[i][k] for k in part] for i in part])
 
     @cached_property
     def inverse(self) -> list[list[Expr]]:
