@@ -20,7 +20,7 @@ from lagcli.rewriting import expressions_in
 from lagcli.verification.comparison import ComparisonVerdict, compare, is_zero
 from lagcli.verification.linear import Unclear, rank
 from lagcli.verification.reference import Reference
-from lagcli.verification.states import State, phase_states, random_states
+from lagcli.verification.states import OF_ONE_ORDER, State, phase_states, random_states
 from lagcli.verification.sweeps import StepValues, Unknown
 
 #: What a warning says of a claim that does not hold at a state, and of claims without a value.
@@ -28,7 +28,7 @@ REFUTED = "could not be confirmed; this is left out"
 UNDECIDED = "not verified in numbers"
 #: States at which each claim is tried, and how many are looked at where it has no value.
 STATES = 3
-LOOKED_AT = 9
+LOOKED_AT = OF_ONE_ORDER
 #: States at which a rate that is claimed not to be 0 is tried where constraints may have branches:
 #: a fifth of the states on y (x + z) (z - 3 y) = 0 is on the least likely one.
 BRANCHED = 24
@@ -250,7 +250,7 @@ class Examination:
         """Whether two lists of values agree at random states; noted if not."""
         tried = looked_at = 0
         undefined = False
-        while tried < self._count and looked_at < LOOKED_AT:
+        while tried < self._count and looked_at < (BRANCHED if undefined else LOOKED_AT):
             looked_at += 1
             try:
                 verdict = self._at_state(sides, looked_at)

@@ -27,6 +27,8 @@ from lagcli.verification.sweeps import Unknown
 _NEWTON_STEPS = 40
 #: Attempts for each state: a linkage closes for some one in five of random lengths.
 _ATTEMPTS = 24
+#: States with parameters of one order, before every second has others: m^2 g > 4 a c^2 is rare.
+OF_ONE_ORDER = 9
 
 
 class State:
@@ -147,7 +149,8 @@ def _state(reference: Reference, random: Random, number: int, attempt: int) -> S
     negative = 0.4 if number % 2 and attempt < _ATTEMPTS // 2 else 0.0
     near = number % 4 == 3 or attempt % 3 == 2
     environment = _anywhere(reference.problem, random, negative, wide=number % 3 == 2)
-    if attempt > _ATTEMPTS // 2:  # lengths of another order: x = 4 a on x^2 + y^2 = l^2
+    spread = number >= OF_ONE_ORDER and number % 2 == 1
+    if spread or attempt > _ATTEMPTS // 2:  # lengths of another order: x = 4 a on x^2 + y^2 = l^2
         environment = with_other_orders(reference.problem, environment, random)
     if near:
         environment |= _near_the_file(reference, random)

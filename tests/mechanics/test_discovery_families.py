@@ -65,6 +65,39 @@ def test_with_constants_of_either_sign_their_charges_stay_on_an_independent_moti
     assert {n: digits for n, digits in kept.items() if digits < 20} == {}
 
 
+# x as a function of u, of which T = m x'^2/2, V and the dissipation c x'^2/2 are made
+LENGTHS = {"sine": "2*sin(u/2)", "cycloid": "4*b*cos(u/2)", "growth": "exp(u)", "cube": "u^3 + u"}
+
+
+@pytest.mark.parametrize("V", ["k*(X)^2/2", "m*g*(X)"])
+@pytest.mark.parametrize("name", LENGTHS)
+def test_an_arc_length_under_drag_has_five(name, V):
+    X = LENGTHS[name]
+    rate = re.sub(r"\*\*", "^", str(sympy.sympify(X.replace("^", "**")).diff("u")))
+    square = f"(({rate})*u')^2/2"
+    head = "".join(f"  {p}: {POS}\n" for p in "mkcgb")
+    text = f"parameters:\n{head}coordinates: {{u: {POS}}}\nT: m*{square}\nV: {V.replace('X', X)}\n"
+    derivation = derive(f"{text}dissipation: c*{square}\n")
+    assert len(derivation.discovery.charges) == 5
+    assert derivation.discovery.stopped == []
+    kept = digits_of(derivation)
+    assert len(kept) == 5
+    assert min(kept.values()) > 20
+
+
+@pytest.mark.parametrize("stiffness", ["g/(4*b)", "k - g - b"])
+def test_what_is_real_for_few_parameters_is_tried_there(stiffness):
+    L = f"exp(2*c*t/m)*(m*x'^2/2 - m*({stiffness})*x^2/2)"
+    answers = solve(
+        derive(one_coordinate(L, positive="m g b c k")).problem, ["discovered", "algebra"]
+    )
+    charges = answers.sections["discovered"].charges
+    assert len(charges) == 5
+    assert all(c.conserved and c.verified == "exact" for c in charges)
+    assert answers.sections["algebra"].dimension == 5
+    assert answers.warnings == ()
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("L", ["(m + b - c*t)*x'^2/2", "(m - c*t)*(x'^2/2 - g*x)"])
 def test_a_mass_that_is_lost_leaves_five(L):

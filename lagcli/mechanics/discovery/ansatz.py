@@ -47,6 +47,17 @@ class TimeFunctions:
     lacking: bool = False  # no closed form was found of exponents of linear equations
     unsolved: bool = False  # no formula is known for solutions of such an equation
 
+    @property
+    def words(self) -> str:
+        """What they are, behind the functions of the coordinates."""
+        highest = "third" if any(T.is_Pow and T.exp == 3 for T in self.others) else "second"
+        words = f", polynomial in t to {highest} degree"
+        if self.exponents:
+            words += " and with the exponents of the linear part"
+        if self.changing:
+            words += " and with the solutions of the linear part of the equations of motion"
+        return words + (" and with the functions of time of the driving" if self.forced else "")
+
 
 def time_functions(
     equations: SlotEquations, accelerations: Sequence[Expr] | None, *, potential: bool
@@ -271,3 +282,17 @@ def ordered(unknowns: list[SlotUnknown]) -> list[SlotUnknown]:
         return (2 * sympy.count_ops(T) + len(T.free_symbols), *complexity(g), unknown.slot)
 
     return sorted(unknowns, key=cost, reverse=True)
+
+
+def in_words(spaces: Sequence[Expr], kinds: Kinds) -> str:
+    """What transformations with these functions of the coordinates are."""
+    shapes = []
+    if not kinds.angles or any(s.free_symbols & {*kinds.lengths} for s in spaces):
+        second = any(x**2 in spaces for x in kinds.lengths)
+        degree = f"{'of second degree' if second else 'affine'} in the coordinates"
+        shapes.append("with powers −2 to 3 of the coordinate" if kinds.powers else degree)
+        if kinds.exponentials:
+            shapes.append("and in exponentials of them")
+    if any(s.has(sympy.sin, sympy.cos) for s in spaces):
+        shapes.append("with sines and cosines of the angles")
+    return " ".join(shapes) or "constant in the coordinates"

@@ -8,18 +8,20 @@ Ibragimov, *Elementary Lie Group Analysis and Ordinary Differential Equations*, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 
 import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero
+from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery import point
 from lagcli.mechanics.discovery.ansatz import (
     TimeFunctions,
     affine,
     has_all_products,
+    in_words,
     point_unknowns,
     products_of_two,
     quadratic_unknowns,
@@ -29,13 +31,13 @@ from lagcli.mechanics.discovery.centralizer import centralized, with_one_stretch
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.constrained import rank_on_surface, tangent
 from lagcli.mechanics.discovery.fixed_energy import at_fixed_energy, has_fixed_energy, relativistic
-from lagcli.mechanics.discovery.fixed_values import FixedValues, at_fixed_momenta
+from lagcli.mechanics.discovery.fixed_values import FixedValues, at_fixed_momenta, problem_with
 from lagcli.mechanics.discovery.hidden import QuadraticIntegrals, Slots, is_gyroscopic
 from lagcli.mechanics.discovery.hidden_names import HiddenNames
 from lagcli.mechanics.discovery.killing import KillingFrame, common_factors, known_factors
 from lagcli.mechanics.discovery.killing_integrals import KillingIntegrals
 from lagcli.mechanics.discovery.kinds import Kinds
-from lagcli.mechanics.discovery.lifted import lifted, of_velocity_constraints
+from lagcli.mechanics.discovery.lifted import growth_of, lifted, of_growing, of_velocity_constraints
 from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Allowance, TooMuchWork
 from lagcli.mechanics.discovery.listing import more, times
 from lagcli.mechanics.discovery.modular import NoPoint
@@ -57,6 +59,8 @@ _SECOND = "first integrals of second degree in the velocities"
 _MOST_FOR_TENSORS = 6  # measured: at most 4
 
 Named = tuple[str, Expr, NoetherCharge]
+#: What makes charges of another problem those of this one.
+Lift = Callable[[Iterable[NoetherCharge]], Iterator[NoetherCharge]]
 
 
 class Discovery(Setting):
@@ -121,7 +125,7 @@ class Discovery(Setting):
     def _run(self) -> None:
         searches: list[tuple[Callable[[], None], str]] = []
         put_in = self._of_unconstrained()
-        if not put_in:
+        if not (put_in or self._of_growing()):
             searches.append((self._points, "point symmetries"))
         if self.dynamics.constraints.equations:
             if not (put_in and self._suffices):
@@ -158,15 +162,10 @@ class Discovery(Setting):
             return False
         self.unconstrained = fewer
         given = "constraints" if len(self.dynamics.constraints.equations) > 1 else "constraint"
-        self.words.append(f"with the {given} put in, {'; '.join(dict.fromkeys(fewer.words))}")
-        self.stopped += fewer.stopped
-        self.unproved = fewer.unproved
-        self.cartesian, self.cartesian_lead = fewer.cartesian, fewer.cartesian_lead
         self.listing.add(of_velocity_constraints(self.noether))
-        self.listing.add(lifted(fewer.point_charges, fewer.system, self.noether))
-        for charge in fewer.hidden_charges:
-            name = "" if charge.name.startswith("charge_") else charge.name
-            self.listing.add_hidden((name, c) for c in lifted([charge], fewer.system, self.noether))
+        self._take(
+            fewer, f"with the {given} put in", lambda c: lifted(c, fewer.system, self.noether)
+        )
         proved = sum(
             any(c.transformation.changes) or c.transformation.time != 0 for c in self.charges
         )
@@ -176,6 +175,28 @@ class Discovery(Setting):
         if all_are_known(self):
             self.words.append(ALL_ARE_KNOWN)
         return True
+
+    def _of_growing(self) -> bool:
+        """What is found for exp(Gamma) L without forces; whether these are -Gamma'(t) dL/dq'."""
+        growth = growth_of(self.noether)
+        if growth is None or free_of(sympy.Tuple(*self.equations.mass), self.system.q):
+            return False
+        n = range(len(self.system.q))
+        there = self._search_of(problem_with(self.system, n, growth * self.system.L, ()))
+        words = "with L times a function of time in place of the drag"
+        self._take(there, words, lambda charges: of_growing(charges, growth, self.noether))
+        return True
+
+    def _take(self, there: Discovery, where: str, lift: Lift) -> None:
+        """What was found for another problem, as charges of this one."""
+        self.words.append(f"{where}, {'; '.join(dict.fromkeys(there.words))}")
+        self.stopped += there.stopped
+        self.unproved = there.unproved
+        self.cartesian, self.cartesian_lead = there.cartesian, there.cartesian_lead
+        self.listing.add(lift(there.point_charges))
+        for charge in there.hidden_charges:
+            name = "" if charge.name.startswith("charge_") else charge.name
+            self.listing.add_hidden((name, c) for c in lift([charge]))
 
     @property
     def _suffices(self) -> bool:
@@ -197,14 +218,14 @@ class Discovery(Setting):
                 named = axes.X if axes is not None else ()  # x, y, z, by which charges are named
                 self.cartesian = named if {*named} == {*found} else found
                 self.cartesian_lead = isometries.what_they_are
-            return isometries.search(times, allowed), isometries.words + _timed(times)
+            return isometries.search(times, allowed), isometries.words + times.words
         slots = point_slots(equations)
         if self.spacetime is not None:
             unknowns = quadratic_unknowns(range(len(slots)), self.spacetime.terms)
             words = "point transformations that are isometries of space and time"
             return Search(equations, slots, unknowns, allowed), words
         if self.killing is not None:
-            words = self.killing.words + _timed(times)
+            words = self.killing.words + times.words
             return self.killing.search(equations, times, allowed), words
         spaces, whole = affine(kinds), has_all_products(kinds)
         if kinds.powers:
@@ -216,8 +237,9 @@ class Discovery(Setting):
             if len(unknowns) <= MOST_UNKNOWNS or len(spaces) == 1:
                 break
             spaces, whole = spaces[: len(spaces) // 2], False
-        words = self._shapes(spaces) + ("" if whole else ", not all products of such")
-        return Search(equations, slots, unknowns, allowed), words + _timed(times)
+        what = "point transformations" if self.canonical else "integrating factors"
+        words = f"{what} {in_words(spaces, kinds)}{'' if whole else ', not all products of such'}"
+        return Search(equations, slots, unknowns, allowed), words + times.words
 
     def _points(self) -> None:
         allowed = self.allowed.part(0.7)
@@ -463,32 +485,3 @@ class Discovery(Setting):
             return named
         naming = self.listing.naming
         return kept + [(naming.of_mode(c.transformation.changes), sympy.S.One, c) for c in modes]
-
-    def _shapes(self, spaces: Sequence[Expr]) -> str:
-        """The transformations with functions of the coordinates, in words."""
-        what = "point transformations" if self.canonical else "integrating factors"
-        shapes = []
-        if any(set(s.free_symbols) & set(self.coordinate_kinds.lengths) for s in spaces) or (
-            not self.coordinate_kinds.angles
-        ):
-            second = any(x**2 in spaces for x in self.coordinate_kinds.lengths)
-            degree = f"{'of second degree' if second else 'affine'} in the coordinates"
-            powers = "with powers −2 to 3 of the coordinate"
-            shapes.append(powers if self.coordinate_kinds.powers else degree)
-            if self.coordinate_kinds.exponentials:
-                shapes.append("and in exponentials of them")
-        if any(s.has(sympy.sin, sympy.cos) for s in spaces):
-            shapes.append("with sines and cosines of the angles")
-        space = " ".join(shapes) or "constant in the coordinates"
-        return f"{what} {space}"
-
-
-def _timed(times: TimeFunctions) -> str:
-    """The functions of time of an ansatz."""
-    highest = "third" if any(T.is_Pow and T.exp == 3 for T in times.others) else "second"
-    timed = f", polynomial in t to {highest} degree"
-    if times.exponents:
-        timed += " and with the exponents of the linear part"
-    if times.changing:
-        timed += " and with the solutions of the linear part of the equations of motion"
-    return timed + (" and with the functions of time of the driving" if times.forced else "")

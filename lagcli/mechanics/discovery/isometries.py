@@ -1,8 +1,8 @@
 """The isometries of a kinetic energy of constant curvature, and the point symmetries from them.
 
 A point symmetry of L = T - V with T quadratic in the velocities moves q by an isometry of T,
-or by a dilation where time is stretched too.  With the functions X_a of `constant_curvature` these are
-known in any coordinates, up to constant factors.
+or by a dilation where time is stretched too.  Of constant curvature these are known in any
+coordinates, up to constant factors.
 
 References
 ----------

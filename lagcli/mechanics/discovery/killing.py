@@ -18,8 +18,9 @@ from sympy import Expr
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.ansatz import affine, quadratic_unknowns
+from lagcli.mechanics.discovery.constant_curvature import Vector
 from lagcli.mechanics.discovery.hidden import is_gyroscopic
-from lagcli.mechanics.discovery.isometries import Isometries, Vector
+from lagcli.mechanics.discovery.isometries import Isometries
 from lagcli.mechanics.discovery.kinds import Kinds
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric

@@ -35,8 +35,8 @@ from sympy import Expr
 
 from lagcli.algebra import derivative, dot, simplify
 from lagcli.mechanics.discovery.ansatz import products_of_two
+from lagcli.mechanics.discovery.constant_curvature import Vector
 from lagcli.mechanics.discovery.hidden import expanded, potential, roots_in
-from lagcli.mechanics.discovery.isometries import Vector
 from lagcli.mechanics.discovery.killing import KillingFrame
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.discovery.products import integral_of

@@ -18,6 +18,8 @@ import sympy
 from sympy import Expr
 
 from lagcli.algebra import dot, simplify, solve_linear
+from lagcli.algebra.antiderivative import antiderivative
+from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery import point
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.fewer_coordinates import integral_of
@@ -54,6 +56,31 @@ def lifted(
                 if point.is_energy(transformation)
                 else _shorter(proved, simplify(factor * charge.charge), noether)
             )
+
+
+def growth_of(noether: Noether) -> Expr | None:
+    """exp(Gamma) where the forces are -Gamma'(t) dL/dq', those of exp(Gamma) L; None elsewhere."""
+    system = noether.system
+    pairs = zip(system.applied_forces, noether.dynamics.lagrange.momenta, strict=True)
+    rates = {simplify(-force / p) if p != 0 else sympy.nan for force, p in pairs}
+    rate = rates.pop()
+    if rates or rate in {0, sympy.nan} or not free_of(rate, (*system.q, *system.qdot)):
+        return None
+    integral = antiderivative(rate, system.t)
+    return None if integral is None else simplify(sympy.exp(integral))
+
+
+def of_growing(
+    charges: Iterable[NoetherCharge], growth: Expr, noether: Noether
+) -> Iterator[NoetherCharge]:
+    """The charges of exp(Gamma) L with the multipliers that L has for them."""
+    for charge in charges:
+        given = charge.transformation
+        if charge.gauge is not None:
+            *changes, time = (simplify(growth * x) for x in (*given.changes, given.time))
+            proved = point.with_gauge(noether, Transformation(tuple(changes), time), charge.gauge)
+            if proved is not None:
+                yield replace(proved, charge=charge.charge)
 
 
 def of_velocity_constraints(noether: Noether) -> Iterator[NoetherCharge]:

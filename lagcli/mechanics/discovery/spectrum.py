@@ -293,5 +293,8 @@ def frequency_of(square: Expr) -> Expr:
     roots = [p for p in root.atoms(sympy.Pow) if p.exp.is_Rational and p.exp.q == 2]
     radicands = [p.base for p in roots if not p.base.is_number]
     if len(radicands) > 1 and any(each.is_Add for each in radicands):
-        root = sympy.sqrt(square)  # not torn apart
+        # 4 m^2 of g/l - c^2/4 m^2; what is left is not torn apart
+        factors = [f.as_base_exp() for f in sympy.Mul.make_args(below)]
+        whole = sympy.Mul(*(b**n for b, n in factors if n == 2 or sympy.sqrt(b).is_Integer))
+        root = sympy.sqrt(sympy.expand(whole * square)) / sympy.sqrt(whole)
     return simplify(root).replace(sympy.Abs, lambda x: x)

@@ -13,7 +13,7 @@ from typing import TypeVar
 
 from flint import arb
 
-from lagcli.verification.examination import LOOKED_AT, Examination
+from lagcli.verification.examination import BRANCHED, LOOKED_AT, Examination
 from lagcli.verification.linear import Unclear, dot, solve
 from lagcli.verification.phase_points import Slopes, poisson
 from lagcli.verification.states import State, onto_constraints
@@ -83,7 +83,7 @@ def around_states(
         return [s for s in states if all(s.at(f).is_finite() for f in functions)]
 
     found: list[Sample] = []
-    for first in inside(x.states(LOOKED_AT)) or x.states(1):
+    for first in inside(x.states(LOOKED_AT)) or inside(x.states(BRANCHED)) or x.states(1):
         around = _around(first, functions, count, sampled)
         found = max(found, around, key=len)
         if len(around) == count:
