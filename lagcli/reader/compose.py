@@ -15,7 +15,7 @@ import yaml
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.reader.expressions import signed_terms
 from lagcli.reader.flow import mend_commas
-from lagcli.reader.headings import SECTIONS
+from lagcli.reader.headings import SECTIONS, is_said
 from lagcli.reader.limits import EXPANDED_SIZE, YAML_LEVELS
 from lagcli.reader.misshapen import by_key
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
@@ -198,7 +198,7 @@ class _Composer:
         if not (isinstance(key, Scalar) and key.in_flow and not key.style and value.is_empty):
             return None
         found = _ATTRIBUTE.fullmatch(key.value)
-        if found is not None and found["key"] in SECTIONS:
+        if found is not None and is_said(*found.groups()):
             return found
         found = _WITHOUT_COLON.fullmatch(key.value)
         if found is None or not re.match(r"\s+[^\d.;:=\s]", key.value[found.end("key") :]):
@@ -215,7 +215,7 @@ class _Composer:
         is_text = any(isinstance(key, Scalar) and key.value in _PROSE for key in keys)
         others = any(not value.is_empty for value in values)
         if is_text:  # of which a comma cuts off words
-            found = [each if each and each["key"] in SECTIONS else None for each in found]
+            found = [each if each and is_said(*each.groups()) else None for each in found]
         above = self._stack[-1].children[-1:] if self._stack else []
         is_of_constraints = bool(above) and getattr(above[0], "value", "") == "constraints"
         if not any(found) or not (others or (len(keys) == 1 and not is_of_constraints)):

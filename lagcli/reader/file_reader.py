@@ -42,6 +42,7 @@ from lagcli.reader.number_units import in_digits, unit_in_formula
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import INITIAL, NUMBERS, VALUES, Kind, Role, Scope, name_mistake
+from lagcli.reader.sign_meant import sign_meant
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.reader.text import Mistake
 from lagcli.reader.unknown_keys import unknown_key
@@ -350,20 +351,26 @@ class FileReader:
     def _without_split_lists(
         self, entries: list[tuple[Scalar, DocumentNode]], names: tuple[str, ...]
     ) -> list[tuple[Scalar, DocumentNode]]:
-        """The entries; a mistake at `position: x, y` in braces, where the comma ends the value."""
+        """The entries; a mistake at `position: x, y` and `assume: real, positive` in braces.
+
+        The comma ends the value there.
+        """
         kept: list[tuple[Scalar, DocumentNode]] = []
         split: dict[str, list[str]] = {}
         for key, value in entries:
             empty = isinstance(value, Scalar) and value.is_empty and key.in_flow
             last = kept[-1][0].label if kept and isinstance(kept[-1][1], Scalar) else ""
-            if empty and key.label not in names and last in LISTS:
+            if empty and key.label not in names and last in {*LISTS, "assume"}:
                 split.setdefault(last, []).append(key.label)
             else:
                 kept.append((key, value))
         for name, rest in split.items():
             [value] = [v for k, v in kept if k.label == name]
-            hint = f"write {name}: [{source_of(value)}, {', '.join(rest)}]"
-            self.error(f"'{name}' must be a list", value.span, hint)
+            listed = ", ".join([source_of(value), *rest])
+            meant = f"[{listed}]" if name in LISTS else sign_meant(listed)
+            hint = f"write {name}: {meant}" if meant else ""
+            wrong = "must be a list" if name in LISTS else "is one word"
+            self.error(f"'{name}' {wrong}", value.span, hint)
             kept = [(k, v) for k, v in kept if k.label != name]
         return kept
 

@@ -6,15 +6,17 @@ import re
 from collections.abc import Collection
 
 from lagcli.notation.greek import BY_NAME as GREEK
-from lagcli.reader.habits import is_constant, number_and_unit, spellings, unit_behind
+from lagcli.reader.habits import is_constant, is_unit, number_and_unit, spellings, unit_behind
 from lagcli.reader.misshapen import as_flow, by_key, inner_of, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, names_in
 from lagcli.reader.number_units import with_radians
 from lagcli.reader.regex import regex
-from lagcli.reader.sign_meant import ASSUMPTIONS
+from lagcli.reader.sign_meant import ASSUMPTIONS, sign_meant
 
 #: A value of Python, `float = 1.0`, and a map without its braces.
-_NO_EQUATION = regex(r"(?:float|int|double|[Rr]eal|Integer|complex|[Nn]umber)\b|.*[:{]")
+_NO_EQUATION = regex(
+    r"(?:assume|unit|value|float|int|double|[Rr]eal|Integer|complex|[Nn]umber)\b|.*[:{]"
+)
 #: Words for velocities and for places.
 RATE = regex(r"veloc|speed|rate|dot|geschw|vitesse|prędk|скорост|^v$", re.IGNORECASE)
 PLACE = regex(
@@ -42,6 +44,15 @@ SECTIONS = {
     **dict.fromkeys(("gap", "restitution"), "contacts"),
     **dict.fromkeys(("where", "for", "in_terms_of", "always", "reaches"), "find"),
 }
+#: The attributes of whatever has a name.
+SAID = ("unit", "symbol", "description", "assume")
+
+
+def is_said(word: str, text: str) -> bool:
+    """Whether a word and the text behind it are an attribute and its value: assume positive."""
+    if word == "assume":
+        return bool(sign_meant(text))
+    return word in SECTIONS or (word == "unit" and is_unit(text))
 
 
 def section_meant(

@@ -19,6 +19,7 @@ from lagcli.reader.habits import (
     spellings,
     unit_behind,
 )
+from lagcli.reader.headings import SAID
 from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, names_in
 from lagcli.reader.regex import regex
@@ -30,10 +31,9 @@ CALLED = regex(r"(\w+)\(\s*([^\W\d][\w, ]*?)\s*\)")
 _ENERGIES = frozenset("TVLH")
 _RELATION = regex("[=<>]")
 #: What the entries of a section have that are not recognized by its emptiness.
-_SHARED = ("unit", "symbol", "description", "assume")
 _ATTRIBUTES = {
-    "coordinates": {*_SHARED},
-    "parameters": {*_SHARED, "value", "integer"},
+    "coordinates": {*SAID},
+    "parameters": {*SAID, "value", "integer"},
     "points": {"position", "mass", "force"},
     "constraints": {"equation", "multiplier", "holds_while", "on_loss", "restitution", "acts_as"},
     "contacts": {"gap", "restitution", "multiplier"},

@@ -14,7 +14,7 @@ from lagcli.reader.assignments import assigned
 from lagcli.reader.constants import value_cycle
 from lagcli.reader.file_reader import FileReader
 from lagcli.reader.habits import advised, is_constant, is_open, name_meant, unit_behind
-from lagcli.reader.headings import without_headings
+from lagcli.reader.headings import SAID, is_said, without_headings
 from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, source_of, swept
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
@@ -36,8 +36,8 @@ class _Said(TypedDict, total=False):
     assume: Assumption
 
 
-_COORDINATE_ATTRIBUTES = ("unit", "symbol", "description", "assume")
-_PARAMETER_ATTRIBUTES = (*_COORDINATE_ATTRIBUTES, "integer", "value")
+_PARAMETER_ATTRIBUTES = (*SAID, "integer", "value")
+_ATTRIBUTE = regex(r"(assume|unit|value(?=[\s=]+[-\d.]))\s+(?:=\s*)?([^=]+)")
 #: A number with words behind it.
 _NUMBER_WITH_WORDS = regex(
     r"\s*([-+]?[\d.]+(?:[eE][-+]?\d+)?)(?:\s*[(:;,]|\s+[-–—]|\s)\s*"
@@ -54,7 +54,7 @@ def read_coordinates(file: FileReader, node: DocumentNode) -> tuple[Coordinate, 
     """The generalized coordinates, in order; each is declared in the scope."""
     coordinates = []
     for key, value in _declared(file, node, "coordinates", "coordinate"):
-        attributes = _attributes(file, value, key, "coordinate", _COORDINATE_ATTRIBUTES)
+        attributes = _attributes(file, value, key, "coordinate", SAID)
         coordinates.append(Coordinate(name=key.label, span=key.span, **_said(file, attributes)))
     if isinstance(node, Mapping | Sequence) and not size(node):
         names = ", ".join(_moving(node.text.source.text)) or "x"
@@ -229,7 +229,7 @@ def _declared(
         listed = ", ".join(source_of(value) for _, value in numbered)
         file.error(f"{section} have names, not numbers", node.span, f"write [{listed}]", refused="")
         return
-    attributes = _PARAMETER_ATTRIBUTES if section == "parameters" else _COORDINATE_ATTRIBUTES
+    attributes = _PARAMETER_ATTRIBUTES if section == "parameters" else SAID
     if found := without_headings(node, attributes):
         message = f"'{found[0].label}' is not a name of {section}: names stand below it"
         file.error(message, found[0].span, found[1], refused="")
@@ -272,6 +272,12 @@ def _declared(
         elif with_unit := _with_unit(key, value):
             file.error(f"the unit in '{key.label}' is not a part of its name", key.span, with_unit)
             file.scope.refused.append(key.label)
+        elif value is not None and (said := _ATTRIBUTE.fullmatch(source_of(value))) and (
+            said[1] in attributes and is_said(*said.groups())
+        ):  # fmt: skip
+            hint = f"write {{{said[1]}: {said[2]}}}"
+            message = "a map on the line of its key stands in braces"
+            file.error(message, value.span, hint, refused=key.label)
         elif file.declare(key.label, kind_, key.span, one=value is not None and not value.is_empty):
             yield key, value
 
@@ -289,7 +295,7 @@ def _without_attributes(
     kept: list[tuple[Scalar, DocumentNode | None]] = []
     loose: dict[int, list[tuple[Scalar, str]]] = {}
     for key, value in entries:
-        written = source_of(value) if key.label in _COORDINATE_ATTRIBUTES else ""
+        written = source_of(value) if key.label in SAID else ""
         is_attribute = bool(written) and not is_constant("x", written)
         if key.label == "assume":
             is_attribute = isinstance(value, Mapping) or written in ASSUMPTIONS

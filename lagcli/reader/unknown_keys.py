@@ -23,7 +23,7 @@ from lagcli.reader.habits import (
     number_and_unit,
     spellings,
 )
-from lagcli.reader.headings import SECTIONS
+from lagcli.reader.headings import SAID, SECTIONS
 from lagcli.reader.misshapen import (
     ALREADY_FOUND,
     FOUND,
@@ -101,6 +101,11 @@ def unknown_key(
     bound = spellings("bounds").get(letters(word))
     if "assume" in names and bound is not None:
         meant, hint = None, range_meant(bound, value, what, given)
+    law = word if value.is_empty else written
+    if "equation" in given and "holds_while" in {*names} - given and re.search("[<>≤≥]", law):
+        meant, hint = "holds_while", "the key is holds_while"
+        if law is word:
+            meant, hint = None, f"write holds_while: {law}"
     if meant in given and hint == f"the key is {meant}":
         hint = f"the key is {meant}, which is given already: its entries stand there"
         hint = f"leave it out: {meant} is given already" if written else hint
@@ -110,10 +115,10 @@ def unknown_key(
         inner = [(key_meant(each.label, names), source_of(part)) for each, part in value.entries]
         lines = ", ".join(f"{each}: {part}" for each, part in inner)
         hint = f"leave it out, and begin lines with {lines}" if all(k for k, _ in inner) else ""
-    if "=" in word and not meant and "initial: {" not in hint:
+    if "=" in word and not meant and not re.search("initial: {|holds_while", hint):
         defined = re.fullmatch(r"([TVLH])\s*:?=\s*(.+)", word)
         hint = f"write {': '.join(defined.groups()) if defined else name_meant(word)}"
-    elif key.in_flow and value.is_empty:
+    elif key.in_flow and value.is_empty and not hint.startswith("write "):
         hint = "inside { } a comma ends the value: put a text with commas in quotes"
     if "parameters" in names and is_constant(word, written):
         scope.refused.append(word)
@@ -247,7 +252,6 @@ def _varied(value: DocumentNode) -> str:
 #: The attribute of the entries of a section that may stand alone.
 _FIRST = {"coordinates": "unit", "parameters": "value", "points": "position", "contacts": "gap",
           "constraints": "equation"}  # fmt: skip
-_SAID = ("unit", "symbol", "description", "assume")
 
 
 def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
@@ -256,7 +260,7 @@ def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
     One value is that of the only name, values in a list are those of the names in order.  Nothing
     where the entries are not all names of sections that have the attribute.
     """
-    known = (*SECTIONS, *_SAID)
+    known = (*SECTIONS, *SAID)
     attribute = key_meant(word, known) or key_meant(word.removesuffix("s"), known)
     attribute = "mass" if word == "masses" else attribute or ""
     given = signs_of(value) if attribute == "assume" else by_key(value)
@@ -264,7 +268,7 @@ def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
     if attribute == "multiplier" and not all(x.isidentifier() and x not in _WISHES for x in values):
         return ""  # its formula
     named = [SECTIONS.get(attribute, "contacts")]
-    named = ["coordinates", "parameters"] if attribute in _SAID else named
+    named = ["coordinates", "parameters"] if attribute in SAID else named
     parts, left = [], {*given}
     sections = ((key, node) for key, node in around.entries)
     for key, node in (each for each in sections if each[0].label in {*named} & _FIRST.keys()):

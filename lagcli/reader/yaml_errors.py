@@ -10,7 +10,7 @@ from lagcli.diagnostics import Diagnostic
 from lagcli.reader.assignments import pieces
 from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.habits import CASE, COMMENT, KEYS, MAPS, PROGRAM, colon_advice, habits, key_meant
-from lagcli.reader.headings import SECTIONS
+from lagcli.reader.headings import SAID, SECTIONS
 from lagcli.reader.regex import regex
 from lagcli.reader.text import SourceText
 
@@ -215,8 +215,8 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
             "a formula has no cases", span, CASE if whole == value else f"write {whole}"
         )
     inner = re.match(r"\s*(\w+):\s+([^\W\d][\w ]*'*:.*\S)", lines[line - 1])
-    if inner and inner[1] in MAPS:
-        name, _, value = inner[2].partition(":")
+    name, _, value = inner[2].partition(":") if inner else ("", "", "")
+    if inner and (inner[1] in MAPS or (name in {*SECTIONS, *SAID} and inner[1] not in TEXTS)):
         parts = pieces(value, ",")
         if parts[1:] and all(re.search("[^<>]=", each) for each in parts):
             stem = "_".join(name.split())

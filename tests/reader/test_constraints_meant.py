@@ -242,3 +242,18 @@ def test_a_coordinate_as_the_name_of_a_constraint_is_its_left_side(seed):
 def test_a_constraint_without_equals_sign_is_zero(written):
     text = f"{FILE.partition('constraints')[0]}constraints: {{{written}}}\n"
     assert read_problem("p.yaml", text.encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_an_inequality_beside_an_equation_is_holds_while(seed):
+    draw = random.Random(seed)
+    law = draw.choice(["N >= 0", "N > 0", "N < a", "y < l", "x >= y"])
+    word = draw.choice(["condition", "holds", "valid", "if", "only_if", "range", "until", "when"])
+    entries = ["equation: x = a", "multiplier: N", draw.choice([f"{word}: {law}", law])]
+    rest = entries[1:]
+    draw.shuffle(rest)
+    whole = f"{{{', '.join([entries[0], *rest])}}}"
+    hint = only_hint(whole)
+    assert hint == ("the key is holds_while" if ":" in entries[2] else f"write holds_while: {law}")
+    pasted = whole.replace(entries[2], f"holds_while: {law}")
+    assert read_problem("p.yaml", FILE.format(pasted).encode()).diagnostics == ()

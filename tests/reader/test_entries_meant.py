@@ -347,3 +347,33 @@ def test_an_added_mass_belongs_to_the_kinetic_energy(rest, lost):
 def test_an_energy_that_is_not_read_is_not_missing():
     [found] = messages(text(T="m*x'^2/2 + ...\n   m*x'^2/2"))
     assert found.startswith("'.' has no meaning")
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_an_attribute_without_its_colon_or_its_braces(seed):
+    draw = random.Random(seed)
+    name, text = draw.choice(
+        [("assume", "positive"), ("assume", "nonzero"), ("unit", "N/m"), ("value", "4")]
+    )
+    equals, brace = draw.choice(["", "= "]), draw.choice(["{%s}", "%s"])
+    whole = f"{{{name}: {text}}}"
+    for written in (brace % f"{name} {equals}{text}", f"{name}: {text}"):
+        given = f"coordinates: [x]\nparameters:\n  m: 1\n  k: {written}\nT: m*x'^2/2\nV: k*x^2/2\n"
+        [only] = read_problem("p.yaml", given.encode()).diagnostics
+        proposed = only.hint.removeprefix("write ").removeprefix("k: ")
+        assert proposed in {whole, whole[1:-1]}
+        pasted = given.replace(written, whole)
+        assert read_problem("p.yaml", pasted.encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize(
+    "words",
+    ["real, positive", "positive, real", "nonnegative, nonzero", "positive, constant, real"],
+)
+def test_assumptions_with_commas_are_one_word(words):
+    given = f"coordinates: [x]\nparameters: {{m: 1, k: {{assume: {words}, unit: N/m}}}}\nT: m*x'^2/2\nV: k*x^2/2\n"
+    [only] = read_problem("p.yaml", given.encode()).diagnostics
+    assert only.hint == "write assume: positive"
+    alone = given.replace(f"assume: {words}", "positive")
+    [only] = read_problem("p.yaml", alone.encode()).diagnostics
+    assert only.hint == "write assume: positive"
