@@ -17,8 +17,8 @@ from lagcli.reader.expressions import signed_terms
 from lagcli.reader.flow import mend_commas
 from lagcli.reader.headings import SECTIONS, is_said
 from lagcli.reader.limits import EXPANDED_SIZE, YAML_LEVELS
-from lagcli.reader.misshapen import by_key
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.misshapen import by_key, source_of, with_entries
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, lines_of, names_in
 from lagcli.reader.regex import regex
 from lagcli.reader.text import Mistake, SourceText
 
@@ -77,21 +77,19 @@ def without_wrong_texts(mistakes: list[Diagnostic]) -> list[Diagnostic]:
 
 
 def _one_of(first_key: Scalar, first: DocumentNode, key: Scalar, second: DocumentNode) -> str:
-    """What to do where a key is given twice: two formulas are terms of a sum."""
-    hint = "leave out one of them"
-    if isinstance(first, Sequence) and isinstance(second, Sequence):
-        listed = [each.value for each in (*first.items, *second.items) if isinstance(each, Scalar)]
-        return f"write {key.label}: [{', '.join(dict.fromkeys(listed))}]"
+    """What to do where a key is given twice: entries go into one map, two formulas into a sum."""
+    hint, above = "leave out one of them", lines_of(first_key, first)
     parts = [_parts(each) for each in (first, second)]
-    for one, other, which in ((1, 0, "this one"), (0, 1, "the first one")):
+    for one, other, lines in ((1, 0, lines_of(key, second)), (0, 1, above)):
         if parts[one] and parts[one] <= parts[other]:
-            start, node = (first_key.start, first) if one == 0 else (key.start, second)
-            whole = node.text.source.text[: node.end].rstrip()
-            begin, end = whole.count("\n", 0, start) + 1, whole.count("\n") + 1
-            lines = f", lines {begin} to {end}" if begin < end else ""
-            what = "entries" if isinstance(node, Mapping) else "terms"
-            return f"leave out {which}{lines}: the other has all of its {what}"
+            what = "terms" if isinstance(first, Scalar) else "entries"
+            return f"leave out {lines}: the other has all of its {what}"
     values = [each.value for each in (first, second) if isinstance(each, Scalar)]
+    names = [{name for name, _ in each} for each in parts]
+    if not values and all(names) and not names[0] & names[1]:
+        whole = with_entries(source_of(first), source_of(second)[1:-1])
+        there = f"leave it out, and in {above} write all as {key.label}: {whole}"
+        return there if whole else f"leave it out, and write its entries below {above}"
     if len(values) == 2 and all("=" in each for each in values):
         return f"{hint}, or give it another name"
     is_sum = len(values) == 2 and all(re.search(r"[*'^(]", each) for each in values)
@@ -102,10 +100,10 @@ def _one_of(first_key: Scalar, first: DocumentNode, key: Scalar, second: Documen
 
 
 def _parts(node: DocumentNode) -> set[tuple[object, str]]:
-    """The entries of a map, and the terms of a formula with their signs."""
-    if isinstance(node, Mapping):
-        return {*by_key(node).items()}
-    return {*signed_terms(node.value)} if isinstance(node, Scalar) else set()
+    """The entries of a map, the names of a list, and the terms of a formula with their signs."""
+    if not isinstance(node, Scalar):
+        return {*(by_key(node) or dict.fromkeys(names_in(node), "")).items()}
+    return {*signed_terms(node.value)}
 
 
 @dataclass(slots=True, eq=False, repr=False)
@@ -166,6 +164,12 @@ class _Composer:
     def _in_flow(self) -> bool:
         return bool(self._stack) and self._stack[-1].is_flow
 
+    @property
+    def _above(self) -> str:
+        """The key whose value comes next."""
+        above = self._stack[-1].children[-1:] if self._stack else []
+        return "".join(getattr(each, "value", "") for each in above)
+
     def _open(self, event: Any, start: int, end: int) -> None:
         if len(self._stack) >= YAML_LEVELS:
             self._stop(start, end, f"lists and maps more than {YAML_LEVELS} levels deep")
@@ -216,9 +220,7 @@ class _Composer:
         others = any(not value.is_empty for value in values)
         if is_text:  # of which a comma cuts off words
             found = [each if each and is_said(*each.groups()) else None for each in found]
-        above = self._stack[-1].children[-1:] if self._stack else []
-        is_of_constraints = bool(above) and getattr(above[0], "value", "") == "constraints"
-        if not any(found) or not (others or (len(keys) == 1 and not is_of_constraints)):
+        if not any(found) or not (others or (len(keys) == 1 and self._above != "constraints")):
             return children  # all alike: reported where names are declared
         mended: list[DocumentNode] = []
         for key, value, split in zip(keys, values, found, strict=True):
@@ -261,12 +263,20 @@ class _Composer:
                 related = ((first.span, "first given here"),)
                 message = f"the key '{key.label}' is given twice"
                 hint = _one_of(*entries[key.label], key, value)
+                labels = [getattr(each, "label", "") for each in children[::2]]
+                is_open = self._above == "initial" and hint.endswith("them")
+                if is_open and key.label[-1:] != "'" and f"{key.label}'" not in labels:
+                    hint = f"the key is {key.label}'"
                 self._report(key.start, key.end, message, hint, related)
-                if isinstance(first_value, Sequence) and isinstance(value, Sequence):
-                    first_value.items.extend(value.items)
-                elif isinstance(first_value, Mapping) and isinstance(value, Mapping):
-                    given = {each.label for each, _ in first_value.entries}
-                    first_value.entries.extend(x for x in value.entries if x[0].label not in given)
+                nothing = Scalar(self.text, key.end, key.end, "", "", True)
+                listed = [(each, nothing) for each in getattr(value, "items", ())]
+                added = getattr(value, "entries", listed)
+                if isinstance(first_value, Sequence):
+                    first_value.items.extend(each for each, _ in added)
+                elif isinstance(first_value, Mapping):
+                    given = {"", *names_in(first_value)}
+                    other = (x for x in added if getattr(x[0], "label", "") not in given)
+                    first_value.entries.extend(other)
             else:
                 entries[key.label] = (key, value)
         return list(entries.values())

@@ -108,6 +108,12 @@ def entries_in(node: DocumentNode) -> Iterator[tuple[Scalar, DocumentNode]]:
         yield from each.entries if isinstance(each, Mapping) else ()
 
 
+def lines_of(key: Scalar, value: DocumentNode) -> str:
+    """`lines 3 to 5` of an entry of a map, `line 3`."""
+    first, last = key.span.line, max(each.span.line for each in nodes_in(value))
+    return f"lines {first} to {last}" if last > first else f"line {first}"
+
+
 def names_in(node: DocumentNode | None) -> list[str]:
     """The names in a list or a map of them."""
     if isinstance(node, Mapping):

@@ -255,7 +255,13 @@ def _declared(
         file.error(f"'{first.label}' is not a name", first.span, hint)
         file.scope.refused += [key.label for key, _ in entries]
         return
-    for key, value in entries:
+    labels = [key.label for key, _ in entries]
+    moving = _moving(file.text) if section == "coordinates" else []
+    absent = [x for x in moving if x not in labels]
+    for place, (key, value) in enumerate(entries):
+        if len(absent) == 1 and key.label in labels[:place]:  # [x1, x1]
+            file.error(f"'{key.label}' is declared twice", key.span, f"write {absent[0]}")
+            key.value = absent[0]
         if broken := re.fullmatch(r"(\w+)(?<!_)\s*([=:]?)\s*(\{.*)", key.label):
             whole = f"{broken[1]}: {broken[3]}: {'' if value is None else source_of(value)}"
             missing = "blank" if broken[2] == ":" else "':'"

@@ -14,9 +14,9 @@ from lagcli.reader.file_reader import FileReader
 from lagcli.reader.friction_meant import FRICTION_WORD
 from lagcli.reader.habits import comparisons_in
 from lagcli.reader.misplaced import in_section
-from lagcli.reader.misshapen import as_equation, is_sentence, source_of, texts_of
+from lagcli.reader.misshapen import as_equation, as_flow, inner_of, is_sentence, source_of, texts_of
 from lagcli.reader.names import derivative_order
-from lagcli.reader.nodes import DocumentNode, Scalar
+from lagcli.reader.nodes import DocumentNode, Scalar, lines_of
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import QUESTION, STATE
 from lagcli.reader.velocity_quotients import multiplied_out, without_squares
@@ -71,6 +71,7 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
             file.scope.refused.append(key.label)
             entries = [entry for entry in entries if entry[0] is not key]
     contacts: list[tuple[Scalar, str]] = []
+    entries = [entry for entry in entries if not _is_condition(file, *entry, entries)]
     kept = [entry for entry in entries if not _is_refused(file, *entry, contacts)]
     if contacts:
         hint = _elsewhere(file, "contacts", [text for _, text in contacts], len(entries))
@@ -115,6 +116,21 @@ def _equated(law: str) -> str:
     left, right = (" + ".join(x for minus, x in terms if minus == on_right) or "0"
                    for on_right in (False, True))  # fmt: skip
     return f"{left} = {right}" if terms[1:] else ""
+
+
+def _is_condition(
+    file: FileReader, key: Scalar, value: DocumentNode, entries: list[tuple[Scalar, DocumentNode]]
+) -> bool:
+    """Whether an entry is an inequality of the multiplier of another one, as in N >= 0."""
+    for other, node in entries:
+        given = inner_of(node, "equation")
+        force = re.escape(given.get("multiplier", f"lambda_{other.label}"))
+        if other is not key and re.match(rf"-?\s*{force}\s*[<>≤≥]", getattr(value, "value", "")):
+            whole = f"{other.label}: {as_flow(given | {'holds_while': source_of(value)})}"
+            hint = f"leave it out, and in {lines_of(other, node)} write {whole}"
+            file.error(f"'{key.label}' is the condition of '{other.label}'", key.span, hint)
+            return True
+    return False
 
 
 def _is_refused(

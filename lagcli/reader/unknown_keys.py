@@ -39,7 +39,7 @@ from lagcli.reader.misshapen import (
     values_in,
     values_of,
 )
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, names_in, nodes_in
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, lines_of, names_in
 from lagcli.reader.potential_meant import GRAVITY, potential_meant
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import Scope
@@ -282,9 +282,8 @@ def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
         for name in left & {*inner}:
             inner[name][attribute] = given[name]
         whole = as_flow({name: as_flow(each) for name, each in inner.items()})
-        first, last = key.span.line, max(each.span.line for each in nodes_in(node))
-        lines = f"lines {first} to {last}" if last > first else f"line {first}"
-        parts += [f"in {lines} write {key.label}: {whole}"] * bool(left & {*inner})
+        here = f"in {lines_of(key, node)} write {key.label}: {whole}"
+        parts += [here] * bool(left & {*inner})
         left -= {*inner}
     if attribute == "multiplier" and (left or not parts):
         return f"write constraints: {{name: {{equation: left = right, multiplier: {values[0]}}}}}"

@@ -257,3 +257,14 @@ def test_an_inequality_beside_an_equation_is_holds_while(seed):
     assert hint == ("the key is holds_while" if ":" in entries[2] else f"write holds_while: {law}")
     pasted = whole.replace(entries[2], f"holds_while: {law}")
     assert read_problem("p.yaml", FILE.format(pasted).encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize("law", ["N >= 0", "N < a", "-N > 0"])
+def test_an_inequality_of_a_multiplier_is_the_condition_of_its_constraint(law):
+    rod = "x = a, multiplier: N"
+    [told] = read_problem(
+        "p.yaml", FILE.format(f"{{equation: {rod}}}, d: {law}").encode()
+    ).diagnostics
+    whole = f"{{equation: {rod}, holds_while: {law}}}"
+    assert told.hint == f"leave it out, and in line 4 write c: {whole}"
+    assert read_problem("p.yaml", FILE.format(whole).encode()).diagnostics == ()

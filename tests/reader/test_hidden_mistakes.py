@@ -1,5 +1,7 @@
 """Mistakes that another one of the same file must not hide, and hints that name the whole text."""
 
+import random
+
 import pytest
 
 from lagcli.reader import read_problem
@@ -84,9 +86,9 @@ def test_a_multiplier_with_a_sign_is_that_of_the_exchanged_equation():
 @pytest.mark.parametrize(
     ("second", "meant"),
     [
-        ("  m: 1\n  k: 2\n", "leave out the first one, lines 2 to 3: "),
-        ("  m: 1\n", "leave out this one, lines 4 to 5: "),
-        ("  k: 2\n", "leave out one of them"),
+        ("  m: 1\n  k: 2\n", "leave out lines 2 to 3: "),
+        ("  m: 1\n", "leave out lines 4 to 5: "),
+        ("  k: 2\n", "leave it out, and in lines 2 to 3 write all as parameters: {m: 1, k: 2}"),
         ("  m: 2\n  k: 2\n", "leave out one of them"),
     ],
 )
@@ -110,9 +112,9 @@ SUM = "for the sum leave out the first one and write V:"
         ("m*x", "-k*x^2/2", f"{ONE_OF}; {SUM} m*x - k*x^2/2"),
         ("m*x", "k*x^2/2 - m*x", f"{ONE_OF}; {SUM} m*x + k*x^2/2 - m*x"),
         ("m*x + m*x^4", "m*x - k*x^2/2", ONE_OF),
-        ("m*x", "m*x + k*x^2/2", "leave out the first one: the other has all of its terms"),
-        ("k*x^2/2 - m*x", "-m*x", "leave out this one: the other has all of its terms"),
-        ("m*x", "m*x", "leave out this one: the other has all of its terms"),
+        ("m*x", "m*x + k*x^2/2", "leave out line 4: the other has all of its terms"),
+        ("k*x^2/2 - m*x", "-m*x", "leave out line 5: the other has all of its terms"),
+        ("m*x", "m*x", "leave out line 5: the other has all of its terms"),
     ],
 )
 def test_terms_of_two_energies_are_counted_once(one, other, meant):
@@ -120,6 +122,46 @@ def test_terms_of_two_energies_are_counted_once(one, other, meant):
         f"coordinates: [x]\nparameters: {{m: 1, k: 2}}\nT: m*x'^2/2\nV: {one}\nV: {other}\n"
     )
     assert told.hint == meant
+
+
+SECTIONS = {
+    "coordinates": ["x", "y"],
+    "parameters": ["m", "k: 2", "l: {value: 1, unit: m}"],
+    "forces": ["x: -k*x'", "y: -m*k"],
+    "constraints": ["rod: x^2 + y^2 = l^2", "line: {equation: y = x, multiplier: N}"],
+    "initial": ["x: 1", "x': 0", "y: 2"],
+    "points": ["P: {position: [x, 0], mass: m}", "Q: {position: [0, y], mass: k}"],
+}
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_entries_of_a_section_given_twice_stand_together(seed):
+    draw = random.Random(seed)
+    twice = draw.choice([*SECTIONS])
+    given = {**SECTIONS, "coordinates": ["x: {unit: m}", "y"]} if seed % 2 else SECTIONS
+    whole = {key: f"{{{', '.join(each)}}}" for key, each in given.items()}
+    listed = [key for key, each in given.items() if not any(": " in x for x in each)]
+    whole |= {key: f"[{', '.join(given[key])}]" for key in listed}
+    rest = draw.randrange(1, len(given[twice]))
+    form = "[%s]" if twice in listed else "{%s}"
+    first, second = (form % ", ".join(each) for each in (given[twice][:rest], given[twice][rest:]))
+    lines = {**whole, twice: first}
+    text = "".join(f"{key}: {each}\n" for key, each in lines.items())
+    [told] = found(f"{text}T: m*(x'^2 + y'^2)/2\n{twice}: {second}\n")
+    number = [*lines].index(twice) + 1
+    there = f"leave it out, and in line {number} write all as {twice}: "
+    assert told.hint == there + whole[twice]
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_name_that_is_there_twice_is_the_one_that_is_missing(seed):
+    draw = random.Random(seed)
+    x, y = draw.sample(["x", "y", "x1", "x2", "theta", "phi"], 2)
+    begin = f"coordinates: [{x}, {{}}]\nparameters: [m]\nT: m*({x}'^2 + {y}'^2)/2\ninitial: {{{{"
+    start = f"{x}: {draw.randrange(3)}, {{}}: {draw.randrange(3, 6)}, {y}: 1}}}}\n"
+    assert hints(begin.format(x) + start.format(f"{x}'")) == [f"write {y}"]
+    assert hints(begin.format(y) + start.format(x)) == [f"the key is {x}'"]
+    assert hints(begin.format(y) + start.format(f"{x}'")) == []
 
 
 @pytest.mark.parametrize("x", ["x", "s", "z"])
