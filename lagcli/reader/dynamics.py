@@ -20,7 +20,7 @@ from lagcli.reader.misshapen import as_list, by_key, named_formulas, source_of
 from lagcli.reader.names import depends_on_time, derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, names_in
 from lagcli.reader.regex import regex
-from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Growth, Role
+from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Growth, Kind, Role
 from lagcli.reader.suggest import did_you_mean
 from lagcli.record import replace
 
@@ -163,6 +163,7 @@ def read_definitions(
             file.scope.components[f"{key.label}.{axis}"] = f"{key.label}_{axis}"
         mistakes = len(file.diagnostics)
         expression = file.expression(value, what, STATE, before=place)
+        file.scope.formulas[key.label] = getattr(value, "value", "")
         if file.diagnostics[mistakes:] and isinstance(value, Scalar):
             _say_components(file, key.label, value, mistakes)
         definitions[key.label] = expression
@@ -216,7 +217,7 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
             file.error(f"{what} must be a map, not a text", value.span, hint, refused="points")
             break
         labels = {*names_in(value)}
-        by_axes = [] if "position" in labels else _by_axes(value)
+        by_axes = [] if "position" in labels else _by_axes(by_key(value))
         usual = ["r*cos(phi)", "r*sin(phi)"] if "polar" in labels else ["x", "y"]
         whole = f"position: [{', '.join(by_axes or usual)}]"
         if by_axes and (rest_of := _without_axes(value)):
@@ -268,13 +269,12 @@ def _mass_of(file: FileReader, name: str) -> str:
     return (*own, *(x for x in masses if not x[1:]), *masses, "m")[0]
 
 
-def _by_axes(node: DocumentNode, length: int = 0) -> list[str]:
+def _by_axes(given: dict[str, str], length: int = 0) -> list[str]:
     """The Cartesian components in `{x: x, y: 0, mass: m}` and `{r: r, phi: phi, mass: m}`."""
-    given = by_key(node)
     radii = [re.sub(r"^(.*\S\s*[-+].*)$", r"(\1)", v) for k, v in given.items() if k in _RADII]
     angles = {key: value for key, value in given.items() if is_angle(key)}
     tilt = next((key for key in angles if key in {"theta", "θ"}), "")
-    if len(radii) == 1 and len(angles) in {1, 2}:
+    if len(radii) == 1 and 1 <= len(angles) <= 1 + bool(tilt):
         sine = f"*sin({angles.pop(tilt)})" if angles.keys() > {tilt} else ""
         [turn] = angles.values()
         height = [radii[0] + sine.replace("sin", "cos")] if sine else []
@@ -283,6 +283,15 @@ def _by_axes(node: DocumentNode, length: int = 0) -> list[str]:
     axes = {key.casefold(): each for key, each in given.items() if key.casefold() in {*"xyz"}}
     size = length or max(("xyz".index(axis) + 1 for axis in axes), default=0)
     return [axes.get(axis, "0") for axis in "xyz"[:size]] if axes else []
+
+
+def _of_polar(written: list[str], kinds: dict[str, Kind]) -> list[str]:
+    """`r*cos(phi)`, `r*sin(phi)` for `r`, `phi`, a length and angles that move; or nothing."""
+    first, *rest = written or [""]
+    angles = [each for each in rest if is_angle(each) and kinds.get(each) == "coordinate"]
+    is_length = kinds.get(first) == "parameter" or first in _RADII & kinds.keys()
+    is_polar = is_length and angles and {*rest} <= {*angles, "z"}
+    return _by_axes({"r": first} | {each: each for each in rest}) if is_polar else []
 
 
 def _without_axes(node: DocumentNode) -> str:
@@ -326,7 +335,7 @@ def read_components(
         parts = [key.label for key, _ in node.entries] or ["x", "y"]
         apart = "" if parts[1:] else with_commas(parts[0], [*file.scope.of_kind("coordinate")])
         hint = apart or _listed(parts)
-    elif isinstance(node, Mapping) and (axes_ := _by_axes(node, length)):
+    elif isinstance(node, Mapping) and (axes_ := _by_axes(by_key(node), length)):
         hint = _listed(axes_)
     elif isinstance(node, Sequence):
         texts = [each.value for each in node.items if isinstance(each, Scalar)]
@@ -355,9 +364,13 @@ def _position(file: FileReader, node: DocumentNode, name: str) -> tuple[Expressi
     if isinstance(node, Sequence) and not 1 <= len(items) <= 3 and len(file.diagnostics) == before:
         message = f"{what} has {len(items)} components, it may have 1 to 3"
         file.error(message, node.span, _CARTESIAN)
-    for axis, item in zip("xyz", items, strict=False):
-        if isinstance(item, Scalar):
-            file.scope.components[f"{name}.{axis}"] = item.value
+    written = [item.value if isinstance(item, Scalar) else "" for item in items]
+    file.scope.components |= {
+        f"{name}.{x}": each for x, each in zip("xyz", written, strict=False) if each
+    }
+    if axes := _of_polar(written, file.scope.kinds):
+        message = f"{what} has Cartesian components, not an angle"
+        file.error(message, node.span, _listed(axes))
     return tuple(file.expression(item, what, POSITION) for item in items)
 
 

@@ -11,11 +11,14 @@ from functools import partial
 from typing import NamedTuple
 
 from lagcli.diagnostics import Diagnostic, Source
-from lagcli.expression import Call, Expression, Sum, name_nodes, walk
+from lagcli.expression import Call, Expression, name_nodes, terms_of, walk
 from lagcli.reader.plain_sign import plain_sign
-from lagcli.reader.regex import balanced
+from lagcli.reader.regex import balanced, regex
 from lagcli.reader.text import SourceText
 
+#: What dry friction is proportional to.
+_NORMAL = frozenset({"g", "N", "F_N"})
+_COEFFICIENT = regex(r"(?:mu|μ)(?:_?\w{1,2})?")
 _warning = partial(Diagnostic, severity="warning")
 
 
@@ -26,6 +29,11 @@ def friction_slips(
     source: Source,
 ) -> Iterator[Diagnostic]:
     """A warning for each force that drives where friction would brake, or brakes another motion."""
+    text = SourceText.of(source)
+    for x, force in forces.items():
+        for term in _constant(force, {*coordinates, *signs}, signs):
+            message = f"this friction along {x} does not change its sign with {x}'"
+            yield _warning(message, term.span, f"write {text.written(term.span)}*sign({x}')")
     laws = {x: [*_laws(force, coordinates, signs)] for x, force in forces.items()}
     for x, found in laws.items():
         own = [law for law in found if law.along == x]
@@ -33,8 +41,9 @@ def friction_slips(
         for law in own if is_alone else ():
             if law.sign > 0:
                 message = f"this force along {x} drives the motion: it has the sign of {x}'"
-                opposite = _opposite(law.term, SourceText.of(source)) or f", as in -c*{x}'"
-                yield _warning(message, law.term.span, f"friction is opposite to it{opposite}")
+                whole = opposite(law.term, text)
+                whole = f": {whole}" if whole else f", as in -c*{x}'"
+                yield _warning(message, law.term.span, f"friction is opposite to it{whole}")
         others = [law for law in found if law.along != x]
         for law in others if not own and len(others) == 1 and _rates(forces[x]) != {x} else ():
             back = [each for each in laws.get(law.along, ()) if each.along == x]
@@ -45,11 +54,21 @@ def friction_slips(
                 yield _warning(message, law.term.span, hint)
 
 
-def _opposite(term: Expression, text: SourceText) -> str:
-    """`: -mu*m*g*sign(x')`, the term with the other sign; nothing where a parenthesis is cut."""
-    written = text.written(term.span)
-    other = written[1:].strip() if written[0] == "-" else f"-{written}"
-    return f": {other}" if balanced(written) else ""
+def _constant(force: Expression, known: set[str], signs: Mapping[str, int]) -> Iterator[Expression]:
+    """The terms such as -mu*m*g of a force without velocities."""
+    is_plain = {str(node) for node in name_nodes(force)} <= known
+    for term in terms_of(force) if is_plain else ():
+        names = {node.name for node in name_nodes(term)}
+        is_dry = names & _NORMAL and any(map(_COEFFICIENT.fullmatch, names))
+        if is_dry and plain_sign(term, signs, {}, 1) == -1:
+            yield term
+
+
+def opposite(formula: Expression, text: SourceText) -> str:
+    """The terms with the other sign: `-mu*m*g*sign(x')`; nothing where a parenthesis is cut."""
+    terms = [text.written(term.span) for term in terms_of(formula)]
+    turned = [each[1:].strip() if each[0] == "-" else f"-{each}" for each in terms]
+    return " + ".join(turned).replace("+ -", "- ") if all(map(balanced, terms)) else ""
 
 
 class _Law(NamedTuple):
@@ -64,8 +83,7 @@ class _Law(NamedTuple):
 def _laws(
     force: Expression, coordinates: tuple[str, ...], signs: Mapping[str, int]
 ) -> Iterator[_Law]:
-    terms = force.terms if isinstance(force, Sum) else (force,)
-    for term in terms:
+    for term in terms_of(force):
         names = name_nodes(term)
         rates = {each.name for each in names if each.primes}
         known = all(each.name in signs for each in names if not each.primes)

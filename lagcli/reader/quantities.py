@@ -132,6 +132,7 @@ def read_parameters(
         elif "value" in attributes:
             what = f"the value of '{key.label}'"
             value = file.expression(attributes["value"], what, VALUES)
+            file.scope.formulas[key.label] = getattr(given, "value", "")
         if isinstance(node, Mapping):
             found_ = file.diagnostics[before:]
             file.diagnostics[before:] = [replace(x, hint=_in_map(x.hint)) for x in found_]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from lagcli.expression import ZERO, Expression, Name
+from lagcli.expression import ZERO, Expression, Name, name_nodes
 from lagcli.problem_data import (
     METHODS,
     Lasting,
@@ -15,6 +15,7 @@ from lagcli.problem_data import (
     Where,
 )
 from lagcli.reader.by_coordinate import by_name, state_meant
+from lagcli.reader.expressions import formula_or_none
 from lagcli.reader.file_reader import FileReader
 from lagcli.reader.foreign.words import momentum_meant
 from lagcli.reader.habits import advised, is_angle, key_meant, meanings, name_meant
@@ -43,6 +44,8 @@ _NO_ACCELERATION = "leave it out: a state has x and x'"
 _SIMULATION_ATTRIBUTES = ("until", "accuracy", "method")
 
 _RELATION = regex("[=<>≤≥]")
+#: Of definitions in one another.
+_DEEPEST = 3
 #: The words and letters of an unknown, xmax as x and max.
 _PART = regex(r"[^\W_\d]+?(?=m(?:ax|in)(?![a-z]))|[^\W_\d]+'*|\d+")
 _EXTREME = regex(
@@ -114,23 +117,25 @@ def _state_name(
             hint = f"the velocity of {meant[:-1]} is {meant}"
         rates = ", ".join(f"{x}'" for x in coordinates)
         hint = hint or f"known are {', '.join(coordinates)} and velocities: {rates}"
-        rate = RATE.search(key.label)
-        if not meant and (rate or PLACE.match(key.label)):
+        is_rate = RATE.search(key.label) is not None
+        if not meant and (is_rate or PLACE.match(key.label)):
             turns = re.search(r"ang|áng|wink|угл|угол", key.label, re.IGNORECASE) is not None
             along = [x for x in coordinates if is_angle(x) == turns] or coordinates
             number = source_of(value) if len(along) == 1 else "…"
-            number = with_radians(number, most=6.3) if is_angle(along[0]) and not rate else number
+            number = (
+                with_radians(number, most=6.3) if is_angle(along[0]) and not is_rate else number
+            )
             if not turns or along[0] not in {*"xyzrs"}:
-                hint = f"write {along[0]}{chr(39) * bool(rate)}: {number or '…'}"
+                hint = f"write {along[0]}{chr(39) * is_rate}: {number or '…'}"
         if re.search(r"[=→>]", key.label):
             hint = f"write {name_meant(key.label)}"
         if momentum := momentum_meant(letters, coordinates):
-            from lagcli.reader.momenta_meant import rate_of
+            from lagcli.reader.momenta_meant import velocity_meant
 
-            law = rate_of(momentum, file.text)
-            hint = f"a state has velocities, not momenta: give {momentum}'"
+            rate = velocity_meant(momentum, source_of(value), file.text, coordinates)
             rule = "it is ∂H/∂p_{0}" if "H" in file.sections else "its momentum is ∂L/∂{0}'"
-            hint += f" = {law}" if law else f": {rule.format(momentum)}"
+            rate = rate or f"give {momentum}': {rule.format(momentum)}"
+            hint = f"a state has velocities, not momenta: {rate}"
         if part := key_meant(key.label, _SIMULATION_ATTRIBUTES):
             inner = f"{part}: {source_of(value)}"
             hint = f"an end of the run stands under simulation: write simulation: {{{inner}}}"
@@ -384,10 +389,27 @@ def read_simulation(file: FileReader, node: DocumentNode) -> SimulationDefaults:
 
 def _number(file: FileReader, node: DocumentNode, what: str) -> Expression:
     wrong = _number_meant(node.value, what) if isinstance(node, Scalar) else None
+    if wrong is None and (whole := _in_numbers(source_of(node), file.scope.formulas)):
+        wrong = f"{what} is a number", f"write {whole}"
     if wrong is None:
         return file.expression(node, what, NUMBERS)
     file.error(wrong[0], node.span, wrong[1])
     return ZERO
+
+
+def _in_numbers(text: str, values: dict[str, str]) -> str:
+    """`2*pi*sqrt(1/4)` for `2*pi*sqrt(m/k)`; nothing for numbers and where values are missing."""
+
+    def put_in(found: re.Match[str]) -> str:
+        value = values.get(found[0], found[0])
+        return value if re.fullmatch(r"[\w.]+", value) else f"({value})"
+
+    whole = text
+    for _ in range(_DEEPEST):
+        whole = re.sub(r"(?<![\w.])[^\W\d]\w*", put_in, whole)
+    formula = formula_or_none(whole)
+    names = {"?"} if formula is None else {node.name for node in name_nodes(formula)}
+    return whole if whole != text and names <= {"pi"} else ""
 
 
 def _number_meant(text: str, what: str) -> tuple[str, str] | None:

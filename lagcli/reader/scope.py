@@ -106,6 +106,9 @@ class Scope:
     #: coordinates to which a constraint gives a value
     held: set[str] = field(default_factory=set)
 
+    #: the texts of values and definitions by their names
+    formulas: dict[str, str] = field(default_factory=dict)
+
     #: the texts of T, V and H
     energies: dict[str, str] = field(default_factory=dict)
 

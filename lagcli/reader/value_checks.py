@@ -35,7 +35,7 @@ from lagcli.reader.counted_twice import counted_twice
 from lagcli.reader.degrees_meant import degrees_meant
 from lagcli.reader.file_reader import FileReader
 from lagcli.reader.foreign.words import Vocabulary, momentum_meant, rate_meant
-from lagcli.reader.friction_slips import friction_slips
+from lagcli.reader.friction_slips import friction_slips, opposite
 from lagcli.reader.habits import is_angle
 from lagcli.reader.misshapen import FRICTION, as_rayleigh
 from lagcli.reader.momenta_meant import has_velocity
@@ -65,7 +65,8 @@ def slips(problem: Problem) -> list[Diagnostic]:
         names = {x.name for x in problem.coordinates}
         found += _without_square("the dissipation", lost, names, "c*{0}'^2/2")
     if lost is not None and plain_sign(lost, signs, problem.definitions) == -1:
-        hint = f"it drives the motion; {FRICTION}"
+        whole = opposite(lost, SourceText.of(problem.source))
+        hint = f"it drives the motion: write {whole}" if whole else FRICTION
         found.append(_warning("the dissipation is negative", lost.span, hint))
     found += _new_places(problem)
     for term in terms_of(problem.potential or ZERO):
@@ -270,7 +271,10 @@ def _check_dissipation(file: FileReader, problem: Problem) -> None:
     if formula is None or formula == ZERO:
         return
     if derivative_order(formula, file.scope) < 1:
-        file.error("the dissipation contains no velocity", formula.span, FRICTION)
+        law, coordinates = SourceText.of(problem.source).written(formula.span), problem.coordinates
+        is_factor = len(coordinates) == 1 and not isinstance(formula, Sum | Negative)
+        hint = f"write {law}*{coordinates[0].name}'^2/2: {FRICTION}" if is_factor else FRICTION
+        file.error("the dissipation contains no velocity", formula.span, hint)
     elif _parity(formula, problem.definitions) == -1:
         message = "the dissipation changes its sign with the velocities"
         law = SourceText.of(problem.source).written(formula.span)

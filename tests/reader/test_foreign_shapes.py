@@ -245,7 +245,7 @@ HINTS = [
     (text(T=None, V=None, L="{T: m*x'^2/2, V: k*x^2}"), "T and V begin lines of their own"),
     (text(T=None, V=None, L="{kinetic: m*x'^2/2, potential: k*x^2}"), "T and V begin lines"),
     (text(H="T + V"), "leave out H"),
-    (text(initial="{p_x: 1}"), "not momenta: give x'"),
+    (text(initial="{p_x: 1}"), "not momenta: write x': 1/m"),
     (text(initial="{x: 1, energy: 3}"), "give x'"),
     (text(initial="np.zeros(2)"), "what is not given is 0"),
     (text(simulation="{until: x = 0}"), '--stop-when "x"'),

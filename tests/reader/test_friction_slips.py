@@ -1,5 +1,7 @@
 """A force that drives, or that brakes another motion, is warned of; laws of books are not."""
 
+import random
+
 import pytest
 
 from lagcli.reader import read_problem
@@ -118,3 +120,47 @@ def test_a_word_for_friction_that_a_formula_uses_is_a_constant():
     text = "coordinates: [x]\nT: x'^2/2\nforces: {x: -friction*x'}\nfriction: 0.3\n"
     [only] = read_problem("p.yaml", text.encode()).diagnostics
     assert only.hint == "constants stand under parameters: write parameters: {friction: 0.3}"
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_dry_friction_without_the_sign_of_its_velocity(seed):
+    draw = random.Random(seed)
+    mu, normal = draw.choice(["mu", "mu_k", "mu1"]), draw.choice(["m*g", "m*g*cos(a)", "N", "N/2"])
+    law, other = f"-{mu}*{normal}", draw.choice(["", " + F", " - k*x"])
+    begin = (
+        f"coordinates: [x]\nparameters: {{m: 1, g: 9.81, N: 2, a: 0.5, F: 3, k: 2, {mu}: 0.1}}\n"
+        "T: m*x'^2/2\nforces: {x: "
+    )
+
+    def hints(force):
+        return [each.hint for each in read_problem("p", f"{begin}{force}}}\n".encode()).diagnostics]
+
+    assert hints(law + other) == [f"write {law}*sign(x')"]
+    for right in (f"{law}*sign(x'){other}", f"{law}{other} - k*x'", f"-{mu}*k*x", f"-{mu}/x^2"):
+        assert hints(right) == []
+
+
+@pytest.mark.parametrize(
+    ("law", "meant"),
+    [
+        ("-c*x'^2/2", "c*x'^2/2"),
+        ("-c*x'^2/2 - k*y'^2/2", "c*x'^2/2 + k*y'^2/2"),
+        ("-(c*x'^2 + k*(x' - y')^2)/2", "(c*x'^2 + k*(x' - y')^2)/2"),
+    ],
+)
+def test_a_negative_dissipation_is_shown_with_the_other_sign(law, meant):
+    begin = (
+        "coordinates: [x, y]\nparameters: {m: 1, c: 2, k: 3}\nT: m*(x'^2 + y'^2)/2\ndissipation: "
+    )
+    [told] = read_problem("p", f"{begin}{law}\n".encode()).diagnostics
+    assert told.hint == f"it drives the motion: write {meant}"
+    assert read_problem("p", f"{begin}{meant}\n".encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize("law", ["0.1", "c", "c/2", "2*c"])
+def test_a_coefficient_is_no_dissipation(law):
+    text = f"coordinates: [x]\nparameters: {{m: 1, c: 2}}\nT: m*x'^2/2\ndissipation: {law}\n"
+    [told] = read_problem("p", text.encode()).diagnostics
+    assert told.hint.startswith(f"write {law}*x'^2/2: ")
+    right = text.replace(f": {law}\n", f": {law}*x'^2/2\n")
+    assert read_problem("p", right.encode()).diagnostics == ()

@@ -653,7 +653,10 @@ HABITS = [
     (text(forces="{x: k, drag: -k*x'}"), "write x: k - k*x'"),
     (text(constraints="[x - 1, x^2 == k]"), "write {c1: x - 1, c2: x^2 = k}"),
     (text(coordinates="[x, y]", forces="-k*y'"), "write {y: -k*y'}"),
-    ("coordinates: [x]\n" + text(coordinates="[y]", T="x'^2 + y'^2"), "write coordinates: [x, y]"),
+    (
+        "coordinates: [x]\n" + text(coordinates="[y]", T="x'^2 + y'^2"),
+        "in line 1 write all as coordinates: [x, y]",
+    ),
     (text(definitions="{v: [x', x]}"), "components: v_x: x', v_y: x"),
     (
         text(parameters="[m: mass, k: stiffness]"),

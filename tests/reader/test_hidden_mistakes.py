@@ -331,3 +331,30 @@ def test_a_function_with_a_formula_is_one_mistake(entry, others, meant):
     begin = "coordinates: [x]\nparameters: [m, k]\n"
     energies = f"T: m*x'^2/2\nV: {call}\n"
     assert hints(f"{begin}functions:\n  {entry}{others}\n{energies}") == [meant]
+
+
+@pytest.mark.parametrize(
+    ("polar", "cartesian"),
+    [
+        ("r, phi", "r*cos(phi), r*sin(phi)"),
+        ("l, theta", "l*cos(theta), l*sin(theta)"),
+        ("r, phi, z", "r*cos(phi), r*sin(phi), z"),
+        ("r, theta, phi", "r*sin(theta)*cos(phi), r*sin(theta)*sin(phi), r*cos(theta)"),
+        ("l, theta, phi", "l*sin(theta)*cos(phi), l*sin(theta)*sin(phi), l*cos(theta)"),
+        ("x, phi", ""),  # no length
+        ("l, x, z", ""),
+        ("r, alpha", ""),  # a constant
+        ("l", ""),
+    ],
+)
+@pytest.mark.parametrize("unit", ["", "unit: m"])
+def test_the_position_of_a_point_is_cartesian(polar, cartesian, unit):
+    length = f"{{{unit}}}"
+    given = (
+        f"coordinates: {{x: {length}, r: {length}, z: {length}, theta: {{}}, phi: {{}}}}\n"
+        f"parameters: {{m: {{}}, l: {length}, alpha: {{}}}}\nL: 0\n"
+        f"points: {{P: {{position: [{polar}], mass: m}}}}\n"
+    )
+    told = hints(given)
+    assert told == [f"write [{cartesian}]"] if cartesian else not any("cos" in x for x in told)
+    assert not cartesian or not hints(given.replace(f"[{polar}]", f"[{cartesian}]"))

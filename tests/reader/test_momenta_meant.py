@@ -1,6 +1,7 @@
 """Velocities in a function on phase space: the hint has the same function of the momenta."""
 
 import random
+import re
 
 import pytest
 import sympy as sp
@@ -85,9 +86,9 @@ def test_a_momentum_in_a_state_is_told_its_velocity(seed, energy):
     written = energy.format(f"m*r'^2/2 + {half}")
     [found] = read_problem(
         "p.yaml",
-        f"coordinates: [r, phi]\nparameters: [m, k, J]\n{written}\ninitial: {{p_phi: 1}}\n".encode(),
+        f"coordinates: [r, phi]\nparameters: [m, k, J]\n{written}\ninitial: {{p_phi: 11}}\n".encode(),
     ).diagnostics
-    rate = found.hint.partition(" = ")[2].replace("^", "**")
+    rate = re.search("phi'(?: =|:) (.*)", found.hint)[1].replace("^", "**")
     names = {"m": 2.0, "k": 3.0, "J": 5.0, "r": 0.7, "p_phi": 11.0}
     speed = eval(rate, {}, names)
     assert speed * eval(inertia.replace("^", "**"), {}, names) == pytest.approx(11)
@@ -97,3 +98,17 @@ def test_a_momentum_of_a_mixed_energy_is_another_number():
     written = "coordinates: [x, y]\nT: x'^2 + y'^2 + x'*y'\ninitial: {p_x: 1}\n"
     [found] = read_problem("p.yaml", written.encode()).diagnostics
     assert found.hint.endswith("give x': its momentum is ∂L/∂x'")
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_an_initial_momentum_is_a_velocity(seed):
+    draw = random.Random(seed)
+    number = draw.choice(["3", "0", "-2.5", "p0"])
+    x, square, inertia = draw.choice(
+        [("x", "m*x'^2/2", "m"), ("theta", "m*l^2*theta'^2/2", "(m*l^2)"), ("q", "q'^2/2", "")]
+    )
+    begin = f"coordinates: [{x}]\nparameters: {{m: 2, l: 3, p0: 4}}\nT: {square}\ninitial: {{"
+    [told] = read_problem("p", f"{begin}p_{x}: {number}}}\n".encode()).diagnostics
+    rate = f"{number}/{inertia}" if inertia and number != "0" else number
+    assert told.hint == f"a state has velocities, not momenta: write {x}': {rate}"
+    assert read_problem("p", f"{begin}{x}': {rate}}}\n".encode()).diagnostics == ()

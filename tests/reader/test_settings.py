@@ -94,3 +94,24 @@ def test_a_value_from_the_command_line_has_no_place_in_the_file():
     changed = set_state(set_parameters(problem, ["m=2/(1 + 2)"]), ["x=-1"])
     values = [changed.parameters[0].value, *changed.initial.values()]
     assert {node.span for value in values for node in walk(value)} == {NOWHERE}
+
+
+@pytest.mark.parametrize(
+    ("until", "meant"),
+    [
+        ("2*pi*sqrt(m/k)", "2*pi*sqrt(1/9)"),
+        ("m", "1"),
+        ("3*P", "3*(2*pi*sqrt(1/9))"),
+        ("2*pi/w", "2*pi/(sqrt(9/1))"),
+        ("n*m", ""),  # n has no value
+    ],
+)
+def test_the_end_of_a_run_is_shown_in_numbers(until, meant):
+    text = (
+        "coordinates: [x]\nparameters: {m: 1, k: 9, w: sqrt(k/m), n: }\nT: m*x'^2/2\n"
+        "definitions: {P: 2*pi*sqrt(m/k)}\nsimulation: {until: %s}\n"
+    )
+    [told] = read_problem("p.yaml", (text % until).encode()).diagnostics
+    assert told.hint == (f"write {meant}" if meant else told.hint)
+    assert "write" not in told.hint or meant
+    assert not meant or read_problem("p.yaml", (text % meant).encode()).diagnostics == ()
