@@ -76,17 +76,6 @@ def with_velocities(text: str) -> str:
     return changed if changed != text else ""
 
 
-def velocity_meant(name: str, value: str, text: str, coordinates: list[str]) -> str:
-    """`write x': 3/m` for the momentum 3 of x, `give x' = p_x/m` for a formula; or nothing."""
-    law = rate_of(name, text)
-    rate = "0" if value == "0" else law.replace(f"p_{name}", value)
-    is_number = re.fullmatch(r"-?[\w.]+", value) and not {*coordinates} & {
-        *re.findall(r"\w+", rate)
-    }
-    given = f"write {name}': {rate}" if is_number else f"give {name}' = {law}"
-    return given if law else ""
-
-
 def rate_of(name: str, text: str) -> str:
     """`p_phi/(m*r^2)` for the velocity of phi; nothing where the file does not say it plainly."""
     energies: dict[str, str] = dict(re.findall(r"^([HTL]):\s*(\S.*?)\s*$", text, re.MULTILINE))

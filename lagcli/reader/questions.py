@@ -24,6 +24,7 @@ from lagcli.reader.misshapen import (
     ALREADY_FOUND,
     WITHOUT_HYPHENS,
     as_map,
+    by_key,
     difference,
     entries_of,
     is_found,
@@ -87,7 +88,7 @@ def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]
         return {}
     for key, value in entries:
         what = f"the initial '{key.label}'"
-        name = _state_name(file, key, value, coordinates)
+        name = _state_name(file, key, value, coordinates, by_key(node))
         if name is None:
             continue
         before, written = len(file.diagnostics), source_of(value)
@@ -102,7 +103,11 @@ def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]
 
 
 def _state_name(
-    file: FileReader, key: Scalar, value: DocumentNode, coordinates: list[str]
+    file: FileReader,
+    key: Scalar,
+    value: DocumentNode,
+    coordinates: list[str],
+    state: dict[str, str],
 ) -> Name | None:
     letters = key.label.rstrip("'’′″")
     if letters not in coordinates and file.scope.refused:
@@ -130,12 +135,15 @@ def _state_name(
         if re.search(r"[=→>]", key.label):
             hint = f"write {name_meant(key.label)}"
         if momentum := momentum_meant(letters, coordinates):
-            from lagcli.reader.momenta_meant import velocity_meant
+            from lagcli.reader.momenta_meant import rate_of
 
-            rate = velocity_meant(momentum, source_of(value), file.text, coordinates)
+            law, number = rate_of(momentum, file.text), source_of(value)
             rule = "it is ∂H/∂p_{0}" if "H" in file.sections else "its momentum is ∂L/∂{0}'"
-            rate = rate or f"give {momentum}': {rule.format(momentum)}"
-            hint = f"a state has velocities, not momenta: {rate}"
+            rate = _put_in(law, {**state, f"p_{momentum}": number}) if number != "0" else "0"
+            is_known = not {*coordinates} & {*re.findall(r"\w+", rate)} and formula_or_none(rate)
+            given = f"write {momentum}': {rate}" if is_known else f"give {momentum}' = {law}"
+            given = given if law else f"give {momentum}': {rule.format(momentum)}"
+            hint = f"a state has velocities, not momenta: {given}"
         if part := key_meant(key.label, _SIMULATION_ATTRIBUTES):
             inner = f"{part}: {source_of(value)}"
             hint = f"an end of the run stands under simulation: write simulation: {{{inner}}}"
@@ -399,17 +407,22 @@ def _number(file: FileReader, node: DocumentNode, what: str) -> Expression:
 
 def _in_numbers(text: str, values: dict[str, str]) -> str:
     """`2*pi*sqrt(1/4)` for `2*pi*sqrt(m/k)`; nothing for numbers and where values are missing."""
-
-    def put_in(found: re.Match[str]) -> str:
-        value = values.get(found[0], found[0])
-        return value if re.fullmatch(r"[\w.]+", value) else f"({value})"
-
     whole = text
     for _ in range(_DEEPEST):
-        whole = re.sub(r"(?<![\w.])[^\W\d]\w*", put_in, whole)
+        whole = _put_in(whole, values)
     formula = formula_or_none(whole)
     names = {"?"} if formula is None else {node.name for node in name_nodes(formula)}
     return whole if whole != text and names <= {"pi"} else ""
+
+
+def _put_in(text: str, values: dict[str, str]) -> str:
+    """The text with values in the place of names."""
+
+    def value_of(found: re.Match[str]) -> str:
+        value = values.get(found[0], found[0])
+        return value if found[0] == text or re.fullmatch(r"[\w.]+", value) else f"({value})"
+
+    return re.sub(r"(?<![\w.])[^\W\d]\w*", value_of, text)
 
 
 def _number_meant(text: str, what: str) -> tuple[str, str] | None:

@@ -109,6 +109,7 @@ def test_an_initial_momentum_is_a_velocity(seed):
     )
     begin = f"coordinates: [{x}]\nparameters: {{m: 2, l: 3, p0: 4}}\nT: {square}\ninitial: {{"
     [told] = read_problem("p", f"{begin}p_{x}: {number}}}\n".encode()).diagnostics
-    rate = f"{number}/{inertia}" if inertia and number != "0" else number
+    over = f"({number})" if "-" in number else number
+    rate = f"{over}/{inertia}" if inertia and number != "0" else number
     assert told.hint == f"a state has velocities, not momenta: write {x}': {rate}"
     assert read_problem("p", f"{begin}{x}': {rate}}}\n".encode()).diagnostics == ()
