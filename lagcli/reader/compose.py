@@ -140,7 +140,10 @@ class _Composer:
             case yaml.DocumentStartEvent():
                 self._documents += 1
                 if self._documents > 1:
-                    hint = "leave out '---': one problem, one file"
+                    parts = (self.text.source.text[:start], self.text.source.text[start:])
+                    one, other = ({*re.findall(r"^\w+(?=:)", each, re.MULTILINE)} for each in parts)
+                    hint = "put it into a file of its own" if one & other else "leave out '---'"
+                    hint += ": one problem, one file"
                     self._stop(start, end, "a second document begins here", hint)
             case yaml.ScalarEvent():
                 broken, value = self._has_tag(event), event.value.translate(self._shown)

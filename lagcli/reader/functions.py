@@ -23,6 +23,7 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
     items = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
     called = [found.groups() for each in items for found in CALLED.finditer(each)]
     first = next(iter(file.scope.of_kind("coordinate")), "r")
+    variables: dict[str, str] = dict(CALLED.findall(file.text))
     alone = [(each, first) for each in items if each.isidentifier()]
     named = ", ".join(map("{0[0]}: [{0[1]}]".format, called or alone or [("U", "r")]))
     hint = f"write {{{named}}}"
@@ -49,8 +50,9 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
             names = call[2] if call else "" if hint.startswith(_FORMULA) else given
             file.scope.arguments[name] = re.split(r"\s*,\s*", names)
             continue
+        listed = f"write {name}: [{variables.get(name, first)}]"
         arguments = [file.scalar(item, f"an argument of '{key.label}'")
-                     for item in file.items(value, what)]  # fmt: skip
+                     for item in file.items(value, what, listed)]  # fmt: skip
         for argument in arguments:
             wrong = argument and name_mistake(argument.label)
             if argument and wrong and argument.label != "t":

@@ -24,6 +24,8 @@ _KINDS = {
     "F3": "momenta and new coordinates",
     "F4": "momenta and new momenta",
 }
+#: What others call a generating function.
+_GENERATING = frozenset("F G S W generating generating_function".split())
 _FOUND = "leave it out: momenta, energy and charges are found"
 
 #: `{A, B}`, also with its index and its value: `\\{A, B\\}_{PB} = C`.
@@ -195,6 +197,13 @@ def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> Canoni
     entries = list(file.entries(node, what, example.replace(f" {key.label}: ", " ", 1)))
     if not isinstance(node, Mapping):
         return CanonicalTransformation(name=key.label, coordinates={}, momenta={}, span=key.span)
+    for name, value in entries:
+        if name.label in _GENERATING and f"p_{name.label}" not in by_key(node):
+            used = {*re.findall(r"(?<!\w)p_(\w+)", source_of(value))}
+            old = used & {*file.scope.of_kind("coordinate")}
+            meant = f"F{1 + bool(used - old) + 2 * bool(old)}"
+            file.error(f"'{name.label}' is not a new variable", name.span, f"the key is {meant}")
+            name.value = meant
     names = _new_momenta([name.label for name, _ in entries])
     for name, _ in entries:
         if name.label in names:

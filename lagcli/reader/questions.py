@@ -22,6 +22,7 @@ from lagcli.reader.habits import advised, is_angle, key_meant, meanings, name_me
 from lagcli.reader.headings import PLACE, RATE, state_of_launch, state_without_headings
 from lagcli.reader.misshapen import (
     ALREADY_FOUND,
+    FOUND,
     WITHOUT_HYPHENS,
     as_map,
     by_key,
@@ -200,6 +201,9 @@ def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
         entries = value.entries if isinstance(value, Mapping) else []
         given = [part.label for part, _ in entries]
         forms = [form for form in _FORMS.items() if {*form} == {*given}]
+        if {source_of(part) for _, part in entries} & (FOUND - file.scope.kinds.keys()):
+            file.error(f"{what} has an answer already", key.span, ALREADY_FOUND)
+            continue
         if given and not forms and not any(map(str.isdigit, given)):  # 9,81
             meant = _meant(entries, file.scope)
             names = [f"'{each}'" for each in given if each not in _QUESTION_ATTRIBUTES]

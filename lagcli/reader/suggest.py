@@ -12,17 +12,20 @@ from lagcli.reader.habits import meanings
 #: Names longer than this, and more names than these, are not compared.
 _LONGEST, _MOST = 60, 300
 
-#: Cyrillic letters, which look like Latin ones.
-_CYRILLIC = dict(zip("асеорхуіјкмтн", "aceopxyijkmth", strict=True))
+#: Cyrillic and Greek letters, which look like Latin ones.
+_LATIN = str.maketrans(
+    "асеорхуіјкмтнАВЕКМНОРСТУХΑΒΕΖΗΙΚΜΝΟΡΤΥΧ", "aceopxyijkmthabekmhopctyxabezhikmnoptyx"
+)
 
 
 def did_you_mean(name: str, known: Iterable[str], near: float = 0.6) -> str:
     """`did you mean 'theta'?`, or nothing when no known name is as `near`."""
     best = closest(name, known, near)
-    named = [unicodedata.name(letter, "") for letter in best + name if letter in _CYRILLIC]
-    if not named and best and best != name and unicodedata.normalize("NFKC", name) == best:
-        letters = zip(best, name, strict=False)
-        named = [unicodedata.name(ours, "") for ours, its in letters if ours != its]
+    letters = [pair for pair in zip(best, name, strict=False) if pair[0] != pair[1]]
+    is_alike = unicodedata.normalize("NFKC", name) == best or _LATIN.keys() & {
+        *map(ord, best + name)
+    }
+    named = [unicodedata.name(ours, "") for ours, _ in letters] if is_alike else []
     shown = f", with the letter {named[0].capitalize()}" if named else ""
     return f"did you mean '{best}'{shown}?" if best else ""
 
@@ -62,7 +65,6 @@ def spelled_out(name: str) -> str:
 
 def _folded(name: str) -> str:
     """Look-alikes in one form: µ and μ, X and x, ϕ and φ and phi, w and ω, a Cyrillic х and x."""
-    latin = str.maketrans(_CYRILLIC)
-    folded = spelled_out(unicodedata.normalize("NFKC", name).casefold().translate(latin))
+    folded = spelled_out(unicodedata.normalize("NFKC", name).translate(_LATIN).casefold())
     folded = re.sub(r"^ell(?![a-z])", "l", re.sub("^epsilon", "eps", folded))
     return "omega" if folded == "w" else folded

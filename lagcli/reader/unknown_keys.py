@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+from typing import NamedTuple, get_args
 
+from lagcli.problem_data import ForceKind
 from lagcli.reader.by_coordinate import coordinate_meant, state_meant
 from lagcli.reader.equations_meant import energies_of
 from lagcli.reader.foreign.words import momentum_meant
@@ -52,6 +53,8 @@ _NEAR = 0.7
 _SLIP = 0.8
 _PROBLEM = "the problem"
 _WISHES = frozenset({"yes", "true", "True", "on", "all", "find", "?"})
+#: The words that only one key has.
+_WORDS = {"assume": {*ASSUMPTIONS} - {"real"}, "acts_as": get_args(ForceKind)}
 _NOT = frozenset({"no", "false", "off", "0"})
 #: The number of a state.
 _STATE = regex(r"(?:[-+*/\d.() ]|pi|e(?=[-+\d]))+")
@@ -142,6 +145,8 @@ def _meant(word: str, written: str, what: str, names: tuple[str, ...]) -> tuple[
     other = "" if is_time else word.casefold()  # the time is not T
     alike = [name for name in names if name.casefold() == other]
     meant = alike[0] if len(alike) == 1 else key_meant(word, names)
+    if named := [key for key, words in _WORDS.items() if written in words and key in names]:
+        return named[0], f"the key is {named[0]}"
     advice = _advice(word, written, what, names)
     is_word = written in _WISHES or (meant == "value" and not re.search(r"\d", written))
     if meant and not (advice and is_word):
@@ -416,7 +421,8 @@ def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
     if word in ASSUMPTIONS and word != "real" and "assume" in known:
         return "leave it out" if value.casefold() in _NOT else f"write assume: {word}"
     if advice := spellings("advice", section).get(letters(word)):
-        return _counted(advice.replace("{word}", word), word, value)
+        name = value if value.isidentifier() else "N"
+        return _counted(advice.replace("{word}", word).replace("{name}", name), word, value)
     return _advice_in_problem(word, value.strip()) if section == "problem" else ""
 
 

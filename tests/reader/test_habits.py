@@ -699,6 +699,33 @@ HABITS = [
         (text(coordinates="[theta]", T=f"m*{rate}^2/2", V=None), "write m*theta'^2/2")
         for rate in ("dtheta", "theta_t", "thetad", "vtheta", "dot_theta", "theta_prime")
     ),
+    (text(observables="{E: energy}"), "leave it out: momenta, energy and charges are found"),
+    (text(find="{w: {value: frequency}}"), "leave it out: equilibria, frequencies and charges"),
+    (text(find="{w: {where: period, for: x}}"), "leave it out: equilibria, frequencies"),
+    (text(parameters="{m: 1, k: {type: nonzero}}"), "the key is assume"),
+    (text(constraints="{c: {equation: x = t, type: tension}}"), "the key is acts_as"),
+    (text(constraints="{c: {equation: x = t, name: S}}"), "write multiplier: S"),
+    (text(contacts="{c: {gap: x >= 0, force: R}}"), "write multiplier: R"),
+    (text(functions="{U}", V="U(x)"), "write U: [x]"),
+    (text(functions="{U: }", V="U(t)"), "write U: [t]"),
+    *(
+        (text(T=None) + f"{key}: m*x'^2/2\n", "did you mean 'T', with the letter Latin")
+        for key in ("Τ", "Т")  # Greek and Cyrillic
+    ),
+    *(
+        (
+            text(canonical_transformations=f"{{a: {{Q: p_x, p_Q: -x, {letter}: {law}}}}}"),
+            f"the key is {kind}",
+        )
+        for letter, law, kind in (
+            ("F", "x*Q", "F1"),
+            ("S", "-x*p_Q", "F2"),
+            ("G", "p_x*Q", "F3"),
+            ("generating", "p_x*p_Q", "F4"),
+        )
+    ),
+    (f"{text()}---\n{text()}", "put it into a file of its own"),
+    (f"{text(V=None)}---\nV: k*x^2/2\n", "leave out '---'"),
 ]
 
 
