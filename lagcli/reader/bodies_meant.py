@@ -15,11 +15,11 @@ NO_ROTATION = "a point does not turn"
 
 def of_bodies(file: FileReader, points: list[tuple[Scalar, DocumentNode]]) -> str:
     """`write T: m*(x_A'^2 + y_A'^2)/2 + J*phi'^2/2` for points with inertia, each of one angle."""
-    coordinates = [*file.scope.of_kind("coordinate")]
+    coordinates = file.scope.coordinates
     defined: dict[str, str] = {}
     terms, turning = [], []
     for key, value in points:
-        parts = {k.label: v for k, v in getattr(value, "entries", ())}
+        parts = {k.label: v for k, v in value.pairs}
         axes = [source_of(each) for each in getattr(parts.get("position"), "items", ())]
         words = [{*re.findall(r"\w+", each)} for each in axes]
         angles = [x for x in coordinates if is_angle(x) or re.search(rf"[ns]\({x}\)", f"{axes}")]

@@ -32,7 +32,7 @@ from lagcli.expression import (
 )
 from lagcli.problem_data import Comparison, Inequality
 from lagcli.reader.automaton import Token
-from lagcli.reader.limits import NUMBER_DIGITS, thousands
+from lagcli.reader.limits import NUMBER_DIGITS
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.text import Mistake
 from lagcli.record import replace
@@ -130,7 +130,7 @@ class FormulaBuilder:
         span = span_of(token)
         digits = _digits_written_out(token)
         if digits > NUMBER_DIGITS:
-            bound = thousands(NUMBER_DIGITS)
+            bound = f"{NUMBER_DIGITS:,}"
             raise mistake(f"a number of more than {bound} digits", span, f"the limit is {bound}")
         return Number(Fraction(str(token)), span=span)
 

@@ -30,7 +30,7 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
     """How a list or a text of values is written as a map by coordinate."""
     if isinstance(node, Mapping):
         return ""
-    names = list(scope.of_kind("coordinate")) or ["x"]
+    names = scope.coordinates or ["x"]
     if isinstance(node, Scalar) and _AT_REST.search(node.value) and "=" not in node.value:
         number = re.search(r"\d+(?:\.\d+)?", node.value)
         begin = f"write {{{names[0]}: {number[0]}}}" if number else "leave it out"
@@ -46,7 +46,7 @@ def by_name(node: DocumentNode, scope: Scope) -> str:
         alone = along_z(law, known)
         condition = f": {alone} is taken along z" if alone and names[2:] else ""
         return _pairs([*zip(names, axes, strict=True)]) + condition
-    written = node.text.source.text[node.start : node.end].strip("[] \n")
+    written = node.written.strip("[] \n")
     written = behind_words(written, scope.kinds)
     stated = [(coordinate_meant(name.removesuffix("''"), names), value)
               for name, value in assigned(written)]  # fmt: skip
@@ -122,7 +122,7 @@ def _of_equations(node: Sequence, names: list[str]) -> list[tuple[str, str]]:
 
 def _values(node: DocumentNode, scope: Scope) -> list[str]:
     """The values in a list, or in a text that is one."""
-    values = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+    values = node.texts
     if isinstance(node, Scalar):
         [text] = values = [behind_words(each, scope.kinds) for each in values]
         one = as_list(node.value)

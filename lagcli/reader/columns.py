@@ -11,13 +11,12 @@ from lagcli.diagnostics import Diagnostic, ProblemError, Source
 from lagcli.expression import Diff, Expression, Name, Negative, Product, Sum, name_nodes
 from lagcli.problem_data import JACOBI_FUNCTION, Constraint, Contact, Problem, Symmetry, charge_of
 from lagcli.reader.assignments import pieces
-from lagcli.reader.expressions import read_expression
+from lagcli.reader.expressions import read_expression, read_or_raise
 from lagcli.reader.names import depends_on_time, derivative_order, name_mistakes
 from lagcli.reader.number_units import run_mistake
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.scope import ALONG, NUMBERS, Definition, Role, Scope
 from lagcli.reader.suggest import did_you_mean
-from lagcli.reader.text import Mistake
 
 
 class Column(NamedTuple):
@@ -42,7 +41,7 @@ def read_columns(problem: Problem, words: Sequence[str]) -> list[Column]:
     for word in pieces_of(words):
         for column in _columns(problem, scope, word):
             if column.expression is not None and not isinstance(column.expression, Name):
-                _check_units(problem, word, column.expression)
+                check_units(problem, Source(f"--show {word}", word), column.expression)
             shown[column.name] = column
     return list(shown.values())
 
@@ -119,16 +118,18 @@ def _columns(problem: Problem, scope: Scope, word: str) -> Iterator[Column]:
     yield Column(word, None if expression == Name("t") else expression)
 
 
-def _check_units(problem: Problem, text: str, expression: Expression) -> None:
-    """The terms of a column have one unit, where the file gives units."""
+def check_units(problem: Problem, source: Source, expression: Expression, name: str = "") -> None:
+    """The terms of a column have one unit, where the file gives units; a value that of its name.
+
+    A number alone has it anyway.
+    """
     quantities = (*problem.coordinates, *problem.parameters)
     if expression.span.line < 1 or all(each.unit is None for each in quantities):
         return  # made from the file's own, or without units
     from lagcli.dimensions.check import check_formula
 
-    mistakes = check_formula(problem, expression, text)
-    if mistakes:
-        raise ProblemError(Source(f"--show {text}", text), tuple(mistakes))
+    if mistakes := check_formula(problem, expression, source.text, name):
+        raise ProblemError(source, tuple(mistakes))
 
 
 def _group(problem: Problem, word: str) -> Iterator[Column]:
@@ -170,7 +171,7 @@ def named_columns(
     for each in holding:
         f = Sum((each.equation.left, Negative(each.equation.right)))
         primes = max(derivative_order(f, scope), 0)
-        for coordinate in scope.of_kind("coordinate"):
+        for coordinate in scope.coordinates:
             slope = Diff(f, Name(coordinate, primes))
             found[f"{each.name}.{coordinate}"] = Product((Name(each.multiplier), slope))
     for symmetry in symmetries:
@@ -181,10 +182,7 @@ def named_columns(
 
 def _read(text: str, option: str, scope: Scope, role: Role) -> Expression:
     source = Source(f"{option} {text}", text)
-    try:
-        expression = read_expression(Excerpt.whole(source))
-    except Mistake as error:
-        raise ProblemError(source, error.diagnostics) from None
+    expression = read_or_raise(Excerpt.whole(source), read_expression)
     mistakes = tuple(name_mistakes(expression, scope, role, option))
     if mistakes:
         raise ProblemError(source, mistakes)

@@ -20,7 +20,7 @@ from lagcli.reader.limits import EXPANDED_SIZE, YAML_LEVELS
 from lagcli.reader.misshapen import by_key, source_of, with_entries
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, lines_of, names_in
 from lagcli.reader.regex import regex
-from lagcli.reader.text import Mistake, SourceText
+from lagcli.reader.text import Mistake, SourceText, as_sum
 
 #: Keys that stand beside the equation of a constraint.
 _BESIDE_EQUATION = ("multiplier", "holds_while", "on_loss", "acts_as", "lambda")
@@ -94,7 +94,7 @@ def _one_of(first_key: Scalar, first: DocumentNode, key: Scalar, second: Documen
         return f"{hint}, or give it another name"
     is_sum = len(values) == 2 and all(re.search(r"[*'^(]", each) for each in values)
     if is_sum and not parts[0] & parts[1]:
-        total = " + ".join(values).replace("+ -", "- ")
+        total = as_sum(values)
         return f"{hint}; for the sum leave out the first one and write {key.label}: {total}"
     return hint
 

@@ -28,7 +28,7 @@ from lagcli.expression import (
     postorder,
 )
 from lagcli.reader.builder import mistake
-from lagcli.reader.limits import NUMBER_DIGITS, thousands
+from lagcli.reader.limits import NUMBER_DIGITS
 from lagcli.reader.text import Mistake
 
 #: Functions without a value at 0.
@@ -98,7 +98,7 @@ def _follow(
 def _evaluated(node: Expression, parts: list[_Constant]) -> _Constant:
     found = _evaluate(node, parts)
     if found.digits > NUMBER_DIGITS:
-        bound = thousands(NUMBER_DIGITS)
+        bound = f"{NUMBER_DIGITS:,}"
         what = "power" if isinstance(node, Power) else "number"
         message = f"a constant {what} of more than {bound} digits"
         raise mistake(message, node.span, f"the limit is {bound}")

@@ -10,7 +10,7 @@ from lagcli.problem_data import Contact
 from lagcli.reader.expressions import formula_or_none
 from lagcli.reader.file_reader import FileReader, Required
 from lagcli.reader.habits import comparisons_in, is_angle, key_meant, name_meant
-from lagcli.reader.misshapen import by_key, is_sentence, source_of, texts_of
+from lagcli.reader.misshapen import as_flow, by_key, is_sentence, source_of, texts_of
 from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
 from lagcli.reader.regex import regex
@@ -47,8 +47,8 @@ def declared(
     """
     what = "contact" if known == _ATTRIBUTES else "constraint"
     if side := _with_its_side(file, key, value, known):
-        file.error(f"the name '{key.label}' of a {what} is not its left side", key.span, side)
-        file.scope.refused.append(f"lambda_{key.label}")
+        message = f"the name '{key.label}' of a {what} is not its left side"
+        file.error(message, key.span, side, refused=f"lambda_{key.label}")
         return None
     if name_mistake(f"a{key.label}") is not None or not key.label:  # lambda_<name> must be a name
         message = f"'{key.label}' is not a valid name for a {what}"
@@ -67,7 +67,6 @@ def declared(
         span = key.span if value.is_empty else value.span
         law = f"{key.label}: {law}" if value.is_empty and what == "constraint" else law
         file.error(f"the {what} '{key.label}' has no formula", span, f"write {law}")
-        file.scope.refused.append(f"lambda_{key.label}")
         return None
     multiplier, place = f"lambda_{key.label}", key.span
     attributes = {known[0]: value}
@@ -87,7 +86,7 @@ def declared(
             if sides and label[:1] == "-" and label[1:].isidentifier():
                 meant = {"equation": f"{sides[2] or 0} = {sides[1]}", "multiplier": label[1:]}
                 given = by_key(value) | meant
-                hint = f"write {{{', '.join(map(': '.join, given.items()))}}}"
+                hint = f"write {as_flow(given)}"
                 file.error(f"the multiplier '{label}' is not a name", value.span, hint)
                 file.scope.refused.append(label[1:])
                 return Declared(key, multiplier, attributes)
@@ -121,7 +120,7 @@ def _law_of_words(file: FileReader, name: str, text: str, what: str) -> str:
     """
     is_word = text.replace("_", "").isalpha() and len(text) > 3 and text not in file.scope.kinds
     is_true = text.casefold() in {"", "true", "yes", "on"}
-    coordinates = [*file.scope.of_kind("coordinate")]
+    coordinates = file.scope.coordinates
     if what == "contact" and (is_true or is_word):
         is_place = re.fullmatch("(?i:floor|ground|table|boden|sol|wall|ceiling)", name)
         place = name if is_true or is_place else text
@@ -147,7 +146,7 @@ def _hint(file: FileReader, key: Scalar, value: Mapping, known: tuple[str, ...])
 
     The equation of a constraint may have another key: `write hoop: {equation: r = R}`.
     """
-    coordinates = {*file.scope.of_kind("coordinate")}
+    coordinates = {*file.scope.coordinates}
     sign = ">=" if known == _ATTRIBUTES else "="
     given = by_key(value)
     laws = [f"{k} {sign} {v}" for k, v in given.items() if k.rstrip("'") in coordinates]

@@ -16,12 +16,13 @@ from lagcli.reader.growth import growth
 from lagcli.reader.habits import KEYS, colon_advice, is_angle, is_constant, key_meant
 from lagcli.reader.headings import forces_without_headings, without_headings
 from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
-from lagcli.reader.misshapen import as_list, by_key, named_formulas, source_of
+from lagcli.reader.misshapen import as_flow, as_list, by_key, named_formulas, source_of
 from lagcli.reader.names import depends_on_time, derivative_order
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, names_in
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import MASS, POSITION, STATE, Definition, Growth, Kind, Role
 from lagcli.reader.suggest import did_you_mean
+from lagcli.reader.text import as_sum
 from lagcli.record import replace
 
 _CARTESIAN = "write [x, y], in polar coordinates [r*cos(phi), r*sin(phi)]"
@@ -91,7 +92,7 @@ def check_masses(file: FileReader, problem: Problem, span: Span) -> None:
 
 def _usual_energy(file: FileReader) -> str:
     """`, as in T: m*x'^2/2`; nothing where the kinetic energy may have mixed terms."""
-    coordinates = [*file.scope.of_kind("coordinate")]
+    coordinates = file.scope.coordinates
     known = {*file.scope.of_kind("parameter")}
     turning = [x for x in coordinates if is_angle(x)]
     squares = polar_speed((*coordinates,)) if coordinates else ""
@@ -129,15 +130,13 @@ def declare_definitions(file: FileReader, node: DocumentNode) -> list[tuple[Scal
     if isinstance(node, Scalar | Sequence):
         lines = [node] if isinstance(node, Scalar) else node.items
         written = [each.value for each in lines if isinstance(each, Scalar)]
-        file.scope.refused.append("")
         hint = colon_advice(written[0]) if written else hint
         if len(several := named_formulas(node)) > 1:
-            hint = f"write {{{', '.join(map(': '.join, several.items()))}}}"
-        file.scope.refused += [line.partition("=")[0].strip() for line in written]
-    vectors = [key for key, value in getattr(node, "entries", ()) if isinstance(value, Sequence)]
+            hint = f"write {as_flow(several)}"
+    vectors = [key for key, value in node.pairs if isinstance(value, Sequence)]
     if (found := without_headings(node, ("x", "y", "z"))) and found[0] not in vectors:
-        file.error(f"'{found[0].label}' in definitions is not a formula", found[0].span, found[1])
-        file.scope.refused.append("")
+        message = f"'{found[0].label}' in definitions is not a formula"
+        file.error(message, found[0].span, found[1], refused="")
         return []
     entries = file.entries(node, "definitions", hint)
     for key, value in file.of_section(entries, "definitions", ()):
@@ -158,7 +157,7 @@ def read_definitions(
     definitions = {}
     for place, (key, value) in enumerate(declared):
         what = f"the definition of '{key.label}'"
-        parts = value.items if isinstance(value, Sequence) else ()
+        parts = value.parts
         for axis, _ in zip("xyz", parts, strict=False):  # a vector
             file.scope.components[f"{key.label}.{axis}"] = f"{key.label}_{axis}"
         mistakes = len(file.diagnostics)
@@ -194,11 +193,11 @@ def _say_components(file: FileReader, name: str, node: Scalar, mistakes: int) ->
 def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
     """The particles."""
     points = []
-    listed = [each.value for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
+    listed = node.listed
     name = listed[0] if listed and listed[0].isidentifier() else "name"
     hint = f"write {name}: {{position: [x, y], mass: m}}"
-    places = [each for each in getattr(node, "items", ()) if isinstance(each, Sequence)]
-    if places and len(places) == len(getattr(node, "items", ())):
+    places = [each for each in node.parts if isinstance(each, Sequence)]
+    if places and len(places) == len(node.parts):
         named_ = (
             f"P{k}: {{position: {source_of(each)}, mass: m}}" for k, each in enumerate(places, 1)
         )
@@ -226,7 +225,7 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
         if by_axes and labels & _RADII:  # r is not the position
             file.error(f"{what} has no position", key.span, required.hint, refused="points")
             continue
-        axes = value.items if isinstance(value, Sequence) else ()
+        axes = value.parts
         is_bare = all(isinstance(axis, Scalar) and "=" not in axis.value for axis in axes)
         found = {}
         if axes and is_bare and file.sections <= {*KEYS} - {"T", "L", "H"}:  # [x, y]
@@ -243,8 +242,8 @@ def read_points(file: FileReader, node: DocumentNode) -> tuple[Point, ...]:
         attributes = {name: attribute for name, (_, attribute) in found.items()}
         if "position" not in attributes:
             file.scope.refused.append("points")
-            given = value.entries if isinstance(value, Mapping) else ()
-            items = value.items if isinstance(value, Sequence) else ()
+            given = value.pairs
+            items = value.parts
             axes_given = ((axis.label, at) for axis, at in given)
             for axis_, at in (*axes_given, *zip("xyz", items, strict=False)):
                 if axis_ in {"x", "y", "z"} and isinstance(at, Scalar):
@@ -311,8 +310,7 @@ def read_components(
     from lagcli.reader.foreign.vectors import components, of_listed, with_commas
 
     known = file.scope.kinds
-    texts = [each.value for each in (node, *getattr(node, "items", ())) if isinstance(each, Scalar)]
-    along = _POLAR.search(" ".join(texts))
+    along = _POLAR.search(" ".join(node.texts))
     if along and along[0] not in known:
         message = f"{what} has Cartesian components, not one along '{along[0]}'"
         file.error(message, node.span, _CARTESIAN)
@@ -323,7 +321,7 @@ def read_components(
         if written := components(alone, known, length):
             file.error(f"{what} must be a list, not a text", node.span, _listed(written))
             return []
-        apart = with_commas(alone, [*file.scope.of_kind("coordinate")])
+        apart = with_commas(alone, file.scope.coordinates)
         if apart and (not length or apart.count(",") == length - 1):
             file.error(f"{what} must be a list, not a text", node.span, apart)
             return []
@@ -333,18 +331,18 @@ def read_components(
             hint += f", as in [{axes}]" * (formula_or_none(node.value) is not None)
     elif isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
         parts = [key.label for key, _ in node.entries] or ["x", "y"]
-        apart = "" if parts[1:] else with_commas(parts[0], [*file.scope.of_kind("coordinate")])
+        apart = "" if parts[1:] else with_commas(parts[0], file.scope.coordinates)
         hint = apart or _listed(parts)
     elif isinstance(node, Mapping) and (axes_ := _by_axes(by_key(node), length)):
         hint = _listed(axes_)
     elif isinstance(node, Sequence):
-        texts = [each.value for each in node.items if isinstance(each, Scalar)]
+        texts = node.listed
         if len(texts) == len(node.items) and (written := of_listed(texts, known)):
             message = f"{what} is a list of components, without unit vectors"
             file.error(message, node.span, _listed(written))
             return []
         is_one = len(texts) == len(node.items) == 1 != length
-        if is_one and (apart := with_commas(texts[0], [*file.scope.of_kind("coordinate")])):
+        if is_one and (apart := with_commas(texts[0], file.scope.coordinates)):
             one = "; with blanks on both sides of its sign it is one" * (" -" in apart)
             file.error(f"{what} has no commas", node.span, apart + one)
             return []
@@ -378,7 +376,7 @@ def _force(file: FileReader, node: DocumentNode, name: str, length: int) -> tupl
     what = f"the force on '{name}'"
     before = len(file.diagnostics)
     axes = [file.scope.components.get(f"{name}.{axis}", "") for axis in "xyz"[:length]]
-    is_cartesian = axes == [*file.scope.of_kind("coordinate")]
+    is_cartesian = axes == file.scope.coordinates
     law = node.value if is_cartesian and isinstance(node, Scalar) else ""
     if written := of_vectors(law, axes, file.scope.kinds.keys()):
         file.error(f"{what} must be a list, not a text", node.span, _listed(written))
@@ -392,7 +390,7 @@ def _force(file: FileReader, node: DocumentNode, name: str, length: int) -> tupl
 
 def _is_name_of(label: str, file: FileReader) -> bool:
     """Whether a word is the name of a force, and not of a coordinate in another spelling."""
-    coordinates = list(file.scope.of_kind("coordinate"))
+    coordinates = file.scope.coordinates
     meant = coordinate_meant(label.rstrip("'"), coordinates).rstrip("'")
     is_known = label in coordinates or meant in coordinates
     return not (is_known or did_you_mean(label, coordinates) or file.scope.refused)
@@ -409,7 +407,7 @@ def _on_points(node: DocumentNode, file: FileReader) -> str:
     from lagcli.reader.foreign.vectors import components
 
     found = []
-    for item in getattr(node, "items", ()):
+    for item in node.parts:
         name, _, law = re.sub(r"^[\[(](.*)[\])]$", r"\1", source_of(item)).partition(",")
         places = file.scope.components
         size = sum(f"{name}.{axis}" in places for axis in "xyz")
@@ -425,14 +423,14 @@ def read_by_coordinate(
 ) -> dict[str, Expression]:
     """A map coordinate → expression."""
     found = {}
-    coordinates = list(file.scope.of_kind("coordinate"))
+    coordinates = file.scope.coordinates
     hint = by_name(node, file.scope)
     if section == "forces" and isinstance(node, Scalar) and (of := _GRADIENT.fullmatch(node.value)):
         potential = of["whole"] or of["name"]
         hint = "leave it out: the force of V is found"
         hint += f"; write V: {potential}" if "V" not in file.sections else ""
     if section == "forces" and (on_points := _on_points(node, file)):
-        inner = {each.span for each in getattr(node, "items", ())}
+        inner = {each.span for each in node.parts}
         file.diagnostics[:] = [each for each in file.diagnostics if each.span not in inner]
         file.error("a force on a point stands in that point", node.span, on_points)
         return {}
@@ -448,7 +446,7 @@ def read_by_coordinate(
     named = [] if is_other else named
     if section == "forces" and len(coordinates) == 1 and named and len(entries) > 1:
         laws = (_of_friction(key.label, source_of(value), coordinates[0]) for key, value in entries)
-        total = " + ".join(laws).replace("+ -", "- ")
+        total = as_sum(laws)
         message = f"'{named[0].label}' in forces is not a coordinate"
         file.error(message, named[0].span, f"write {coordinates[0]}: {total}")
         return {}
@@ -462,7 +460,7 @@ def read_by_coordinate(
             moved = [x for x in coordinates if re.search(rf"(?<!\w){x}'", source_of(value))]
             if section == "forces" and len(moved) == 1 and not hint:
                 terms = [source_of(v) for k, v in entries if k.label in (moved[0], key.label)]
-                hint = f"write {moved[0]}: {' + '.join(terms).replace('+ -', '- ')}"
+                hint = f"write {moved[0]}: {as_sum(terms)}"
             if f"{key.label}.x" in file.scope.components and section == "forces":
                 whole = f"{key.label}: {{position: …, force: {source_of(value)}}}"
                 hint = f"a force on a point stands there: {whole}"

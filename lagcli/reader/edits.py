@@ -78,7 +78,7 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
             return [[Edit(start, start + len(marks[0]), "")]] if marks else []
         return [[_without(start, end, text, root)]]
     section = hint[:12] == "in place of " and hint.split()[3]
-    for key, value in getattr(root, "entries", ()):
+    for key, value in root.pairs:
         if key.label == section:
             start, end = key.start, _end(value, text.source.text)
     proposed = PROPOSED.fullmatch(hint)
@@ -87,10 +87,9 @@ def edits_of(mistake: Diagnostic, text: SourceText, root: DocumentNode) -> list[
     whole = re.sub(r", without \w+, also .*|; and so on", "", proposed[1] or proposed[2])
     whole = re.sub(r"^'(.*)'$", r"\1", whole)
     if proposed[2] and (entry := entry_at(root, start, end)):  # entries in the place of one
-        inner = (
-            whole if entry[0].in_flow else _in_lines(whole, text.position(entry[0].start)[1] - 1)
-        )
-        return [[Edit(entry[0].start, _end(entry[1], text.source.text), inner)]]
+        return [
+            [Edit(entry[0].start, _end(entry[1], text.source.text), _in_lines(whole, entry[0]))]
+        ]
     parts = dict.fromkeys((whole, *_without_reason(whole)))
     found = [edits for part in parts for edits in _placed(part, start, end, text, root)]
     written = text.source.text
@@ -140,7 +139,7 @@ def _placed(
     section = _SECTION.fullmatch(part)
     entry = entry_at(root, start, end)
     if section and section[1] in KEYS:
-        of_problem = (pair for pair in getattr(root, "entries", ()) if pair[0].label in KEYS)
+        of_problem = (pair for pair in root.pairs if pair[0].label in KEYS)
         if start < end and entry is not None and entry in of_problem:
             is_whole = (entry[0].start, _end(entry[1], written)) == (start, end)
             if entry[0].label == section[1] or is_whole:
@@ -152,7 +151,7 @@ def _placed(
             yield edits
         return
     if section and entry is not None and entry[0].label != section[1]:
-        around = next(each for each in nodes_in(root) if entry in getattr(each, "entries", ()))
+        around = next(each for each in nodes_in(root) if entry in each.pairs)
         beside = section[1] in names_in(around)
         if beside and (edits := _into_section(section[1], section[2], text, around)):
             yield [*edits, _without(start, end, text, root)]
@@ -178,10 +177,9 @@ def _placed(
             is_bare = section and part[:1] != "{" and written[one.start] == "{"
             yield [Edit(one.start, stop, f"{{{part}}}" if is_bare else part)]
     if section and entry is not None:
-        inner = part if entry[0].in_flow else _in_lines(part, text.position(entry[0].start)[1] - 1)
         stop = _end(entry[1], written)
         if _keeps(written[entry[0].start : stop], part):
-            yield [Edit(entry[0].start, stop, inner)]
+            yield [Edit(entry[0].start, stop, _in_lines(part, entry[0]))]
 
 
 def _keeps(before: str, after: str) -> bool:
@@ -193,10 +191,11 @@ def _keeps(before: str, after: str) -> bool:
     return (bool(keys) and keys <= kept) or 2 * len(words & kept) >= len(words)
 
 
-def _in_lines(part: str, indent: int) -> str:
-    """The entries of a map on a line each."""
+def _in_lines(part: str, first: Scalar) -> str:
+    """The entries of a map on a line each, where the first is not between braces."""
     entries = [each.strip() for each in pieces(part, ",")]
-    return f"\n{' ' * indent}".join(entries) if all(map(_SECTION.fullmatch, entries)) else part
+    is_block = not first.in_flow and all(map(_SECTION.fullmatch, entries))
+    return f"\n{' ' * (first.span.column - 1)}".join(entries) if is_block else part
 
 
 def _likeness(edits: list[Edit], text: str) -> float:
@@ -228,14 +227,14 @@ def _without(start: int, end: int, text: SourceText, root: DocumentNode) -> Edit
     """Without the entry, or the item of a list, that stands there."""
     written = text.source.text
     entry = entry_at(root, start, end)
-    items = (x for node in nodes_in(root) for x in getattr(node, "items", ()))
+    items = (x for node in nodes_in(root) for x in node.parts)
     item = next((x for x in items if x.start == start and x.end >= end), None)
     if item is not None:
         end = _end(item, written)
     elif entry is not None:
         start, end = entry[0].start, _end(entry[1], written)
         around = [key for key, value in entries_in(root)
-                  if getattr(value, "entries", ()) == [entry] and key.label in KEYS]  # fmt: skip
+                  if value.pairs == [entry] and key.label in KEYS]  # fmt: skip
         start = around[0].start if around else start  # the only one of its section
         end += written[start:end].count("{") - written[start:end].count("}")
     if comma := re.match(r"\s*,\s*", written[end:]):
@@ -250,7 +249,7 @@ def _without(start: int, end: int, text: SourceText, root: DocumentNode) -> Edit
 def _into_section(key: str, value: str, text: SourceText, root: DocumentNode) -> list[Edit]:
     """An entry of a section put where it belongs."""
     written = text.source.text
-    entries = root.entries if isinstance(root, Mapping) else []
+    entries = root.pairs
     node = next((value for name, value in entries if name.label == key), None)
     if node is None:
         return [Edit(len(written), len(written), f"\n{key}: {value}")]

@@ -7,6 +7,7 @@ from collections.abc import Collection, Sequence
 
 from lagcli.expression import FUNCTIONS
 from lagcli.reader.expressions import signed_terms
+from lagcli.reader.text import as_sum
 
 
 def energies_of(
@@ -42,7 +43,7 @@ def energies_of(
                 return ""
             elif term != "0":
                 force.append("-" * (not is_negative) + term)
-        forces[q] = " + ".join(force).replace("+ -", "- ")
+        forces[q] = as_sum(force)
     lines = [f"{key}: {' + '.join(terms)}" for key, terms in parts.items() if terms]
     driven = ", ".join(f"{q}: {force}" for q, force in forces.items() if force)
     lines += [f"forces: {{{driven}}}"] if driven else []

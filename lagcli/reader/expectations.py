@@ -11,7 +11,7 @@ from lagcli.reader.assignments import assigned, pieces
 from lagcli.reader.columns import named_columns
 from lagcli.reader.dynamics import read_by_coordinate
 from lagcli.reader.file_reader import FileReader
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, size
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import ANSWER, Role
 from lagcli.reader.suggest import did_you_mean
 from lagcli.reader.trajectory import TrajectoryReader
@@ -57,7 +57,9 @@ class ExpectReader:
         """The whole section."""
         if isinstance(node, Mapping) and not node.entries:
             return Expect()  # no section need be known
-        keys = ("degrees_of_freedom", *expected_keys(self._unusual(node)), "trajectory")
+        known = {"degrees_of_freedom", "trajectory", *expected_keys(False)}
+        is_unusual = any(key.label not in known for key, _ in node.pairs)
+        keys = ("degrees_of_freedom", *expected_keys(is_unusual), "trajectory")
         found = self.file.attributes(node, "expect", keys)
         values: dict[str, Any] = {}
         others: dict[str, Any] = {}
@@ -65,11 +67,6 @@ class ExpectReader:
             self.spans[(name,)] = key.span
             (values if name in _FIELDS else others)[name] = self._value(name, value)
         return Expect(**values, ranges=self.ranges, others=others, spans=self.spans)
-
-    def _unusual(self, node: DocumentNode) -> bool:
-        """Whether a key is that of no built-in section."""
-        known = {"degrees_of_freedom", "trajectory", *expected_keys(False)}
-        return any(key.label not in known for key, _ in getattr(node, "entries", ()))
 
     def _value(self, name: str, node: DocumentNode) -> Any:
         match name:
@@ -87,7 +84,7 @@ class ExpectReader:
         """A whole number, 0 or more."""
         if isinstance(node, Mapping | Sequence):
             message = f"'{name}' is a whole number, 0 or more"
-            self.file.error(message, node.span, f"write {size(node)}")
+            self.file.error(message, node.span, f"write {len(node.parts) + len(node.pairs)}")
             return None
         text = self.file.scalar(node, f"'{name}'")
         if text is None:
@@ -108,7 +105,7 @@ class ExpectReader:
 
     def note(self, node: DocumentNode, *path: str) -> None:
         """Remember where the entries of a map stand."""
-        for key, _ in getattr(node, "entries", ()):
+        for key, _ in node.pairs:
             self.spans[(*path, key.label)] = key.span
 
     def known(
@@ -120,7 +117,7 @@ class ExpectReader:
         hint = f"write {known[0] if len(known) == 1 else 'name'}: {written}"
         if len(known) > 1:
             hint = f"write {{name: {written}}}; known are {', '.join(known[:10])}"
-        items = [each.value for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
+        items = node.listed
         told = items or pieces(written, ",;")
         named = [(_known_as(x, known), value) for each in told for x, value in assigned(each)]
         if len(named) == len(told):

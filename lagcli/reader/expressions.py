@@ -15,7 +15,7 @@ from lagcli.problem_data import Inequality
 from lagcli.reader.automaton import Token, Unexpected
 from lagcli.reader.builder import excerpt_being_read, mistake
 from lagcli.reader.constants import check_constants
-from lagcli.reader.limits import EXPRESSION_CHARACTERS, thousands
+from lagcli.reader.limits import EXPRESSION_CHARACTERS
 from lagcli.reader.parser import automaton
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.text import Mistake, SourceText
@@ -75,18 +75,21 @@ def parse_equation_text(text: str) -> Equation:
 
 
 def _read_back(text: str, source_name: str, read: Callable[[Excerpt], Tree]) -> Tree:
-    source = Source(source_name, text)
+    return read_or_raise(Excerpt.whole(Source(source_name, text)), read)
+
+
+def read_or_raise(excerpt: Excerpt, read: Callable[[Excerpt], Tree]) -> Tree:
+    """What a text means; `ProblemError` where it is not read."""
     try:
-        return read(Excerpt.whole(source))
+        return read(excerpt)
     except Mistake as error:
-        raise ProblemError(source, error.diagnostics) from None
+        raise ProblemError(excerpt.text.source, error.diagnostics) from None
 
 
 def _parse(excerpt: Excerpt, start: str) -> Expression | Equation | Inequality:
     length = len(excerpt.value)
     if length > EXPRESSION_CHARACTERS:
-        bound = thousands(EXPRESSION_CHARACTERS)
-        message = f"an expression of {thousands(length)} characters, the limit is {bound}"
+        message = f"an expression of {length:,} characters, the limit is {EXPRESSION_CHARACTERS:,}"
         raise mistake(message, excerpt.span(0, 1))
     reset = excerpt_being_read.set(excerpt)
     try:

@@ -23,6 +23,7 @@ from lagcli.reader.limits import MISTAKES
 from lagcli.reader.misshapen import (
     ALREADY_FOUND,
     WITHOUT_HYPHENS,
+    as_flow,
     as_items,
     as_list,
     as_map,
@@ -105,14 +106,11 @@ class FileReader:
 
     def _check_names(
         self, expression: Expression, role: Role, what: str, before: int | None = None
-    ) -> bool:
+    ) -> None:
         mistakes = name_mistakes(expression, self.scope, role, what, before)
-        found = list(islice(mistakes, max(0, MISTAKES - len(self.diagnostics))))
-        self.diagnostics += found
+        self.diagnostics += islice(mistakes, max(0, MISTAKES - len(self.diagnostics)))
         _, wrong = growth(expression, self.scope)
-        if wrong is not None:
-            self.diagnostics.append(wrong)
-        return not found
+        self.diagnostics += [] if wrong is None else [wrong]
 
     # Shapes.
 
@@ -124,9 +122,8 @@ class FileReader:
     ) -> list[tuple[Scalar, DocumentNode]]:
         """The entries up to the first of another section, whose line is missing: a mistake."""
         kept: list[tuple[Scalar, DocumentNode]] = []
-        coordinates = [*self.scope.of_kind("coordinate")]
         for key, value in entries:
-            other = section_meant(value, attributes, coordinates)
+            other = section_meant(value, attributes, self.scope.coordinates)
             if kept and other and other not in {section, *self.sections} and not key.in_flow:
                 message = f"'{key.label}' does not belong to {section}"
                 self.error(message, key.span, f"a line '{other}:' is missing above it", refused="")
@@ -148,7 +145,7 @@ class FileReader:
         else:
             word = node.value.casefold() if isinstance(node, Scalar) else ""
             is_word = word in _WORDS or word in habits()["nothing"]
-            items = node.items if isinstance(node, Sequence) else []
+            items = node.parts
             are_maps = bool(items) and all(isinstance(x, Mapping) for x in items)
             is_word |= (node.is_empty and what in KEYS) or (
                 isinstance(node, Sequence) and not items
@@ -161,13 +158,12 @@ class FileReader:
                 inner = ", ".join(map(entries_of, items))
                 is_flow = node.text.source.text[node.start] == "["
                 hint = f"write {{{inner}}}" if is_flow else WITHOUT_HYPHENS
-            first = items[0] if items else None
-            labels = {key.label for key, _ in getattr(first, "entries", ())}
-            if first is not None and labels and labels <= SECTIONS.keys():
-                hint = f"each has a name: write name: {{{entries_of(first)}}}, without '-'"
+            labels = {key.label for key, _ in items[0].pairs} if items else set()
+            if labels and labels <= SECTIONS.keys():
+                hint = f"each has a name: write name: {{{entries_of(items[0])}}}, without '-'"
             given = named_formulas(node) if what in _OF_FREE_NAMES else {}
             if given and hint.startswith("write ") and not given.keys() & self.scope.kinds.keys():
-                hint = f"write {{{', '.join(map(': '.join, given.items()))}}}"
+                hint = f"write {as_flow(given)}"
             # behind its key a map has braces: forces: {x: -c*x'}
             hint = re.sub(r"^write ([^{}]+: [^{}]+)$", r"write {\1}", hint)
             self.error(f"{what} must be a map, not {kind(node)}", node.span, hint)
@@ -235,10 +231,8 @@ class FileReader:
         whole = f"write {own[0].label if own else 'name'}: {{{given}}}"
         several = len(own) > 1 or any(isinstance(value, Mapping) for _, value in entries)
         self.error(message, beside[0].span, "" if several else whole)
-        if attributes[0] in LISTS:  # no text can be an entry
-            self.scope.refused.append(what)
-            return
-        yield from ((k, v) for k, v in entries if k in own and isinstance(v, Scalar))
+        if attributes[0] not in LISTS:  # else no text can be an entry
+            yield from ((k, v) for k, v in entries if k in own and isinstance(v, Scalar))
 
     def items(
         self, node: DocumentNode, what: str, hint: str = "", keys: Container[str] | None = None
@@ -253,17 +247,14 @@ class FileReader:
                 value = given[2].strip()
                 squared = re.search(r"(?:\^|\*\*)\s*2\s*$|²\s*$", given[1])
                 hint = f"write [sqrt({value})]" if squared else f"write [{value}]"
-                self.error(f"{what} must be a list, not {kind(node)}", node.span, hint)
-                return []
-            listed = not hint or hint.startswith("write [")
-            hint = f"write {as_list(node.value)}" if listed and node.value.strip() else hint
+            elif node.value.strip() and (not hint or hint.startswith("write [")):
+                hint = f"write {as_list(node.value)}"
         elif isinstance(node, Mapping) and keys is not None:
             maps = [v for k, v in node.entries if isinstance(v, Mapping) and k.label not in keys]
             whole = maps if len(maps) == len(node.entries) else [node]
             hint = f"write [{', '.join(map(source_of, whole))}]"
         elif isinstance(node, Mapping) and hint in {"", "write [one, another]", _FREQUENCIES}:
-            coordinates = [*self.scope.of_kind("coordinate")]
-            rates = [state_meant(key.label, coordinates) for key, _ in node.entries]
+            rates = [state_meant(key.label, self.scope.coordinates) for key, _ in node.entries]
             left = (f"{each} = " * each.endswith("''") for each in rates)
             inner = (source_of(k if v.is_empty else v) for k, v in node.entries)
             listed_ = (side + each for side, each in zip(left, inner, strict=True))
@@ -274,7 +265,7 @@ class FileReader:
     def scalar(self, node: DocumentNode, what: str) -> Scalar | None:
         """A text that is not empty."""
         if not isinstance(node, Scalar):
-            texts = [x.value for x in getattr(node, "items", ()) if isinstance(x, Scalar)]
+            texts = node.listed
             is_prose = what in {"'title'", "'description'", "'source'"} and texts
             hint = f"write {', '.join(texts)}" if is_prose else as_text(node)
             self.error(f"{what} must be a text, not {kind(node)}", node.span, hint)
@@ -318,7 +309,7 @@ class FileReader:
         is_map = isinstance(node, Mapping)
         as_one = "" if is_map else as_map(node, names, self.scope.free)
         if what.startswith("the question"):
-            name, moving = what.split("'")[1], [*self.scope.of_kind("coordinate")]
+            name, moving = what.split("'")[1], self.scope.coordinates
             if is_found(name, moving) or is_found(f"{name} = {source_of(node)}", moving):
                 as_one = ALREADY_FOUND
         entries = list(self.entries(node, what, with_state(as_one, what, node, is_key=False)))
@@ -445,7 +436,7 @@ class FileReader:
         if not isinstance(node, Scalar):
             hint = one_sum(node, what)
             if what == "dissipation":
-                hint = friction_meant(what, node, [*self.scope.of_kind("coordinate")])
+                hint = friction_meant(what, node, self.scope.coordinates)
                 hint = hint.replace("dissipation: ", "")
                 hint = hint.replace("write f", "these are forces: write f")
                 hint = hint or "one function for all coordinates, such as c*x'^2/2"

@@ -9,7 +9,7 @@ from lagcli.expression import FUNCTIONS
 from lagcli.reader.foreign.translation import translated
 from lagcli.reader.foreign.words import UnclearText, Vocabulary, rate_meant
 from lagcli.reader.misshapen import as_rayleigh
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar
+from lagcli.reader.nodes import DocumentNode, Scalar
 from lagcli.reader.regex import regex
 
 FRICTION_WORD = regex(
@@ -86,7 +86,7 @@ def _laws(value: DocumentNode, name: str = "") -> Iterator[tuple[str, str]]:
     """The texts in a value, each with the innermost key above it that may be a coordinate."""
     if isinstance(value, Scalar):
         yield name, value.value.strip()
-    for key, inner in value.entries if isinstance(value, Mapping) else ():
+    for key, inner in value.pairs:
         yield from _laws(inner, key.label)
-    for item in getattr(value, "items", ()):
+    for item in value.parts:
         yield from _laws(item, name)

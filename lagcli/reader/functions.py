@@ -8,8 +8,8 @@ from lagcli.expression import FUNCTIONS
 from lagcli.reader.clauses import written_out
 from lagcli.reader.file_reader import FileReader
 from lagcli.reader.misplaced import CALLED
-from lagcli.reader.misshapen import named_formulas
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
+from lagcli.reader.misshapen import as_flow, named_formulas
+from lagcli.reader.nodes import DocumentNode, Sequence
 from lagcli.reader.scope import name_mistake
 
 _FORMULA = "a formula, without arguments, stands under definitions"
@@ -18,17 +18,15 @@ _FORMULA = "a formula, without arguments, stands under definitions"
 def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str, ...]]:
     """The functions left unspecified; the names of their arguments only document."""
     functions = {}
-    if not isinstance(node, Mapping):
-        file.scope.refused.append("")
-    items = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+    items = node.texts
     called = [found.groups() for each in items for found in CALLED.finditer(each)]
-    first = next(iter(file.scope.of_kind("coordinate")), "r")
+    first = next(iter(file.scope.coordinates), "r")
     variables: dict[str, str] = dict(CALLED.findall(file.text))
     alone = [(each, first) for each in items if each.isidentifier()]
     named = ", ".join(map("{0[0]}: [{0[1]}]".format, called or alone or [("U", "r")]))
     hint = f"write {{{named}}}"
     if formulas := named_formulas(node):
-        hint = f"{_FORMULA}: write definitions: {{{', '.join(map(': '.join, formulas.items()))}}}"
+        hint = f"{_FORMULA}: write definitions: {as_flow(formulas)}"
     for key, value in file.entries(node, "functions", hint):
         call = CALLED.fullmatch(key.label)
         name = call[1] if call else key.label
@@ -44,7 +42,7 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
             if given not in {"", call[2]} if call else not is_list:
                 hint = f"{_FORMULA}: write definitions: {{{name}: {given}}}"
                 lines = written_out(file.text, name, call[2], given) if call else ""
-                gone = "functions" if len(getattr(node, "entries", ())) == 1 else "it"
+                gone = "functions" if len(node.pairs) == 1 else "it"
                 hint = f"write its formula out, and leave {gone} out: {lines}" if lines else hint
             file.error(f"{what} must be a list", (key if call else value).span, hint)
             names = call[2] if call else "" if hint.startswith(_FORMULA) else given

@@ -23,7 +23,7 @@ from lagcli.expression import (
     postorder,
 )
 from lagcli.reader.constants import magnitude
-from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS, thousands
+from lagcli.reader.limits import DEGREE, EXPONENTIAL_LEVELS
 from lagcli.reader.scope import Growth, Scope
 
 _GROWING = frozenset({"exp", "sinh", "cosh"})
@@ -46,9 +46,8 @@ def _excess(node: Expression, found: Growth) -> Iterator[Diagnostic]:
         message = f"more than {EXPONENTIAL_LEVELS} exponentials inside each other"
         yield Diagnostic(message, node.span, f"the limit is {EXPONENTIAL_LEVELS} levels")
     if found.degree > DEGREE:
-        bound = thousands(DEGREE)
-        message = f"an expression of a degree beyond {bound}"
-        yield Diagnostic(message, node.span, f"the limit is {bound}")
+        message = f"an expression of a degree beyond {DEGREE:,}"
+        yield Diagnostic(message, node.span, f"the limit is {DEGREE:,}")
 
 
 def _levels(node: Expression, parts: Sequence[Growth], scope: Scope) -> int:

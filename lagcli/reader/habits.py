@@ -41,7 +41,7 @@ RELATIONS = {rf"\.(?i:{word})\.": sign for word, sign in
 _AND = regex(r"\s*(?:\.(?i:and)\.|&&|(?<=\s)(?i:and|und)(?=\s))\s*")
 #: `0 <= x < 1`, and the relation of both sides exchanged.
 _BETWEEN = regex(r"^([^<>≤≥]+?)\s*([<>]=?|[≤≥])\s*([^<>≤≥]+?)\s*([<>]=?|[≤≥])\s*([^<>≤≥]+)$")
-_TURNED = str.maketrans("<>≤≥", "><≥≤")
+TURNED = str.maketrans("<>≤≥", "><≥≤")
 COMMENT = "a comment begins with '#'"
 PROGRAM = "a problem has keys with their values, as in coordinates: [x], and no program"
 CASES = frozenset("if for when where else otherwise piecewise Piecewise".split())
@@ -352,7 +352,7 @@ def comparisons_in(text: str) -> list[str]:
 
 def _both(found: re.Match[str]) -> str:
     low, sign, name, other, high = found.groups()
-    return f"{name} {sign.translate(_TURNED)} {low}\n{name} {other} {high}"
+    return f"{name} {sign.translate(TURNED)} {low}\n{name} {other} {high}"
 
 
 def names_among(text: str) -> list[str]:

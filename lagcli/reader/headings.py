@@ -12,6 +12,7 @@ from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, names_i
 from lagcli.reader.number_units import with_radians
 from lagcli.reader.regex import regex
 from lagcli.reader.sign_meant import ASSUMPTIONS, sign_meant
+from lagcli.reader.text import as_sum
 
 #: A value of Python, `float = 1.0`, and a map without its braces.
 _NO_EQUATION = regex(
@@ -83,7 +84,7 @@ def without_headings(node: DocumentNode, attributes: tuple[str, ...]) -> tuple[S
     A heading has a list of names, or a map of other keys than the `attributes` of a name, which
     are those of all names where they stand beside it.  It may be what is assumed of its names.
     """
-    entries = node.entries if isinstance(node, Mapping) else []
+    entries = node.pairs
     headings = [key for key, value in entries if _is_heading(key, value, attributes)]
     if not headings:
         return None
@@ -139,17 +140,17 @@ def _mean(labels: set[str], inner: list[DocumentNode]) -> bool:
 
 
 def _are_names(node: DocumentNode) -> bool:
-    items = node.items if isinstance(node, Sequence) else []
+    items = node.parts
     return bool(items) and all(isinstance(x, Scalar) and x.value.isidentifier() for x in items)
 
 
 def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:
     """`{x: 1, x': 0}` for `{positions: {x: 1}, velocities: {x: 0}}`, `{x: {value: 1, rate: 0}}`."""
     parts = []
-    for heading, value in node.entries if isinstance(node, Mapping) else []:
+    for heading, value in node.pairs:
         rate = "'" if RATE.search(heading.label) else ""
         listed = re.fullmatch(r"\((.*,.*)\)", value.value) if isinstance(value, Scalar) else None
-        given = listed[1].split(",") if listed else [*map(source_of, getattr(value, "items", ()))]
+        given = listed[1].split(",") if listed else [*map(source_of, value.parts)]
         given = re.split(r"\s*;\s*|\s+", given[0]) if len(given) == 1 else given  # [1; 0]
         known = [*coordinates, *(f"{x}'" for x in coordinates if len(given) > len(coordinates))]
         if heading.label in coordinates and isinstance(value, Sequence):
@@ -173,7 +174,7 @@ def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:
 
 def state_of_launch(node: DocumentNode, coordinates: list[str]) -> str:
     """`{x': v*cos(a), y': v*sin(a)}` for `{speed: v, angle: a}` in a plane; nothing for others."""
-    entries = getattr(node, "entries", ())
+    entries = node.pairs
     given = {key.label: _number_of(value) or source_of(value) for key, value in entries}
     speed, angle = ([each for each in given if word.fullmatch(each)] for word in (_SPEED, _SLOPE))
     axes = [x for x in coordinates if x in {"x", "y", "z"}]
@@ -198,11 +199,11 @@ def _number_of(node: DocumentNode) -> str:
 
 def forces_without_headings(node: DocumentNode, coordinates: Collection[str]) -> str:
     """`{y: -m*g - c*y'}` for `{weight: {y: -m*g}, drag: {y: -c*y'}}`; nothing for others."""
-    entries = node.entries if isinstance(node, Mapping) else []
+    entries = node.pairs
     known = {*coordinates}
     sums: dict[str, list[str]] = {}
     for heading, value in entries:
-        terms = [(key.label, each) for key, each in getattr(value, "entries", ())]
+        terms = [(key.label, each) for key, each in value.pairs]
         if isinstance(value, Sequence) and len(value.items) == len(known):
             terms = [*zip(coordinates, value.items, strict=True)]
         elif heading.label in known:
@@ -213,5 +214,5 @@ def forces_without_headings(node: DocumentNode, coordinates: Collection[str]) ->
             sums.setdefault(x, []).append(getattr(each, "value", "") or source_of(each))
     if not {*sums} <= known or all(heading.label in known for heading, _ in entries):
         return ""
-    whole = [f"{x}: {' + '.join(terms).replace('+ -', '- ')}" for x, terms in sums.items()]
+    whole = [f"{x}: {as_sum(terms)}" for x, terms in sums.items()]
     return f"write {{{', '.join(whole)}}}"

@@ -35,8 +35,3 @@ NUMBER_DIGITS = 1_000
 
 #: Mistakes of one file; nobody reads further ones, and they are not looked for.
 MISTAKES = 200
-
-
-def thousands(number: int) -> str:
-    """`100000` as `100,000`."""
-    return f"{number:,}"

@@ -88,7 +88,12 @@ def dimension_mistakes(problem: Problem, read: Reading | None) -> list[Diagnosti
             return [_with_term(problem, found[0], places)]
         places = factor(found[0], _other_factors(problem, text, found[0]), [])
         return [_with_term(problem, found[0], places, unit)]
-    causes = [_prime_elsewhere(found[0], place, text) for place in places]
+    related = ((found[0].span, found[0].message),)
+    causes = [
+        Diagnostic(f"{text.source.text[start:end]} stands where {better} fits",
+                   text.span(start, end), f"write {better}", related=related)
+        for start, end, better in places
+    ]  # fmt: skip
     known = causes if unit is None else [*causes, unit]
     if len(known) == 1:
         return known
@@ -114,14 +119,6 @@ def _with_usual_units(problem: Problem) -> Problem:
         for one in problem.coordinates
     )
     return replace(problem, coordinates=kept)
-
-
-def _prime_elsewhere(first: Diagnostic, place: _Place, text: SourceText) -> Diagnostic:
-    """The one place that explains several terms that do not fit."""
-    start, end, better = place
-    message = f"{text.source.text[start:end]} stands where {better} fits"
-    related = ((first.span, first.message),)
-    return Diagnostic(message, text.span(start, end), f"write {better}", related=related)
 
 
 def _with_term(

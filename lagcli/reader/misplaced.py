@@ -130,7 +130,7 @@ def _gathered(
     rules: dict[str, str] = {}
     for key, value in whole.entries:
         head, node = entries[-1] if entries else (key, key)
-        inner = node.entries if isinstance(node, Mapping) else []
+        inner = node.pairs
         is_open = node.is_empty or head.label in moved
         if entries and belongs((head, node), (key, value), is_open=is_open):
             if head.label not in moved and inner:
@@ -172,12 +172,12 @@ def _is_of(above: Entry, entry: Entry, *, is_open: bool) -> bool:
     if is_open:
         return True
     if head.label == "initial":
-        names = {each.label.rstrip("'") for each, _ in getattr(node, "entries", ())}
+        names = {each.label.rstrip("'") for each, _ in node.pairs}
         return word.rstrip("'") in names and is_constant("x", written)
     advice = {**spellings("advice", "problem"), **spellings("advice", "simulation")}
     if not word.isidentifier() or (word[1:] and letters(word) in advice):
         return False
-    inner = {each.label for each, _ in getattr(value, "entries", ())}
+    inner = {each.label for each, _ in value.pairs}
     is_number = head.label == "parameters" and is_constant(word, written)
     return is_number or (bool(inner) and inner <= _ATTRIBUTES.get(head.label, set()))
 
@@ -190,10 +190,10 @@ def _with_definitions(
     node, definitions = sections.get(section), sections.get("definitions")
     known = {*coordinates, "t", *names_in(sections.get("parameters"))}
     found = [
-        entry for key, value in getattr(node, "entries", ())
+        entry for key, value in (node.pairs if node else ())
         if (entry := _formula_of(key, value, section, coordinates, known))
     ]  # fmt: skip
-    given = definitions.entries if isinstance(definitions, Mapping) else []
+    given = definitions.pairs if definitions else []
     if not (found and isinstance(node, Mapping)) or (definitions is not None and not given):
         return root, []
     keys = [key for key, _ in found]
@@ -223,7 +223,7 @@ def _formula_of(
 
     A formula of a parameter has coordinates or the time, that of `U(r)` no others than `r`.
     """
-    inner = {each.label: value for each, value in getattr(node, "entries", ())}
+    inner = {each.label: value for each, value in node.pairs}
     value = inner.get("value", node) if section == "parameters" else node
     text = value.value if isinstance(value, Scalar) else ""
     called = CALLED.fullmatch(key.label)

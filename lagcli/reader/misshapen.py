@@ -24,6 +24,7 @@ from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, n
 from lagcli.reader.number_units import unit_mistake
 from lagcli.reader.regex import outside, regex
 from lagcli.reader.suggest import closest
+from lagcli.reader.text import numbered
 
 #: What is found without a question.
 FOUND = frozenset(
@@ -89,8 +90,7 @@ def as_equation(text: str) -> str:
 
 def named_formulas(node: DocumentNode) -> dict[str, str]:
     """`x*y` by `a` for each `a = x*y` in a text or a list; empty for others."""
-    lines = [each.value for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
-    lines = [each for each in lines if "=" in each and not re.search("[-=]>|[→:]", each)]
+    lines = [each for each in node.texts if "=" in each and not re.search("[-=]>|[→:]", each)]
     pairs = assigned("; ".join(re.sub(r"(?<=')=", "＝", each) for each in lines))  # where x'=0
     return {name: value.replace("＝", "=") for name, value in pairs}
 
@@ -135,9 +135,9 @@ def texts_of(node: DocumentNode) -> list[str]:
     if isinstance(node, Mapping) and all(value.is_empty for _, value in node.entries):
         found = [key.value for key, _ in node.entries]
         return found if all(re.search("[=<>≤≥→↦⇒]", each) for each in found) else []
-    for each in getattr(node, "items", [node]):
+    for each in node.parts or [node]:
         if isinstance(each, Scalar):
-            lines = each.text.source.text[each.start : each.end].split("\n")
+            lines = each.written.split("\n")
             are_relations = not each.style and all(re.search("[=<>≤≥]", line) for line in lines)
             found += [line.strip() for line in lines] if are_relations else [each.value]
     return found
@@ -150,7 +150,7 @@ def as_items(node: DocumentNode) -> str:
 
 def one_sum(node: DocumentNode, what: str) -> str:
     """`write a + b` for the list `[a, b]` and the map `{spring: a, weight: b}`."""
-    terms = node.items if isinstance(node, Sequence) else []
+    terms = node.parts
     inner = [key.label for key, _ in node.entries] if isinstance(node, Mapping) else []
     if what in {"L", "H"} and {key_meant(word, ("T", "V")) for word in inner} == {"T", "V"}:
         return f"leave out '{what}': T and V begin lines of their own"
@@ -175,9 +175,7 @@ def one_sum(node: DocumentNode, what: str) -> str:
         parts = (f"{name}_{axis}: {each}" for axis, each in pairs_)
         return f"a vector is written by its components: {', '.join(parts)}"
     if what.startswith("the constraint") and isinstance(node, Sequence) and written[1:]:
-        name = what.split("'")[1]
-        each_ = (f"{name}_{place}: {each}" for place, each in enumerate(written, start=1))
-        return f"each equation has its own name: {', '.join(each_)}"
+        return f"each equation has its own name: {numbered(what.split(chr(39))[1], written)}"
     if what == "'until'" and written:
         return f"a motion begins at t = 0: write {written[-1].split()[-1]}"
     return f"write {' + '.join(written)}" if written and len(written) == len(terms) else ""
@@ -208,7 +206,7 @@ def range_end(written: str) -> str:
 
 def as_map(node: DocumentNode, names: tuple[str, ...], coordinates: Iterable[str] = ()) -> str:
     """How a text or a list is written as the map that it should be."""
-    written = as_equation(node.text.source.text[node.start : node.end]).strip()
+    written = as_equation(node.written).strip()
     written = re.sub(r"^(['\"])(.*)\1$", r"\2", written)
     known = [*coordinates]
     present = [x for x in known if x in re.findall(r"\w+", written)]
@@ -276,7 +274,7 @@ def _as_attributes(node: DocumentNode, written: str, names: tuple[str, ...]) -> 
         return "write {unit: rad}" if written == "angle" else f"write {{description: {written}}}"
     if not isinstance(node, Sequence):
         return ""
-    listed = [each.value for each in node.items if isinstance(each, Scalar)]
+    listed = node.listed
     if unit_behind(f"1 {', '.join(listed)}"):
         return f"write {{unit: {listed[0]}}}"
     if "value" not in names:
@@ -334,13 +332,13 @@ def key_by_shape(value: DocumentNode, problem: Mapping) -> str | None:
     keys = tuple(MAPS)
     given = {key_meant(label, keys) or closest(label, keys, 0.8) or label: v for label, v in others}
     if isinstance(value, Sequence) and value.items:
-        names = [each.value for each in value.items if isinstance(each, Scalar)]
+        names = value.listed
         if len(names) == len(value.items) and all(map(str.isidentifier, names)):
             return next((key for key in ("coordinates", "parameters") if key not in given), None)
     if isinstance(value, Mapping) and value.entries:
         numbers = [isinstance(v, Scalar) and is_constant("x", v.value) for _, v in value.entries]
         known = names_in(given.get("coordinates"))
-        changed = [k.label for _, v in value.entries for k, _ in getattr(v, "entries", ())]
+        changed = [k.label for _, v in value.entries for k, _ in v.pairs]
         if changed and {*changed} <= {*known, "t", "gauge"}:
             return None if "symmetries" in given else "symmetries"
         if all(numbers):
@@ -357,8 +355,8 @@ def key_by_shape(value: DocumentNode, problem: Mapping) -> str | None:
 
 def as_text(node: DocumentNode) -> str:
     """How a list or a map is written as the text that it should be, or as an entry of a map."""
-    inner = node.items if isinstance(node, Sequence) else []
-    entries = node.entries if isinstance(node, Mapping) else []
+    inner = node.parts
+    entries = node.pairs
     first = (*inner, *(key for key, _ in entries))[:1]
     if not (first and isinstance(first[0], Scalar)):
         return ""
@@ -388,8 +386,8 @@ def by_its_name(node: DocumentNode) -> str:
 
     Texts in quotes may have them, too: `["rod: x = l"]`.
     """
-    items = getattr(node, "items", [node])
-    texts = [x.value for x in items if isinstance(x, Scalar)]
+    items = node.parts or [node]
+    texts = [each.value for each in items if isinstance(each, Scalar)]
     lines = "\n".join(texts).strip().split("\n")
     if len(texts) == len(items) and all(re.match(r"[^\W\d]\w*'*: ", each) for each in lines):
         return ", ".join(lines)
@@ -407,7 +405,7 @@ def entries_of(node: DocumentNode | None) -> str:
 
 def by_key(node: DocumentNode | None) -> dict[str, str]:
     """What the file has at each key of a map; empty for other nodes."""
-    return {key.label: source_of(value) for key, value in getattr(node, "entries", ())}
+    return {key.label: source_of(value) for key, value in (node.pairs if node else ())}
 
 
 def inner_of(node: DocumentNode | None, first: str) -> dict[str, str]:
@@ -434,7 +432,7 @@ def with_entries(given: str, added: str) -> str:
 
 def source_of(node: DocumentNode) -> str:
     """What the file has there, in one line: a map in braces, a list in brackets."""
-    written = " ".join(node.text.source.text[node.start : node.end].split())
+    written = " ".join(node.written.split())
     if isinstance(node, Mapping) and node.entries and written[0] != "{":
         return f"{{{entries_of(node)}}}"
     if isinstance(node, Sequence) and node.items and written[0] != "[":

@@ -38,7 +38,7 @@ def name_mistakes(
     """
     times = (isinstance(node, Name) and node.name == "t" for node in walk(expression))
     role = role._replace(driven=any(times))
-    coordinates = [*scope.of_kind("coordinate")]
+    coordinates = scope.coordinates
     covered: set[int] = set()  # by the message on what is around them
     for node in walk(expression):
         match node:
@@ -146,7 +146,7 @@ def _name(
             elif node.primes:
                 yield Diagnostic(f"{thing} has no primes", node.span)
         case "function":
-            given, known = scope.arguments.get(name, []), [*scope.of_kind("coordinate")]
+            given, known = scope.arguments.get(name, []), scope.coordinates
             given = given if {*given} <= {*known, "t"} else known * (len(given) == len(known))
             hint = f"write {node}({', '.join(given) or '…'})"
             yield Diagnostic(f"'{name}' is a function and needs arguments", node.span, hint)
@@ -216,7 +216,7 @@ def _meant(name: str, what: str, order: str) -> str:
 
 
 def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
-    coordinates = list(scope.of_kind("coordinate"))
+    coordinates = scope.coordinates
     if role.momenta and name in {"p", "P"} and coordinates:
         return "momenta are named p_" + ", p_".join(coordinates)
     if name in {"p", "P"} and role.order > 0:
@@ -287,7 +287,7 @@ def turning(scope: Scope, what: str) -> str:
     """The only angle whose velocity stands in no term of an energy; else nothing."""
     law = scope.energies.get(what, "'") if what in {"T", "L"} else "'"
     law = "'" if re.search(r"\b(?:omega|Omega|w|ω|Ω)\b", scope.energies.get("V", "")) else law
-    still = [x for x in scope.of_kind("coordinate") if is_angle(x) and f"{x}'" not in law]
+    still = [x for x in scope.coordinates if is_angle(x) and f"{x}'" not in law]
     in_others = any(each.order > 0 for each in scope.definitions.values())
     return still[0] if len(still) == 1 and law != "'" and not in_others else ""
 

@@ -27,6 +27,31 @@ class DocumentNode:
         return False
 
     @property
+    def written(self) -> str:
+        """What the file has there."""
+        return self.text.source.text[self.start : self.end]
+
+    @property
+    def parts(self) -> list[DocumentNode]:
+        """The items of a list; none of other nodes."""
+        return self.items if isinstance(self, Sequence) else []
+
+    @property
+    def pairs(self) -> list[tuple[Scalar, DocumentNode]]:
+        """The entries of a map; none of other nodes."""
+        return self.entries if isinstance(self, Mapping) else []
+
+    @property
+    def listed(self) -> list[str]:
+        """The texts in a list."""
+        return [each.value for each in self.parts if isinstance(each, Scalar)]
+
+    @property
+    def texts(self) -> list[str]:
+        """The texts in a list, or the text itself."""
+        return [self.value] if isinstance(self, Scalar) else self.listed
+
+    @property
     def span(self) -> Span:
         """The place of the node in the file."""
         return self.text.span(self.start, max(self.end, self.start))
@@ -53,8 +78,7 @@ class Scalar(DocumentNode):
 
     def excerpt(self) -> Excerpt:
         """The value with the place of each character."""
-        raw = self.text.source.text[self.start : self.end]
-        offsets = offsets_of(self.value, raw, self.style, self.start)
+        offsets = offsets_of(self.value, self.written, self.style, self.start)
         return Excerpt(self.value, self.text, offsets, self.in_flow and not self.style)
 
 
@@ -85,27 +109,20 @@ def kind(node: DocumentNode) -> str:
             return "a text"
 
 
-def size(node: Sequence | Mapping) -> int:
-    """How many items or entries a node has."""
-    return len(node.items if isinstance(node, Sequence) else node.entries)
-
-
 def nodes_in(node: DocumentNode) -> Iterator[DocumentNode]:
     """Every node of a document, the outer ones first."""
     yield node
-    if isinstance(node, Sequence):
-        for item in node.items:
-            yield from nodes_in(item)
-    elif isinstance(node, Mapping):
-        for key, value in node.entries:
-            yield key
-            yield from nodes_in(value)
+    for item in node.parts:
+        yield from nodes_in(item)
+    for key, value in node.pairs:
+        yield key
+        yield from nodes_in(value)
 
 
 def entries_in(node: DocumentNode) -> Iterator[tuple[Scalar, DocumentNode]]:
     """Every entry of every map, the outer ones first."""
     for each in nodes_in(node):
-        yield from each.entries if isinstance(each, Mapping) else ()
+        yield from each.pairs
 
 
 def lines_of(key: Scalar, value: DocumentNode) -> str:
@@ -118,4 +135,4 @@ def names_in(node: DocumentNode | None) -> list[str]:
     """The names in a list or a map of them."""
     if isinstance(node, Mapping):
         return [key.label for key, _ in node.entries]
-    return [each.label for each in getattr(node, "items", ()) if isinstance(each, Scalar)]
+    return [each.label for each in (node.parts if node else ()) if isinstance(each, Scalar)]

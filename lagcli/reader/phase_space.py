@@ -10,7 +10,7 @@ from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import Expression, Name, walk
 from lagcli.problem_data import BracketQuestion, CanonicalTransformation, Symmetry
 from lagcli.reader.file_reader import FileReader
-from lagcli.reader.misshapen import FOUND, by_key, named_formulas, source_of
+from lagcli.reader.misshapen import FOUND, as_flow, by_key, named_formulas, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import PHASE_SPACE, name_mistake
@@ -40,7 +40,7 @@ HAMILTONIAN = "H"
 def read_observables(file: FileReader, node: DocumentNode) -> dict[str, Expression]:
     """Functions of q, p and t, each of which may use earlier ones."""
     found = {}
-    words = [v.value.strip() for v in getattr(node, "items", [node]) if isinstance(v, Scalar)]
+    words = [*map(str.strip, node.texts)]
     formulas = [each for each in words if re.search(r"[-+*/^(]|^\w+$", each)]
     product = "x*p_y - y*p_x" if {"x", "y"} <= file.scope.kinds.keys() else "x*p_x"
     named = named_formulas(node) or dict(zip("ABCDEF", formulas or [product], strict=False))
@@ -56,7 +56,7 @@ def read_observables(file: FileReader, node: DocumentNode) -> dict[str, Expressi
 
 def mend_velocities(file: FileReader, node: DocumentNode, kinetic: Expression) -> None:
     """Make the velocities in each observable one mistake, with momenta in the hint."""
-    for key, value in node.entries if isinstance(node, Mapping) else ():
+    for key, value in node.pairs:
         if isinstance(value, Scalar) and (parts := _components(file, value, kinetic)):
             named = zip("xyz", parts, strict=False)
             listed = ", ".join(f"{key.label}_{axis}: {part}" for axis, part in named)
@@ -83,7 +83,7 @@ def _components(file: FileReader, node: Scalar, kinetic: Expression) -> list[str
     from lagcli.reader.foreign.vector_products import vector_product
     from lagcli.reader.momenta_meant import with_momenta
 
-    coordinates = (*file.scope.of_kind("coordinate"),)
+    coordinates = (*file.scope.coordinates,)
     found = vector_product(node.value, coordinates, file.scope.kinds.keys())
     found = [with_momenta(each, kinetic, node.text) if "'" in each else each for each in found]
     return found if all(found) else []
@@ -181,14 +181,14 @@ def _new_momenta(labels: list[str]) -> dict[str, str]:
 
 def _example(file: FileReader, name: str, given: dict[str, str]) -> str:
     """`write swap: {Q: p_q, p_Q: -q}` in the names of the file; `as in` for another one."""
-    old = [*file.scope.of_kind("coordinate")] or ["x"]
+    old = file.scope.coordinates or ["x"]
     new = [*dict.fromkeys(each.removeprefix("p_") for each in given if each not in _KINDS)]
     if len(new) != len(old):
         new = [f"Q_{k}" for k, _ in enumerate(old, 1)] if old[1:] else ["Q"]
     pairs = zip(new, old, strict=True)
     whole = {key: each for Q, q in pairs for key, each in ((Q, f"p_{q}"), (f"p_{Q}", f"-{q}"))}
     begin = "write" if given.items() <= whole.items() else "as in"
-    return f"{begin} {name}: {{{', '.join(map(': '.join, whole.items()))}}}"
+    return f"{begin} {name}: {as_flow(whole)}"
 
 
 def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> CanonicalTransformation:
@@ -228,7 +228,7 @@ def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> Canoni
         _check_new(file, name, what, labels, example)
         is_complete &= len(file.diagnostics) == before
         coordinates[label] = expression
-    number = sum(1 for _ in file.scope.of_kind("coordinate"))
+    number = sum(1 for _ in file.scope.coordinates)
     if is_complete and len(coordinates) != number and not file.scope.refused:
         counted = f"{len(coordinates) or 'no'} new coordinate{'s' * (len(coordinates) != 1)}"
         file.error(f"{what} has {counted}, the file has {number}", key.span, example)
@@ -272,7 +272,7 @@ def _generating(file: FileReader, kind: str, node: DocumentNode, new: Iterable[s
     """F, in the variables of its kind."""
     expression = file.expression(node, kind, FUNCTION)
     new = set(new)
-    old = set(file.scope.of_kind("coordinate")) - new
+    old = set(file.scope.coordinates) - new
     forbidden = {f"p_{n}" for n in old} if kind in ("F1", "F2") else set(old)
     forbidden |= {f"p_{n}" for n in new} if kind in ("F1", "F3") else new
     for part in walk(expression):

@@ -9,6 +9,7 @@ from lagcli.reader.habits import is_angle, is_constant, number_and_unit
 from lagcli.reader.misshapen import by_key, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping
 from lagcli.reader.regex import regex
+from lagcli.reader.text import as_sum
 
 GRAVITY = frozenset(
     "gravity gravitation weight gravitational_acceleration gravitational_field gravity_vector "
@@ -56,7 +57,7 @@ def potential_meant(
             return f"it has a potential energy, as in V: -m*g*l*cos({coordinates[0]})"
     else:
         return ""
-    whole = " + ".join(filter(None, (potential, *terms))).replace("+ -", "- ")
+    whole = as_sum(filter(None, (potential, *terms)))
     return f"it has a potential energy: write V: {whole}{remark}" if terms else ""
 
 
@@ -117,8 +118,8 @@ def _bodies(
 ) -> list[tuple[str, dict[str, str]]]:
     """The masses of the points, with their components by axis; of m itself without points."""
     found = []
-    for _, point in getattr(points, "entries", ()):
-        parts = {key.label: node for key, node in getattr(point, "entries", ())}
+    for _, point in points.pairs if points else ():
+        parts = {key.label: node for key, node in point.pairs}
         axes = [source_of(each) for each in getattr(parts.get("position"), "items", ())]
         if "mass" in parts and axes:
             found.append((source_of(parts["mass"]), dict(zip("xyz", axes, strict=False))))

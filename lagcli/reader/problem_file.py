@@ -34,7 +34,7 @@ from lagcli.reader.phase_space import (
     read_observables,
     read_transformations,
 )
-from lagcli.reader.quantities import declare_parameters, read_coordinates, read_parameters
+from lagcli.reader.quantities import declared, read_coordinates, read_parameters
 from lagcli.reader.questions import read_find, read_initial, read_simulation
 from lagcli.reader.regex import regex
 from lagcli.reader.restrictions import check_multipliers, declare_constraints, read_constraints
@@ -116,7 +116,7 @@ def _read_source(source: Source, *, alone: bool = True) -> ProblemReading:
     With `alone` the one cause of several terms that do not fit is reported, where there is one.
     """
     root, problem, mistakes = _composed(source, alone=alone)
-    entries = root.entries if isinstance(root, Mapping) else []
+    entries = root.pairs
     meant = [(key_meant(key.label, KEYS), value) for key, value in entries]
     if alone and problem is None:
         from lagcli.reader.mended import mended
@@ -150,7 +150,7 @@ def _composed(
     problem = _read(file, source, root)
     found = without_wrong_texts(file.diagnostics)
     file.diagnostics[:] = found if _X.search(source.text) else _in_own_names(found, file.scope.free)
-    drawn = [v.span for k, v in getattr(root, "entries", ()) if k.label == "picture"]
+    drawn = [v.span for k, v in root.pairs if k.label == "picture"]
     others = [each for each in file.diagnostics
               if not any(one.line <= each.span.line <= one.end_line for one in drawn)]  # fmt: skip
     has_errors = any(each.is_error for each in file.diagnostics)
@@ -187,7 +187,7 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
         file.error(message, span, "leave out the '-' before each key")
         return None
     inner = [value for _, value in root.entries]
-    if all("coordinates" in {k.label for k, _ in getattr(x, "entries", ())} for x in inner):
+    if all("coordinates" in {k.label for k, _ in x.pairs} for x in inner):
         key = root.entries[0][0]
         message = f"the problem stands under '{key.label}'"
         hint = "its keys begin the lines; the name is title: …"
@@ -211,7 +211,7 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
         return scalar.value.strip() if scalar else None
 
     coordinates = read_coordinates(file, section("coordinates"))
-    parameters = declare_parameters(file, section("parameters"))
+    parameters = [*declared(file, section("parameters"), "parameters")]
     functions = read_functions(file, section("functions"))
     definitions = declare_definitions(file, section("definitions"))
     constraints = declare_constraints(file, section("constraints"))
@@ -276,7 +276,7 @@ def _read(file: FileReader, source: Source, root: DocumentNode) -> Problem | Non
 def _rename(file: FileReader, problem: Problem) -> None:
     """Take the only unknown velocity for that of the only coordinate that nothing contains."""
     used = {part.name for part in name_nodes(*problem.formulas)}
-    unused = [x for x in file.scope.of_kind("coordinate") if x not in used]
+    unused = [x for x in file.scope.coordinates if x not in used]
     moving = {name for each in file.diagnostics if (name := undeclared_velocity(each))}
     if len(unused) == len(moving) == 1:
         begin = f"unknown name '{moving.pop()}' in "

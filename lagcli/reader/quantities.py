@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterator
-from typing import TypedDict, cast
+from typing import Literal, TypedDict, cast
 
 from lagcli.diagnostics import Span
 from lagcli.expression import FUNCTIONS
@@ -17,10 +17,10 @@ from lagcli.reader.habits import advised, is_constant, is_open, name_meant, unit
 from lagcli.reader.headings import SAID, is_said, without_headings
 from lagcli.reader.listed_names import as_names
 from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, source_of, swept
-from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind, size
+from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import in_digits, in_unit, wrong_unit
 from lagcli.reader.regex import regex
-from lagcli.reader.scope import VALUES, Kind, name_mistake
+from lagcli.reader.scope import VALUES, name_mistake
 from lagcli.reader.sign_meant import ASSUMPTIONS, NEUTRAL, sign_meant
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.record import replace
@@ -53,13 +53,13 @@ _ASSUMED = ("assume", "value")
 def read_coordinates(file: FileReader, node: DocumentNode) -> tuple[Coordinate, ...]:
     """The generalized coordinates, in order; each is declared in the scope."""
     coordinates = []
-    for key, value in _declared(file, node, "coordinates", "coordinate"):
+    for key, value in declared(file, node, "coordinates"):
         attributes = _attributes(file, value, key, "coordinate", SAID)
         coordinates.append(Coordinate(name=key.label, span=key.span, **_said(file, attributes)))
-    if isinstance(node, Mapping | Sequence) and not size(node):
+    if isinstance(node, Mapping | Sequence) and not (node.parts or node.pairs):
         names = ", ".join(_moving(node.text.source.text)) or "x"
-        file.error("the problem has no coordinates", node.span, f"write coordinates: [{names}]")
-        file.scope.refused.append("")
+        hint = f"write coordinates: [{names}]"
+        file.error("the problem has no coordinates", node.span, hint, refused="")
     return tuple(coordinates)
 
 
@@ -79,20 +79,13 @@ def _moving(text: str) -> list[str]:
     return [*dict.fromkeys("".join(each) for each in rates)]
 
 
-def declare_parameters(
-    file: FileReader, node: DocumentNode
-) -> list[tuple[Scalar, DocumentNode | None]]:
-    """Enter the parameters into the scope, before any of their values is read."""
-    return list(_declared(file, node, "parameters", "parameter"))
-
-
 def read_parameters(
-    file: FileReader, declared: list[tuple[Scalar, DocumentNode | None]]
+    file: FileReader, entries: list[tuple[Scalar, DocumentNode | None]]
 ) -> tuple[Parameter, ...]:
     """The parameters with their values, which may use each other without a cycle."""
     parameters = []
     described: list[tuple[Scalar, Scalar]] = []
-    for key, node in declared:
+    for key, node in entries:
         attributes: dict[str, DocumentNode] = {}
         if node is not None and (bare := _in_order(node)):
             file.error(f"the attributes of '{key.label}' have names", node.span, bare)
@@ -145,10 +138,12 @@ def read_parameters(
         key, first = described[0]
         others = ", ".join(each.label for each, _ in described[1:])
         hint = f"write {{description: {source_of(first)}}}"
-        hint = hint if first is dict(declared)[key] else _in_map(hint)
+        hint = hint if first is dict(entries)[key] else _in_map(hint)
         message = f"the value of '{key.label}' is a text, not a number"
         file.error(message, first.span, f"{hint}, and so for {others}" if others else hint)
-    _check_cycles(file, parameters)
+    values = {one.name: one.value for one in parameters if one.value is not None}
+    if cycle := value_cycle(values):  # directly or through others
+        file.error(cycle[1], values[cycle[0]].span)
     return tuple(parameters)
 
 
@@ -159,7 +154,7 @@ def _in_map(hint: str) -> str:
 
 def _in_order(node: DocumentNode | None) -> str:
     """`write {value: 1, unit: m}` for `{1, m}` and `[1, m]`; nothing for others."""
-    entries = node.entries if isinstance(node, Mapping) else []
+    entries = node.pairs if node else []
     parts = node.items if isinstance(node, Sequence) else [k for k, v in entries if v.is_empty]
     written = [each.value for each in parts if isinstance(each, Scalar)]
     is_pair = (
@@ -208,10 +203,13 @@ def is_described(text: str, known: Collection[str]) -> bool:
     return len(longest) > 3 and longest.islower() and longest not in FUNCTIONS and not is_name
 
 
-def _declared(
-    file: FileReader, node: DocumentNode, section: str, kind_: Kind
+def declared(
+    file: FileReader, node: DocumentNode, section: Literal["coordinates", "parameters"]
 ) -> Iterator[tuple[Scalar, DocumentNode | None]]:
     """The names of a list or of a map's keys, as far as they could be declared."""
+    kind_: Literal["coordinate", "parameter"] = (
+        "coordinate" if section == "coordinates" else "parameter"
+    )
     entries: list[tuple[Scalar, DocumentNode | None]]
     if given := _pairs(node, section):
         named = [(name, value) for name, _, value in (x.partition(": ") for x in given.split(", "))]
@@ -225,7 +223,7 @@ def _declared(
         message = coordinates if hint is state else f"{section} with more than names are a map"
         file.error(message, node.span, hint, refused="")
         return
-    numbered = node.entries if isinstance(node, Mapping) else []
+    numbered = node.pairs
     if numbered and all(key.label.isdigit() for key, _ in numbered):
         listed = ", ".join(source_of(value) for _, value in numbered)
         file.error(f"{section} have names, not numbers", node.span, f"write [{listed}]", refused="")
@@ -266,8 +264,8 @@ def _declared(
         if broken := re.fullmatch(r"(\w+)(?<!_)\s*([=:]?)\s*(\{.*)", key.label):
             whole = f"{broken[1]}: {broken[3]}: {'' if value is None else source_of(value)}"
             missing = "blank" if broken[2] == ":" else "':'"
-            file.error(f"a {missing} is missing behind '{broken[1]}'", key.span, f"write {whole}")
-            file.scope.refused.append(broken[1])
+            message = f"a {missing} is missing behind '{broken[1]}'"
+            file.error(message, key.span, f"write {whole}", refused=broken[1])
         elif several := _listed(key.label):
             given = "" if value is None else source_of(value)
             hint = f"write {', '.join(f'{name}: {given}'.rstrip() for name in several)}"
@@ -277,8 +275,8 @@ def _declared(
             hint = f"write {better}: a prime is a velocity"
             file.error(f"'{key.label}' is not a name", key.span, hint, refused=key.label)
         elif with_unit := _with_unit(key, value):
-            file.error(f"the unit in '{key.label}' is not a part of its name", key.span, with_unit)
-            file.scope.refused.append(key.label)
+            message = f"the unit in '{key.label}' is not a part of its name"
+            file.error(message, key.span, with_unit, refused=key.label)
         elif value is not None and (said := _ATTRIBUTE.fullmatch(source_of(value))) and (
             said[1] in attributes and is_said(*said.groups())
         ):  # fmt: skip
@@ -340,7 +338,7 @@ def _renamed(names: list[Scalar]) -> tuple[Scalar, str] | None:
 def _without_primes(file: FileReader, key: Scalar) -> str:
     """A name that is free, `m2` for `m'`; nothing for the velocity of a coordinate."""
     found = re.fullmatch(r"([^\W\d]\w*?)['’′″]+", key.label)
-    if found is None or found[1] in file.scope.of_kind("coordinate"):
+    if found is None or found[1] in file.scope.coordinates:
         return ""
     words = {*re.findall(r"\w+", key.text.source.text)}
     return next(x for k in range(2, len(words) + 3) if (x := f"{found[1]}{k}") not in words)
@@ -370,7 +368,7 @@ def _pairs(node: DocumentNode, section: str) -> str:
         if len(numbers) == len(node.entries) and all(is_constant("x", v.value) for v in numbers):
             return entries_of(node)
     elif isinstance(node, Sequence) and not any(map(_has_attributes, node.items)):
-        source = [item.text.source.text[item.start : item.end] for item in node.items]
+        source = [item.written for item in node.items]
         source = [re.sub(r"^\[(\w+),\s*([^,\]]+)\]$", r"\1: \2", text) for text in source]
         source = [_PRODUCT.sub(lambda m: re.sub("[ *]", "", m[0]), text) for text in source]
         source = [_with_sign(text) for text in source]  # r > 0
@@ -443,11 +441,3 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
             hint = hint or f"write {''.join(meant) or 'one of ' + ', '.join(ASSUMPTIONS)}"
             file.error(f"unknown assumption '{text.value}'", text.span, hint)
     return said
-
-
-def _check_cycles(file: FileReader, parameters: list[Parameter]) -> None:
-    """A value must not need itself, directly or through others."""
-    spans = {one.name: one.value.span for one in parameters if one.value is not None}
-    found = value_cycle({one.name: one.value for one in parameters if one.value is not None})
-    if found is not None:
-        file.error(found[1], spans[found[0]])

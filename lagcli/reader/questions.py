@@ -67,7 +67,7 @@ _VARIABLE = Role(order=1, momenta=True, why="velocities are removed, acceleratio
 def read_initial(file: FileReader, node: DocumentNode) -> dict[Name, Expression]:
     """The state at t = 0, by coordinate and by velocity."""
     initial: dict[Name, Expression] = {}
-    coordinates = list(file.scope.of_kind("coordinate"))
+    coordinates = file.scope.coordinates
     hint = by_name(node, file.scope)
     for value in re.findall(r": ([\d.]+ ?[^\W\d][^,{}]*)", hint if hint[:6] == "write " else ""):
         of_unit = unit_mistake(value)
@@ -169,8 +169,8 @@ def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
     questions: list[Question] = []
     unknown = next(iter(file.scope.free), "x")
     hint = f"write {{name: {{where: {unknown}' = 0, for: {unknown}}}}}"
-    moving = [*file.scope.of_kind("coordinate")]
-    texts = [each for each in getattr(node, "items", [node]) if isinstance(each, Scalar)]
+    moving = file.scope.coordinates
+    texts = [each for each in (node.parts or [node]) if isinstance(each, Scalar)]
     words = [each.value for each in texts]
     if words and all(is_found(word, moving) for word in words):
         hint = ALREADY_FOUND
@@ -182,8 +182,7 @@ def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
         wholes = (as_map(each, _QUESTION_ATTRIBUTES, file.scope.free) for each in texts)
         pairs = zip(names, wholes, strict=True)
         hint = f"write {{{', '.join(f'{x}: {y}' for x, y in pairs)}}}".replace(": write {", ": {")
-    first = next(iter(getattr(node, "items", [node])), None)
-    entries = first.entries if isinstance(first, Mapping) else []
+    entries = (node.parts or [node])[0].pairs
     if entries and isinstance(node, Sequence):
         hint = WITHOUT_HYPHENS
     if _is_one(entries):
@@ -198,7 +197,7 @@ def read_find(file: FileReader, node: DocumentNode) -> tuple[Question, ...]:
     readers = {"where": _where, "always": _lasting, "reaches": _reaching, "value": _rewrite}
     for key, value in file.entries(node, "find", hint):
         what = f"the question '{key.label}'"
-        entries = value.entries if isinstance(value, Mapping) else []
+        entries = value.pairs
         given = [part.label for part, _ in entries]
         forms = [form for form in _FORMS.items() if {*form} == {*given}]
         if {source_of(part) for _, part in entries} & (FOUND - file.scope.kinds.keys()):
@@ -299,7 +298,7 @@ def _unknown(file: FileReader, node: DocumentNode) -> Name | None:
     before = len(file.diagnostics)
     name = file.name(node, "'for'", _UNKNOWN)
     words = _PART.findall(node.value) if isinstance(node, Scalar) else []
-    named = [each for each in words if each.rstrip("'") in file.scope.of_kind("coordinate")]
+    named = [each for each in words if each.rstrip("'") in file.scope.coordinates]
     others = [each for each in words if each not in named]
     meant = named or (file.scope.free if others else [])
     if name is None and len(meant) == 1 and all(map(_EXTREME.fullmatch, others)):
@@ -323,7 +322,7 @@ def _where(
         return []
     is_free = name.name == "t" or file.scope.kinds.get(name.name) in {"coordinate", "parameter"}
     if not is_free and not file.scope.refused:
-        known = ", ".join(file.scope.of_kind("coordinate"))
+        known = ", ".join(file.scope.coordinates)
         message = f"'{name}' is not a coordinate, a velocity, a parameter or the time"
         file.error(message, name.span, f"coordinates are {known}")
     return [Where(name=key.label, equation=equation, unknown=name, span=key.span)]

@@ -103,7 +103,7 @@ def with_whole(
         why = found[0].hint.removesuffix(": write its formula")
         return [replace(found[0], span=node.span, hint=f"write {by_momenta}: {why}")]
     if what == "V" and (force := _FORCE.fullmatch(node.value)):
-        along, *others = [*scope.of_kind("coordinate"), "x"]
+        along, *others = [*scope.coordinates, "x"]
         law = "…" if others[1:] else force[1].strip()
         hint = f"V is an energy; a force stands by its coordinate: write forces: {{{along}: {law}}}"
         return [replace(found[0], hint=hint)]
@@ -203,7 +203,7 @@ def unmoved(
 
     A name that is the `only` unknown one has this form.
     """
-    coordinates = (*scope.of_kind("coordinate"),)
+    coordinates = (*scope.coordinates,)
     moving = {*scope.moving, *(coordinates if what == "V" else ())}
     has_rate = re.search(r"['’′\u0307]|dot|\bd\w+/dt", node.value)
     unclear = (UNDECLARED, f"{UNDECLARED}, or its formula under 'definitions'")
@@ -248,7 +248,7 @@ def with_constant(whole: str, scope: Scope, *, is_equation: bool) -> tuple[str, 
 
 def _example(text: str, scope: Scope) -> str:
     """`as in s' = R*phi'` with the coordinates of the file, or one of lengths for a sentence."""
-    coordinates = [*scope.of_kind("coordinate"), "x"]
+    coordinates = [*scope.coordinates, "x"]
     turning = [x for x in coordinates if is_angle(x)] or ["theta"]
     moving = [x for x in coordinates if x not in turning]
     if not re.search(r"length|distance|long|rigid|inextens|string|rope|\brod\b", text):
@@ -281,7 +281,7 @@ def _of_matrices(node: Scalar, what: str, scope: Scope) -> Diagnostic | None:
     matrix = _MATRIX.search(node.value)
     if matrix is None or {matrix["one"], matrix["column"], "T"} & scope.kinds.keys():
         return None
-    x, y = [*scope.of_kind("coordinate"), "x", "y"][:2]
+    x, y = [*scope.coordinates, "x", "y"][:2]
     if re.match(r"omega|Omega|[ωΩw](?!\w)", matrix["one"] or ""):
         hint = "write the sum, as in (I_1*omega_1^2 + I_2*omega_2^2)/2, and omega_1 by velocities"
         return Diagnostic("a formula has no matrices", node.span, f"{hint} under 'definitions'")
@@ -448,7 +448,7 @@ def _named_in(mistake: Diagnostic) -> set[str]:
 
 
 def _vocabulary(scope: Scope, role: Role) -> Vocabulary:
-    coordinates = tuple(scope.of_kind("coordinate"))
+    coordinates = (*scope.coordinates,)
     functions = frozenset(scope.of_kind("function"))
     refused = [name for each in scope.refused if (name := name_meant(each, one=True))]
     usable = {*scope.usable(role), *refused} - {*coordinates} - functions

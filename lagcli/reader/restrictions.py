@@ -19,6 +19,7 @@ from lagcli.reader.names import derivative_order
 from lagcli.reader.nodes import DocumentNode, Scalar, lines_of
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import QUESTION, STATE
+from lagcli.reader.text import numbered
 from lagcli.reader.velocity_quotients import multiplied_out, without_squares
 
 _CONSTRAINT_ATTRIBUTES = ("equation", "multiplier", "holds_while", "on_loss", RESTITUTION,
@@ -68,7 +69,6 @@ def declare_constraints(file: FileReader, node: DocumentNode) -> list[Declared]:
         if key.in_flow and value.is_empty and isinstance(equation, Scalar):  # {rod: x = l, N}
             inner = f"{{equation: {equation.value}, multiplier: {key.label}}}"
             file.error("a comma ends the equation", key.span, f"write {name.label}: {inner}")
-            file.scope.refused.append(key.label)
             entries = [entry for entry in entries if entry[0] is not key]
     contacts: list[tuple[Scalar, str]] = []
     entries = [entry for entry in entries if not _is_condition(file, *entry, entries)]
@@ -87,7 +87,7 @@ def _elsewhere(file: FileReader, key: str, moved: list[str], entries: int) -> st
 
 def check_multipliers(file: FileReader, energies: list[Scalar]) -> None:
     """An energy has no `lambda*(x^2 + y^2 - l^2)`: its equation is a constraint."""
-    coordinates = {*file.scope.of_kind("coordinate")}
+    coordinates = {*file.scope.coordinates}
     for node in energies:
         laws = []
         for found in _WITH_MULTIPLIER.finditer(node.value):
@@ -137,7 +137,7 @@ def _is_refused(
     file: FileReader, key: Scalar, value: DocumentNode, contacts: list[tuple[Scalar, str]]
 ) -> bool:
     """Whether an entry is no constraint: a contact, which is added, or several constraints."""
-    parts = {k.label: v for k, v in getattr(value, "entries", ())}
+    parts = {k.label: v for k, v in value.pairs}
     node = parts.get("equation", value)
     written = node.value if isinstance(node, Scalar) else ""
     if re.search("[<>≤≥]", key.label):  # {x <= 1}
@@ -162,8 +162,7 @@ def _is_refused(
         file.scope.refused.append(attributes.get("multiplier", f"lambda_{key.label}"))
         return True
     if equations[1:]:
-        named = (f"{key.label}_{place}: {each}" for place, each in enumerate(equations, start=1))
-        hint = f"each equation has its own name: {', '.join(named)}"
+        hint = f"each equation has its own name: {numbered(key.label, equations)}"
         file.error(f"'{key.label}' has several equations", key.span, hint, refused="")
     return bool(equations[1:])
 
@@ -207,7 +206,8 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
         holds_while = None
         if "holds_while" in one.attributes:
             holds_while = file.comparison(one.attributes["holds_while"], "'holds_while'", QUESTION)
-        on_loss = _on_loss(file, one)
+        on_loss, force = _on_loss(file, one), one.attributes.get("acts_as")
+        acts_as = _FORCES.get(file.word(force, "'acts_as'", _FORCES) or "") if force else None
         constraints.append(
             Constraint(
                 name=name,
@@ -216,7 +216,7 @@ def read_constraints(file: FileReader, given: list[Declared]) -> tuple[Constrain
                 holds_while=holds_while,
                 on_loss=on_loss,
                 restitution=_restitution(file, one, holds_while, on_loss),
-                acts_as=_acts_as(file, one),
+                acts_as=acts_as,
                 span=one.key.span,
             )
         )
@@ -251,7 +251,7 @@ def _law_of_force(file: FileReader, node: DocumentNode, name: str) -> tuple[str,
         return "", ""
     if not (FRICTION_WORD.search(name) or re.fullmatch(r"F_?(?:R|f|fr|r)", found[1])):
         return "", ""
-    along, size = next(iter(file.scope.of_kind("coordinate")), "x"), found[2]
+    along, size = next(iter(file.scope.coordinates), "x"), found[2]
     backwards = "" if re.search(rf"(?<!\w){along}'", size) else f"*sign({along}')"
     is_open = "N" not in file.scope.kinds and re.search(r"(?<!\w)N(?!\w)", size)
     normal = ", with the normal force N written out, m*g on a level floor" if is_open else ""
@@ -265,12 +265,6 @@ def _on_loss(file: FileReader, one: Declared) -> OnLoss:
     if "holds_while" not in one.attributes and not node.is_empty:
         file.error("'on_loss' needs 'holds_while'", node.span, "write holds_while: N >= 0")
     return "stop" if file.word(node, "'on_loss'", _ON_LOSS) == "stop" else "release"
-
-
-def _acts_as(file: FileReader, one: Declared) -> ForceKind | None:
-    """What the force of the constraint is called."""
-    node = one.attributes.get("acts_as")
-    return None if node is None else _FORCES.get(file.word(node, "'acts_as'", _FORCES) or "")
 
 
 def _restitution(

@@ -57,7 +57,7 @@ def _pairs(
     file: FileReader, node: DocumentNode, key: str, names: list[str]
 ) -> tuple[tuple[str, str], ...]:
     found = []
-    inner = node.items if isinstance(node, Sequence) else []
+    inner = node.parts
     ends_alone = [each.value for each in inner if isinstance(each, Scalar)]
     joined = [re.split(r"\s*[-–—~]+>?\s*|\s+(?:to\s+)?", each) for each in ends_alone]
     are_pairs = all(len(each) == 2 for each in joined)
@@ -89,7 +89,7 @@ def _pairs(
 
 def _is_place(node: Sequence) -> bool:
     """Whether a list has numbers, not names."""
-    numbers = [each.value for each in node.items if isinstance(each, Scalar)]
+    numbers = node.listed
     return len(numbers) == len(node.items) and all(re.fullmatch(r"-?[\d.]+", x) for x in numbers)
 
 

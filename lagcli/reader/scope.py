@@ -119,6 +119,11 @@ class Scope:
         """The names of one kind, in the order of their declaration."""
         return (name for name, other in self.kinds.items() if other == kind)
 
+    @property
+    def coordinates(self) -> list[str]:
+        """The coordinates, in the order of their declaration."""
+        return [*self.of_kind("coordinate")]
+
     def may_be(self, name: str) -> bool:
         """Whether a name that is unknown may be one that could not be declared.
 
@@ -129,8 +134,7 @@ class Scope:
     @property
     def free(self) -> list[str]:
         """The coordinates to which no constraint gives a value; all where each has one."""
-        coordinates = [*self.of_kind("coordinate")]
-        return [x for x in coordinates if x not in self.held] or coordinates
+        return [x for x in self.coordinates if x not in self.held] or self.coordinates
 
     @contextmanager
     def also(self, names: Iterable[str], kind: Kind) -> Iterator[None]:
@@ -167,7 +171,7 @@ class Scope:
         }
         names = [name for name, kind in self.kinds.items() if allowed[kind]]
         if role.momenta:
-            names += [f"p_{name}" for name in self.of_kind("coordinate")]
+            names += [f"p_{name}" for name in self.coordinates]
         return [*names, "pi", *(["t"] if role.time else [])]
 
 

@@ -5,19 +5,21 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterable, Sequence
+from typing import NoReturn
 
 from lagcli.diagnostics import NOWHERE, Diagnostic, ProblemError, Source
 from lagcli.expression import Expression, Name
 from lagcli.problem_data import Problem
 from lagcli.reader.by_coordinate import state_meant
+from lagcli.reader.columns import check_units
 from lagcli.reader.constants import value_cycle
-from lagcli.reader.expressions import read_expression
+from lagcli.reader.expressions import read_expression, read_or_raise
 from lagcli.reader.names import name_mistakes
 from lagcli.reader.number_units import unit_mistake
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.scope import VALUES, Scope
 from lagcli.reader.suggest import did_you_mean
-from lagcli.reader.text import Mistake, SourceText
+from lagcli.reader.text import SourceText
 from lagcli.record import replace
 from lagcli.rewriting import rebuilt
 
@@ -71,50 +73,37 @@ def _read(
     text, option = SourceText.of(source), source.name.split()[0]
     written, equals, value = source.text.partition("=")
     name = unicodedata.normalize("NFC", written.strip()).translate(_PRIMES)
+    start = len(written) + 1
+
+    def refuse(message: str, hint: str, begin: int = 0, end: int = 0) -> NoReturn:
+        raise ProblemError(source, (Diagnostic(message, text.span(begin, end), hint),))
+
     if not equals:
         apart = re.fullmatch(r"\s*([^\W\d]\w*)('*)\s*(?:[: ]\s*(\S+)\s*)?", written)
         hint = "write name=value"
         if apart is not None:
             whole = f"{apart[1]}{apart[2]}={apart[3] or '1'}"
             hint = f"write {option} " + (f'"{whole}"' if apart[2] else whole)
-        raise ProblemError(source, (Diagnostic("an '=' is missing", text.span(0, 0), hint),))
+        refuse("an '=' is missing", hint)
     if re.search(r"[,;]\s*[^\W\d]\w*'*\s*=", value):
         each = " ".join(f"{option} {part.strip()}" for part in re.split("[,;]", source.text))
-        message = "one option sets one value"
-        raise ProblemError(source, (Diagnostic(message, text.span(0, 0), f"write {each}"),))
+        refuse("one option sets one value", f"write {each}")
     if name not in names:
         known = f"known are {', '.join(names)}" if names else "the file declares none"
         meant = state_meant(name, [x for x in names if kind != "parameter" and x[-1] != "'"])
         hint = f'write {option} "{meant}={value}"' if meant else did_you_mean(name, names) or known
-        message = f"there is no {kind} '{name}'"
-        raise ProblemError(source, (Diagnostic(message, text.span(0, len(written)), hint),))
-    start = len(written) + 1
-    offsets = range(start, len(source.text) + 1)
+        refuse(f"there is no {kind} '{name}'", hint, 0, len(written))
     if mistake := unit_mistake(value, scope.kinds):
-        span = text.span(len(source.text) - len(value.lstrip()), len(source.text))
-        raise ProblemError(source, (Diagnostic(mistake[0], span, mistake[1]),))
-    try:
-        expression = read_expression(Excerpt(value, text, offsets))
-    except Mistake as error:
-        raise ProblemError(source, error.diagnostics) from None
-    what = f"the value of '{name}'"
-    mistakes = tuple(name_mistakes(expression, scope, VALUES, what))
+        refuse(*mistake, len(source.text) - len(value.lstrip()), len(source.text))
+    offsets = range(start, len(source.text) + 1)
+    expression = read_or_raise(Excerpt(value, text, offsets), read_expression)
+    mistakes = [*name_mistakes(expression, scope, VALUES, f"the value of '{name}'")]
     if mistakes:
-        raise ProblemError(source, mistakes)
-    if any(one.unit is not None for one in (*problem.coordinates, *problem.parameters)):
-        _check_unit(problem, source, name, expression)
+        raise ProblemError(source, tuple(mistakes))
+    check_units(problem, source, expression, name)
     return name, expression
 
 
 def _placeless(value: Expression) -> Expression:
     """The value without its places: they are not those of the file."""
     return replace(rebuilt(value, _placeless), span=NOWHERE)
-
-
-def _check_unit(problem: Problem, source: Source, name: str, value: Expression) -> None:
-    """A value has the unit of its parameter; a number alone has it anyway."""
-    from lagcli.dimensions.check import check_formula
-
-    mistakes = check_formula(problem, value, source.text, name)
-    if mistakes:
-        raise ProblemError(source, tuple(mistakes))

@@ -8,7 +8,7 @@ from fractions import Fraction
 from typing import get_args
 
 from lagcli.problem_data import Assumption
-from lagcli.reader.habits import SIGNS, habits, letters, number_and_unit, spellings
+from lagcli.reader.habits import SIGNS, TURNED, habits, letters, number_and_unit, spellings
 from lagcli.reader.misshapen import RANGE, by_key, source_of, texts_of, values_in
 from lagcli.reader.nodes import DocumentNode
 from lagcli.reader.regex import regex
@@ -69,10 +69,7 @@ def sign_meant(text: str, relation: str = "") -> str:
 def _turned(text: str) -> str:
     """`> 0` for `0 < m`; other texts as they are."""
     found = re.fullmatch(r"\s*(-?[\d.]+)\s*([<>≤≥]=?)\s*[^\W\d]\w*\s*", text)
-    return f"{found[2].translate(_MIRROR)}{found[1]}" if found else text
-
-
-_MIRROR = str.maketrans("<>≤≥", "><≥≤")
+    return f"{found[2].translate(TURNED)}{found[1]}" if found else text
 
 
 def range_meant(relation: str, value: DocumentNode, what: str, given: Collection[str]) -> str:

@@ -49,7 +49,7 @@ def read_symmetries(file: FileReader, node: DocumentNode) -> tuple[Symmetry, ...
 
 def _symmetry(file: FileReader, key: Scalar, value: DocumentNode) -> Symmetry:
     what = f"the symmetry '{key.label}'"
-    coordinates = [*file.scope.of_kind("coordinate")]
+    coordinates = file.scope.coordinates
     before = len(file.diagnostics)
     usual = _usual_change(key.label, coordinates) or _shift(coordinates[:1])
     changes: dict[str, Expression] = {}
@@ -82,7 +82,7 @@ def _entries(
     The `usual` ones are proposed where it names none.
     """
     what = f"the symmetry '{key.label}'"
-    coordinates = [*file.scope.of_kind("coordinate")]
+    coordinates = file.scope.coordinates
     is_map = isinstance(value, Mapping) and not texts_of(value)
     said = "" if is_map else ", ".join(texts_of(value))
     said = key.label if value.is_empty and moved(key.label) else said
@@ -110,7 +110,7 @@ def _entries(
     if changed and "time" not in key.label and not is_charge:
         is_formula = re.search(r"[*/^∂]", said) or (changed[1:] and re.search("[-+]", said))
         usual = "" if is_formula and not rates else _shift(changed)
-    items = [*map(source_of, getattr(value, "items", ()))]
+    items = [*map(source_of, value.parts)]
     if len(items) == len(coordinates) and not {*items} <= {*coordinates}:  # [-y, x]
         usual = f"{{{', '.join(map('{}: {}'.format, coordinates, items))}}}"
     meant = _changes_meant(file, said) or _generated(file, said) or usual
@@ -130,7 +130,7 @@ def _shift(names: list[str]) -> str:
 def _generated(file: FileReader, text: str) -> str:
     """`{x: -y, y: x}` for the generator `x*d/dy - y*d/dx`; nothing for other texts."""
     known = file.scope.kinds
-    names = {x for x in (*file.scope.of_kind("coordinate"), "t") if f"d_{x}" not in known}
+    names = {x for x in (*file.scope.coordinates, "t") if f"d_{x}" not in known}
     changes: dict[str, str] = {}
     marked = _PARTIAL.sub(r"(partial_\1)", re.sub(r"(?<=[\w)])\s+(?=\(?[d∂\\])", "*", text))
     for is_minus, term in signed_terms(marked):
@@ -145,7 +145,7 @@ def _generated(file: FileReader, text: str) -> str:
 
 def _listed(file: FileReader, texts: list[str]) -> str:
     """How a list of coordinates, of words or of transformations is written by names."""
-    coordinates = [*file.scope.of_kind("coordinate")]
+    coordinates = file.scope.coordinates
     whole = ", ".join(texts)
     named = [each for each in re.findall(r"\w+", whole) if each in {*coordinates, "t"}]
     if named and as_list(whole) == f"[{', '.join(named)}]":
@@ -200,13 +200,13 @@ def _finite(given: Mapping | str) -> dict[str, str]:
 
 def _changes_meant(file: FileReader, given: Mapping | str) -> str:
     """`{x: -y, y: x}` for a finite rotation and for `x -> x - eps*y, y -> y + eps*x`."""
-    names = [*file.scope.of_kind("coordinate")]
+    names = file.scope.coordinates
     declared = isinstance(given, str)
     return small_change(_finite(given), names, {*file.scope.kinds}, declared=declared)
 
 
 def _is_discrete(file: FileReader, text: str) -> bool:
     """Whether a transformation is a reflection, or another one without a parameter."""
-    names = [*file.scope.of_kind("coordinate")]
+    names = file.scope.coordinates
     is_word = _REFLECTION.match(text) is not None
     return is_word or is_discrete(moved(text), names, {*file.scope.kinds})

@@ -52,12 +52,22 @@ class SourceText(NamedTuple):
 
     def written_sum(self, spans: Iterable[Span]) -> str:
         """The texts of terms as one sum."""
-        whole = " + ".join(map(self.written, spans)).replace("+ -", "- ")
+        whole = as_sum(map(self.written, spans))
         return f"-{whole[1:].lstrip()}" if whole[:1] == "-" else whole
 
     def span(self, start: int, end: int) -> Span:
         """The stretch from offset `start` up to, not including, `end`."""
         return Span(*self.position(start), *self.position(end))
+
+
+def as_sum(terms: Iterable[str]) -> str:
+    """`a - b` for a and -b."""
+    return " + ".join(terms).replace("+ -", "- ")
+
+
+def numbered(name: str, texts: Iterable[str]) -> str:
+    """`a_1: x, a_2: y` for the texts x and y."""
+    return ", ".join(f"{name}_{place}: {each}" for place, each in enumerate(texts, start=1))
 
 
 def also_in_lines(numbers: Iterable[int]) -> str:
@@ -72,15 +82,15 @@ def decode(name: str, data: bytes) -> tuple[Source, list[Diagnostic]]:
 
     Where it is not acceptable it is cut, so that a diagnostic can show the line.
     """
+    message = hint = ""
     if len(data) > FILE_BYTES:
         message = f"the file has {len(data):,} bytes, the limit is 1 MiB ({FILE_BYTES:,} bytes)"
-        return Source(name, ""), [Diagnostic(message, Span(1, 1, 1, 1))]
-    if data.startswith((b"\xff\xfe", b"\xfe\xff")):
-        message = "the file is UTF-16; only UTF-8 can be read"
-        return Source(name, ""), [Diagnostic(message, Span(1, 1, 1, 1), "save it as UTF-8")]
-    if b"\0" in data[:1024]:
-        hint = "a problem is a page of YAML"
-        return Source(name, ""), [Diagnostic("this is not a text file", Span(1, 1, 1, 1), hint)]
+    elif data.startswith((b"\xff\xfe", b"\xfe\xff")):
+        message, hint = "the file is UTF-16; only UTF-8 can be read", "save it as UTF-8"
+    elif b"\0" in data[:1024]:
+        message, hint = "this is not a text file", "a problem is a page of YAML"
+    if message:
+        return Source(name, ""), [Diagnostic(message, Span(1, 1, 1, 1), hint)]
     data = data.removeprefix(BYTE_ORDER_MARK)
     data = data.replace(b"\r\n", b"\n").replace(b"\r", b"\n")
     try:

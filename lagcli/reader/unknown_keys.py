@@ -46,6 +46,7 @@ from lagcli.reader.regex import regex
 from lagcli.reader.scope import Scope
 from lagcli.reader.sign_meant import ASSUMPTIONS, range_meant, signs_of
 from lagcli.reader.suggest import closest, did_you_mean
+from lagcli.reader.text import as_sum
 
 #: The likeness of a key and its misspelling: another word of as many letters is less like it.
 _NEAR = 0.7
@@ -112,7 +113,7 @@ def unknown_key(
     if meant in given and hint == f"the key is {meant}":
         hint = f"the key is {meant}, which is given already: its entries stand there"
         hint = f"leave it out: {meant} is given already" if written else hint
-    if "at" in names and word in scope.of_kind("coordinate"):
+    if "at" in names and word in scope.coordinates:
         hint = f"write at: {{{word}: {written}}}"
     if not hint and isinstance(value, Mapping) and value.entries:
         inner = [(key_meant(each.label, names), source_of(part)) for each, part in value.entries]
@@ -193,11 +194,10 @@ def _meant_of_problem(
         return None, f"forces stand by coordinate: write forces: {{{force}}}"
     if form := _quadratic_form(word, value, _coordinates(around)):
         return None, form
-    numbers = [v.value for _, v in getattr(value, "entries", ()) if isinstance(v, Scalar)]
+    numbers = [v.value for _, v in value.pairs if isinstance(v, Scalar)]
     has_parameters = "parameters" in {each.label for each, _ in around.entries}
     all_numbers = numbers and all(is_constant("x", each) for each in numbers)
     if meant == "points" and has_parameters and all_numbers:
-        scope.refused += names_in(value)
         return None, f"constants stand under parameters: write parameters: {{{entries_of(value)}}}"
     shape = None if f"{word}s" in KEYS else key_by_shape(value, around)
     near = meant or closest(word, KEYS)
@@ -224,7 +224,7 @@ def _meant_of_problem(
         return meant, f"it is one sum: write {energy}: {parts[energy]} + {written}"
     if energy and energy != word and meant is None:  # V1 and V2
         terms = [parts[each] for each in parts if re.match(rf"{energy}(?=\d|_)", each)]
-        return None, f"it is one sum: write {energy}: {' + '.join(terms).replace('+ -', '- ')}"
+        return None, f"it is one sum: write {energy}: {as_sum(terms)}"
     relation, named = re.search(r"[<>≤≥]|(?<![<>])=", written), {*_coordinates(around)}
     left, _, right = written.partition("=")
     if not hint and relation and left.strip().isidentifier() and left.strip() not in named:
@@ -241,7 +241,7 @@ def _meant_of_problem(
 
 def _varied(value: DocumentNode) -> str:
     """`--vary e=0.5,0.9` for `{e: [0.5, 0.9]}` and `{parameter: e, values: [0.5, 0.9]}`."""
-    parts = {key.label: node for key, node in getattr(value, "entries", ())}
+    parts = {key.label: node for key, node in value.pairs}
     ranges = {name: values_of(node) for name, node in parts.items()}
     written = source_of(value).strip("[]")
     if one := re.fullmatch(r"([^\W\d]\w*)\s*(?:[,=:]|in|from|over|\s)\s*(.*)", written):
@@ -269,7 +269,7 @@ def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
     attribute = key_meant(word, known) or key_meant(word.removesuffix("s"), known)
     attribute = "mass" if word == "masses" else attribute or ""
     given = signs_of(value) if attribute == "assume" else by_key(value)
-    values = [*given.values()] or [source_of(each) for each in getattr(value, "items", [value])]
+    values = [*given.values()] or [source_of(each) for each in (value.parts or [value])]
     if attribute == "multiplier" and not all(x.isidentifier() and x not in _WISHES for x in values):
         return ""  # its formula
     named = [SECTIONS.get(attribute, "contacts")]
@@ -278,8 +278,8 @@ def _of_each(word: str, value: DocumentNode, around: Mapping) -> str:
     sections = ((key, node) for key, node in around.entries)
     for key, node in (each for each in sections if each[0].label in {*named} & _FIRST.keys()):
         inner: dict[str, dict[str, str]] = {name: {} for name in names_in(node)}
-        for name, each in getattr(node, "entries", ()):
-            inner[name.label] = inner_of(each, _FIRST[key.label])
+        for name_, each in node.pairs:
+            inner[name_.label] = inner_of(each, _FIRST[key.label])
         is_in_order = len(values) == 1 or not given
         if len(named) == 1 and is_in_order and len(values) == len(inner):
             given = dict(zip(inner, values, strict=True))
@@ -304,7 +304,7 @@ def _coordinates(around: Mapping) -> list[str]:
 
 def _answer_meant(word: str, written: str, scope: Scope) -> str:
     """`write accelerations: {x: -g}` for an answer `x_ddot: -g`; nothing for others."""
-    coordinates = [*scope.of_kind("coordinate")]
+    coordinates = scope.coordinates
     meant = state_meant(word, coordinates)
     if meant.endswith("''"):
         return f"write accelerations: {{{meant[:-2]}: {written}}}"
@@ -352,7 +352,7 @@ _MATRICES = {"m": "T", "mass": "T", "inertia": "T", "k": "V", "stiffness": "V", 
 def _quadratic_form(word: str, value: DocumentNode, coordinates: list[str]) -> str:
     """`write T: (m*x1'^2 + m*x2'^2)/2` for a mass matrix; nothing for other keys."""
     key = _MATRICES.get(re.sub(r"[_ ]?matrix$", "", word.casefold()), "")
-    rows = [each.items for each in getattr(value, "items", ()) if isinstance(each, Sequence)]
+    rows = [each.items for each in value.parts if isinstance(each, Sequence)]
     size = len(coordinates)
     if not key or not size or [len(row) for row in rows] != [size] * size:
         return ""
@@ -366,7 +366,7 @@ def _quadratic_form(word: str, value: DocumentNode, coordinates: list[str]) -> s
             pair = f"{x}{prime}^2" if i == j else f"{x}{prime}*{y}{prime}"
             if entry != "0":
                 terms.append(f"{sign}{'2*' * (i != j)}{size_}*{pair}")
-    return f"write {key}: ({' + '.join(terms).replace('+ -', '- ')})/2" if terms else ""
+    return f"write {key}: ({as_sum(terms)})/2" if terms else ""
 
 
 def _letter_used(word: str, around: Mapping) -> str:

@@ -29,7 +29,7 @@ from lagcli.reader.habits import is_angle
 from lagcli.reader.names import derivative_order
 from lagcli.reader.positions import Excerpt
 from lagcli.reader.scope import Scope
-from lagcli.reader.text import SourceText
+from lagcli.reader.text import SourceText, numbered
 
 _TWO = Number(Fraction(2))
 #: x' and y' by the speed, for a heading that is measured from the x or the y axis, either way.
@@ -112,7 +112,7 @@ def without_squares(name: str, written: str, others: Iterable[Equation], scope: 
         return f"write {axes[0]} = {speed}, or {axes[0]} = -{speed}"
     related = [each for each in others if {*axes} <= {*map(str, name_nodes(*sides_of(each)))}]
     used = {node.name for node in name_nodes(left, right)}
-    free = [x for x in scope.of_kind("coordinate") if x not in used]
+    free = [x for x in scope.coordinates if x not in used]
     angles = [x for x in free if is_angle(x)]
     found = [
         (x, forms) for x, forms in product(free if related else angles, _HEADINGS)
@@ -121,9 +121,9 @@ def without_squares(name: str, written: str, others: Iterable[Equation], scope: 
     if not found or (not related and angles[1:]):
         return ""
     heading, forms = found[0]
-    named = [f"{axis} = {form[:-3]}{speed}*{form[-3:]}({heading})"
-             for axis, form in zip(axes, forms, strict=True)]  # fmt: skip
-    return f"each equation has its own name: {name}_1: {named[0]}, {name}_2: {named[1]}"
+    laws = (f"{axis} = {form[:-3]}{speed}*{form[-3:]}({heading})"
+            for axis, form in zip(axes, forms, strict=True))  # fmt: skip
+    return f"each equation has its own name: {numbered(name, laws)}"
 
 
 def _holds(equation: Equation, forms: dict[str, str], heading: str) -> bool:

@@ -12,7 +12,7 @@ from lagcli.reader.foreign.cases import without_cases
 from lagcli.reader.habits import CASE, COMMENT, KEYS, MAPS, PROGRAM, colon_advice, habits, key_meant
 from lagcli.reader.headings import SAID, SECTIONS
 from lagcli.reader.regex import regex
-from lagcli.reader.text import SourceText
+from lagcli.reader.text import SourceText, numbered
 
 
 def explain(error: Exception, text: SourceText) -> Diagnostic:
@@ -219,10 +219,8 @@ def _second_colon(offset: int, text: SourceText) -> Diagnostic:
     if inner and (inner[1] in MAPS or (name in {*SECTIONS, *SAID} and inner[1] not in TEXTS)):
         parts = pieces(value, ",")
         if parts[1:] and all(re.search("[^<>]=", each) for each in parts):
-            stem = "_".join(name.split())
-            named = (f"{stem}_{k}: {each.strip()}" for k, each in enumerate(parts, start=1))
-            inner_ = ", ".join(named)
-            return Diagnostic("each equation has a name", span, f"write {inner[1]}: {{{inner_}}}")
+            whole = numbered("_".join(name.split()), map(str.strip, parts))
+            return Diagnostic("each equation has a name", span, f"write {inner[1]}: {{{whole}}}")
         hint = f"write {inner[1]}: {{{inner[2]}}}"
         return Diagnostic("a map on the line of its key stands in braces", span, hint)
     return Diagnostic("a second ':' in one value", span, "put the whole value in quotes")

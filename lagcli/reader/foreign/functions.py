@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from abc import abstractmethod
 
-from lagcli.expression import FUNCTIONS
 from lagcli.reader.assignments import levels
 from lagcli.reader.foreign.sums import Part, Sums, raised
 from lagcli.reader.foreign.tokens import SIGNS, Token
@@ -37,8 +36,6 @@ class Functions(Sums):
             return Part(f"exp({bare_text(power)})", 3, is_call=True)  # exp^(-x)
         if power == "(-1)":
             function, power = f"a{function}", ""
-            if function not in FUNCTIONS:
-                raise UnclearText
         if self.sign() == "|":  # ln|x|
             part = Part(f"{function}({self.atom().text})", 3, is_call=True)
         else:
@@ -67,8 +64,6 @@ class Functions(Sums):
             text += self.power().text + "*"
         token = self.peek()
         if not self.is_name(token):
-            if not text:
-                raise UnclearText
             return Part(f"{function}({text[:-1]})", 3, is_call=True)
         part = self.power()
         if part.level < 3 or self.sign() in {"/", "^"} or (text and function == "sqrt"):

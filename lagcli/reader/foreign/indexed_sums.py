@@ -96,8 +96,6 @@ def _repeated(text: str, names: Vocabulary) -> str:
 
 def _numbered(places: dict[str, str], names: Vocabulary, found: re.Match[str]) -> str:
     """The name of the file for M_ij; M12 also for M21."""
-    if found[0] in names.known:
-        return found[0]
     index = "".join(places.get(each, each) for each in found["index"])
     spelled = [
         f"{found['stem']}{gap}{order}" for order in (index, index[::-1]) for gap in ("_", "")

@@ -8,6 +8,7 @@ from collections.abc import Container
 from lagcli.reader.assignments import levels
 from lagcli.reader.foreign.functions import bare_text
 from lagcli.reader.regex import balanced, regex
+from lagcli.reader.text import as_sum
 
 #: One axis by its index, its letter or i, j, k.
 _AXES = {"1": 0, "2": 1, "3": 2, "x": 0, "y": 1, "z": 2, "i": 0, "j": 1, "k": 2}
@@ -131,7 +132,7 @@ def _of_unit_vectors(text: str, known: Container[str], length: int) -> list[str]
     if len(terms) < 2 and not length:
         return []
     size = max(length, *(axis + 1 for axis in found))
-    return [" + ".join(found.get(axis, ["0"])).replace("+ -", "- ") for axis in range(size)]
+    return [as_sum(found.get(axis, ["0"])) for axis in range(size)]
 
 
 def _term(text: str, known: Container[str]) -> tuple[int, str] | None:
