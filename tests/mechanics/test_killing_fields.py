@@ -14,6 +14,7 @@ from lagcli.mechanics.discovery.killing_jets import KillingJets
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.summary import summary
+from tests.oracle.constancy import digits_of
 
 from .derived import derive
 
@@ -155,3 +156,30 @@ T: A*(theta'^2 + phi'^2*sin(theta)^2)/2 + C*(psi' + phi'*cos(theta))^2/2
     found = summary(discovery)
     assert (found.independent, found.integrable) == (8, True)
     assert "e(3)" in (found.name or "")
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_what_stretches_a_cone_has_the_times_of_an_oscillator(seed):
+    """r = x^n of dr^2 + r^2 dl^2 with V = k r^2/2 + h/r^2: E and two more, sl(2,R), as of r alone.
+
+    De Alfaro, Fubini, Furlan, Nuovo Cim. A 34 (1976) 569.
+    """
+    draw = Random(seed)
+    n, sign = draw.choice([2, 3, "3/2"]), draw.choice(["", "-"])
+    profile = draw.choice(["exp(2*u)", "(1 + u^2)", "(2 + sin(u))"])
+    square = f"({n})^2*x^(2*({n}) - 2)*x'^2 + x^(2*({n}))*(u'^2 + {profile}*w'^2)"
+    V = f"{sign}k*x^(2*({n}))/2 + h/x^(2*({n}))"
+    derivation = derive(
+        "{coordinates: {x: {assume: positive}, u: {}, w: {}},"
+        f" parameters: {{k: {{assume: positive}}, h: {{}}}}, T: ({square})/2, V: {V}}}"
+    )
+    timed = [
+        c
+        for c in derivation.discovery.point_charges
+        if derivation.system.t in c.charge.free_symbols
+    ]
+    assert len(timed) == 2
+    assert min(digits_of(derivation).values()) > 20
+    # with that of the half plane, so(2,2)
+    name = summary(derivation.discovery).name
+    assert name == "so(2,2)" if "exp" in profile else "sl(2,R)" in name

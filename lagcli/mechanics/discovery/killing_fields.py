@@ -22,7 +22,7 @@ from itertools import combinations, product
 import sympy
 from sympy import Expr, Symbol
 
-from lagcli.algebra import derivative, dot
+from lagcli.algebra import derivative, dot, simplify
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, complexity, ordered
 from lagcli.mechanics.discovery.constant_curvature import ConstantCurvature, Vector
@@ -66,6 +66,33 @@ class KillingFields:
             and free_of(entries, [equations.t, *equations.v])
             and len(equations.q) <= _MOST_COORDINATES
         )
+
+    def rate_of(self, potential: Expr) -> Expr | None:
+        """K where grad (2 c V + xi.grad V) = K xi, xi being a gradient with L_xi g = 2 c g.
+
+        d^3f/dt^3 = -K df/dt for the time f of the symmetry that has it: V = k r^2/2 has K = 4 k.
+        """
+        q, g = self.metric.q, self.metric.g
+        for xi in self.fields if self.isometries < self.number else []:
+            c = self._stretched(xi) / 2
+            along = 2 * c * potential + dot(xi, [derivative(potential, x) for x in q])
+            pairs = [
+                (simplify(derivative(along, x)), simplify(dot(row, xi)))
+                for x, row in zip(q, g, strict=True)
+            ]
+            K = next((simplify(a / b) for a, b in pairs if b != 0), sympy.S.Zero)
+            if K != 0 and free_of(K, q) and not any(simplify(a - K * b) for a, b in pairs):
+                return K
+        return None
+
+    def _stretched(self, xi: Vector) -> Expr:
+        """2 c of L_xi g = 2 c g."""
+        q, g, n = self.metric.q, self.metric.g, range(self.metric.n)
+        i, j = next((i, j) for i in n for j in n if g[i][j] != 0)
+        change = dot(xi, [derivative(g[i][j], x) for x in q])
+        change += dot(g[i], [derivative(x, q[j]) for x in xi])
+        change += dot(g[j], [derivative(x, q[i]) for x in xi])
+        return simplify(change / g[i][j])
 
     @property
     def words(self) -> str:

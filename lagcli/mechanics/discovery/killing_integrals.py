@@ -47,6 +47,7 @@ from lagcli.mechanics.noether import Noether, NoetherCharge
 from lagcli.mechanics.total_derivative import boundary_term
 
 _MOST_UNKNOWNS = 450  # measured: at most 414, for D3
+_MOST_FUNCTIONS = 300
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,13 +147,17 @@ class KillingIntegrals:
 
     def _functions(self) -> list[Expr]:
         """Terms of V and of its slopes along the fields times monomials, the shortest first."""
-        q, X = self.equations.q, self.frame.X
+        q, X, one = self.equations.q, self.frame.X, sympy.S.One
         curved = bool(self.frame.accelerations)
-        monomials = self._monomials if len(q) == 2 or curved else [sympy.S.One, *X]
         gradient = self._gradient(self._rest)
         slopes = gradient if curved else [dot(A, gradient) for A in self.frame.spanning]
         terms = [term for each in (self._rest, *slopes) for term in bare_terms(each, q)]
-        made = dict.fromkeys(a * b for a in dict.fromkeys(terms) for b in monomials)
+        degrees = (2,) if len(q) == 2 or curved else (3, 1) if self.degree == 3 else (1,)
+        for highest in degrees:
+            monomials = [sympy.Mul(*x) for x in combinations_with_replacement([one, *X], highest)]
+            made = dict.fromkeys(a * b for a in dict.fromkeys(terms) for b in monomials)
+            if len(made) * len(q) < _MOST_FUNCTIONS:
+                break
         return sorted(made, key=lambda e: (sympy.count_ops(e), str(e)))
 
     @property

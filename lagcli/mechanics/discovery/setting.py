@@ -183,7 +183,23 @@ class Setting:
         given = self._of_exponential or self.accelerations
         times = time_functions(self.equations, given, potential=self.canonical)
         translations = dict.fromkeys([*times.translations, *self._of_momenta])
-        return replace(times, translations=tuple(translations))
+        stretching = self._of_stretching
+        return replace(
+            times,
+            translations=tuple(translations),
+            others=tuple(dict.fromkeys([*times.others, *stretching.others])),
+            exponents=(*times.exponents, *stretching.exponents),
+        )
+
+    @cached_property
+    def _of_stretching(self) -> TimeFunctions:
+        """Those with d^3f/dt^3 = -K df/dt where something stretches T and V suits it."""
+        rest = self.system.L.xreplace(dict.fromkeys(self.system.qdot, sympy.S.Zero))
+        fixed = self._fields is not None and free_of(rest, [self.system.t])
+        K = self._fields.rate_of(-rest) if self._fields is not None and fixed else None
+        x, v = sympy.Dummy("x", real=True), sympy.Dummy("v", real=True)
+        own = SlotEquations(self.system.t, (x,), (v,), (), ())
+        return time_functions(own, None if K is None else [-K * x / 4], potential=True)
 
     @property
     def _of_momenta(self) -> list[Expr]:
@@ -233,7 +249,18 @@ class Setting:
 
     @cached_property
     def killing(self) -> KillingFields | None:
-        """All isometries of a kinetic energy of another curvature, where `affine` has not all."""
+        """All isometries of another T, where `affine` has not all or what stretches T has times."""
+        q, kinds, found = self.equations.q, self.coordinate_kinds, self._fields
+        if found is None or self._of_stretching.exponents:
+            return found
+        with suppress(TooMuchWork):
+            if are_beyond(found.fields, kinds, q, self.allowed.part(0.45)):
+                return found
+        return None
+
+    @cached_property
+    def _fields(self) -> KillingFields | None:
+        """The isometries of a kinetic energy of another curvature, where all were found."""
         if self.isometries is not None or not (self.canonical and self.quadratic_mass):
             return None
         if self.dynamics.constraints.equations or not KillingFields.apply(self.equations):
@@ -241,8 +268,7 @@ class Setting:
         q, allowed = self.equations.q, self.allowed.part(0.45)
         with suppress(NoPoint, TooMuchWork, ZeroDivisionError):
             found = KillingFields(Metric(q, self.equations.mass), allowed)
-            whole = len(found.fields) == found.number
-            if whole and are_beyond(found.fields, self.coordinate_kinds, q, allowed):
+            if len(found.fields) == found.number:
                 return found
         return None
 
