@@ -127,6 +127,26 @@ def test_of_the_tops_that_lean_kovalevskayas_has_an_integral_of_fourth_degree(A,
     assert min(digits_of(derivation).values()) > 20
 
 
+@pytest.mark.parametrize("turned", ["", pytest.param(" + pi/3", marks=pytest.mark.long)])
+def test_kovalevskayas_top_in_two_equal_crossed_fields_has_one(turned):
+    """Bogoyavlensky, Commun. Math. Phys. 94 (1984) 255; a turn about the axis changes nothing."""
+    V = f"(1 + cos(theta))*cos(phi + psi{turned})"
+    T = "J*(theta'^2 + phi'^2*sin(theta)^2) + J*(psi' + phi'*cos(theta))^2/2"
+    derivation = derive(problem(f"{T} + c*{V}", "[phi, theta, psi]", "J c"))
+    found = summary(derivation.discovery)
+    assert (found.independent, found.in_involution, found.integrable) == (3, 3, True)
+    assert min(digits_of(derivation).values()) > 20
+
+
+def test_a_gas_cloud_has_an_integral_of_third_degree():
+    """Gaffet, J. Phys. A 31 (1998) 1581."""
+    lengths = "{x: {assume: positive}, y: {assume: positive}, z: {assume: positive}}"
+    derivation = derive(problem(f"{T3} - k*(x*y*z)^(-2/3)", lengths, "m k"))
+    found = summary(derivation.discovery)
+    assert (found.independent, found.in_involution, found.integrable) == (4, 3, True)
+    assert min(digits_of(derivation).values()) > 20
+
+
 @pytest.mark.parametrize("V", [
     holt("(r*cos(phi))", "(r*sin(phi))"),
     "k*(exp(2*a*r*sin(phi)) + 2*exp(-a*r*sin(phi))*cosh(sqrt(3)*a*r*cos(phi)))",

@@ -415,6 +415,9 @@ class Discovery(Setting):
         integrals = KillingIntegrals(self.noether, self.equations, frame, degree, self.allowed)
         found = integrals.found(self.charges)
         self._say_unproved(integrals.unproved)
+        if integrals.unsolved:
+            there = more(integrals.unsolved, "first integral")
+            self.stopped.append(f"{there} there, whose coefficients were not solved")
         return found
 
     def _say_unproved(self, number: int) -> None:

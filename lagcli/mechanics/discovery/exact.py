@@ -25,7 +25,8 @@ _MOST_ATOMS = 8
 _MOST_LINEAR = 12  # all differences and sums of four constants
 #: Terms: two bodies in space need more than 10,000; 35,000 of hyperbolic functions take 17 s.
 _MOST_COMMON = 20_000
-_POWERS = (-2, -1, 1, 2)
+_POWERS = (-4, -3, -2, -1, 1, 2, 3, 4)
+_NUMBERS = [sign * Rational(n) for n in ("1", "1/2", "2", "3", "4") for sign in (1, -1)]
 _KINDS = ("symbol", "root", "sin", "cos", "abs")
 
 
@@ -88,7 +89,8 @@ class ExactSolver:
         plain = small_fraction(value)
         if plain is not None:
             return Rational(plain.numerator, plain.denominator)
-        return self._multiple_of(self._constant_monomials(), value) or self._two_monomials(value)
+        known = self._multiple_of(self._constant_monomials(), value) or self._two_monomials(value)
+        return known or self._beside_a_number(value)
 
     def _multiple_of(self, monomials: Sequence[_ConstantMonomial], value: int) -> Expr | None:
         fractions = _smallest_fractions()
@@ -110,6 +112,15 @@ class ExactSolver:
             if found is not None:
                 other, sign = found
                 return factor * one.expression + sign * other.expression
+        return None
+
+    def _beside_a_number(self, value: int) -> Expr | None:
+        """A small number and a monomial, as 2 - 2 b."""
+        for number in _NUMBERS:
+            plain = number.p * pow(number.q, -1, PRIME)
+            known = self._multiple_of(self._constant_monomials(), value - plain)
+            if known is not None:
+                return number + known
         return None
 
     def _of_differences(self, value: int) -> Expr | None:

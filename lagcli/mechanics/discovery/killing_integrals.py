@@ -78,6 +78,7 @@ class KillingIntegrals:
         self.degree = degree
         self.allowed = allowed
         self.unproved = 0  # integrals that are there, without a formula for S
+        self.unsolved = 0  # without exact coefficients
         self._still = dict.fromkeys(equations.v, sympy.S.Zero)
         self._rest = noether.system.L.xreplace(self._still)
         w = frame.factor
@@ -101,7 +102,9 @@ class KillingIntegrals:
         products = [self._compared(Q) for Q in self._products(known)]
         variables = (self.equations.t, *self.equations.q, *self.equations.v)
         more = [e for rows in (values, products) for row in rows for e in row]
-        relations = Relation(columns, variables, self.allowed, more).beyond(values, products)
+        relation = Relation(columns, variables, self.allowed, more)
+        relations = relation.beyond(values, products)
+        self.unsolved = relation.unsolved
         found = [self._proved(list(c.values()), [parts[i] for i in c]) for c in relations]
         self.unproved = found.count(None)
         return [charge for charge in found if charge is not None]

@@ -44,6 +44,7 @@ class Relation:
         more: Sequence[Expr] = (),
     ) -> None:
         self.vectors = [list(v) for v in vectors]
+        self.unsolved = 0  # combinations that `beyond` knows modulo the prime only
         self.tree = Tree([*more, *(e for v in self.vectors for e in v)], variables, allowed)
 
     def rows(self, count: int) -> list[list[int]]:
@@ -72,7 +73,8 @@ class Relation:
         kernel = self.kernel(components or len(self.vectors[0]))[::-1]
         count = (len(known) + len(kernel) + 8) * len(values[0])  # components may be dependent
         table = self.tree.rows([*known, *values], count)
-        found = map(self.exact, independent(table, len(known), kernel))
+        found = [self.exact(vector) for vector in independent(table, len(known), kernel)]
+        self.unsolved = found.count(None)
         return [c for c in found if c is not None]
 
     def exact(self, vector: dict[int, int]) -> dict[int, Expr] | None:
