@@ -143,7 +143,10 @@ def _rotations(equations: SlotEquations) -> list[Vector]:
 
 
 def common_factors(equations: SlotEquations) -> list[Expr]:
-    """w: M_kk, the factors with coordinates that all M_ik have in common, and sums among them."""
+    """w: M_kk, the factors with coordinates that all M_ik have in common, and sums among them.
+
+    Each sum alone, too: (x^2 + y^2) (x'^2 + y'^2) is flat, in (x + i y)^2.
+    """
     if len(equations.q) not in _COORDINATES:
         return []
     entries = [sympy.factor(m) for row in equations.mass for m in row if m != 0]
@@ -152,7 +155,7 @@ def common_factors(equations: SlotEquations) -> list[Expr]:
     sums = [f for f in moving if f.as_base_exp()[0].is_Add]
     own = [row[k] for k, row in enumerate(equations.mass) if moving or len(equations.q) == 2]
     found: list[Expr] = [sympy.S.One]
-    for w in (*own, sympy.Mul(*moving), sympy.Mul(*sums)):
+    for w in (*own, sympy.Mul(*moving), sympy.Mul(*sums), *sums):
         if all(not free_of(simplify(w / other), equations.q) for other in found):
             found.append(w)
     return found[1:]
