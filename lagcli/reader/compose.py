@@ -271,15 +271,11 @@ class _Composer:
                 if is_open and key.label[-1:] != "'" and f"{key.label}'" not in labels:
                     hint = f"the key is {key.label}'"
                 self._report(key.start, key.end, message, hint, related)
-                nothing = Scalar(self.text, key.end, key.end, "", "", True)
-                listed = [(each, nothing) for each in getattr(value, "items", ())]
-                added = getattr(value, "entries", listed)
                 if isinstance(first_value, Sequence):
-                    first_value.items.extend(each for each, _ in added)
+                    first_value.items.extend([*value.parts, *(each for each, _ in value.pairs)])
                 elif isinstance(first_value, Mapping):
-                    given = {"", *names_in(first_value)}
-                    other = (x for x in added if getattr(x[0], "label", "") not in given)
-                    first_value.entries.extend(other)
+                    given = {*names_in(first_value)}
+                    first_value.entries.extend(x for x in value.pairs if x[0].label not in given)
             else:
                 entries[key.label] = (key, value)
         return list(entries.values())

@@ -30,12 +30,13 @@ def friction_slips(
 ) -> Iterator[Diagnostic]:
     """A warning for each force that drives where friction would brake, or brakes another motion."""
     text = SourceText.of(source)
-    for x, force in forces.items():
-        for term in _constant(force, {*coordinates, *signs}, signs):
-            message = f"this friction along {x} does not change its sign with {x}'"
-            yield _warning(message, term.span, f"write {text.written(term.span)}*sign({x}')")
     laws = {x: [*_laws(force, coordinates, signs)] for x, force in forces.items()}
     for x, found in laws.items():
+        for law in found if not _rates(forces[x]) else ():
+            message = f"this friction along {x} does not change its sign with {x}'"
+            yield _warning(
+                message, law.term.span, f"write {text.written(law.term.span)}*sign({x}')"
+            )
         own = [law for law in found if law.along == x]
         is_alone = len(own) == 1 and _rates(forces[x]) == {x}
         for law in own if is_alone else ():
@@ -44,7 +45,7 @@ def friction_slips(
                 whole = opposite(law.term, text)
                 whole = f": {whole}" if whole else f", as in -c*{x}'"
                 yield _warning(message, law.term.span, f"friction is opposite to it{whole}")
-        others = [law for law in found if law.along != x]
+        others = [law for law in found if law.along not in {"", x}]
         for law in others if not own and len(others) == 1 and _rates(forces[x]) != {x} else ():
             back = [each for each in laws.get(law.along, ()) if each.along == x]
             is_swapped = bool(back) and back[0].sign == law.sign == -1
@@ -52,16 +53,6 @@ def friction_slips(
                 message = f"this force along {x} is against the velocity {law.along}'"
                 hint = f"friction along {x} depends on {x}'"
                 yield _warning(message, law.term.span, hint)
-
-
-def _constant(force: Expression, known: set[str], signs: Mapping[str, int]) -> Iterator[Expression]:
-    """The terms such as -mu*m*g of a force without velocities."""
-    is_plain = {str(node) for node in name_nodes(force)} <= known
-    for term in terms_of(force) if is_plain else ():
-        names = {node.name for node in name_nodes(term)}
-        is_dry = names & _NORMAL and any(map(_COEFFICIENT.fullmatch, names))
-        if is_dry and plain_sign(term, signs, {}, 1) == -1:
-            yield term
 
 
 def opposite(formula: Expression, text: SourceText) -> str:
@@ -72,10 +63,10 @@ def opposite(formula: Expression, text: SourceText) -> str:
 
 
 class _Law(NamedTuple):
-    """A term that is odd in one velocity, times constants."""
+    """A term that is odd in one velocity, times constants, or the friction -mu*m*g."""
 
     term: Expression
-    along: str  #: the coordinate with that velocity
+    along: str  #: the coordinate with that velocity, if any
     sign: int  #: of the term where the velocity is positive
     is_dry: bool  #: with sign(x')
 
@@ -86,7 +77,11 @@ def _laws(
     for term in terms_of(force):
         names = name_nodes(term)
         rates = {each.name for each in names if each.primes}
-        known = all(each.name in signs for each in names if not each.primes)
+        constants = {each.name for each in names if not each.primes}
+        known = constants <= signs.keys()
+        is_dry = constants & _NORMAL and any(map(_COEFFICIENT.fullmatch, constants))
+        if not rates and known and is_dry and plain_sign(term, signs, {}, 1) == -1:
+            yield _Law(term, "", -1, True)
         if len(rates) != 1 or not known or not rates <= {*coordinates}:
             continue
         [along] = rates

@@ -46,8 +46,6 @@ _NO_ACCELERATION = "leave it out: a state has x and x'"
 _SIMULATION_ATTRIBUTES = ("until", "accuracy", "method")
 
 _RELATION = regex("[=<>≤≥]")
-#: Of definitions in one another.
-_DEEPEST = 3
 #: The words and letters of an unknown, xmax as x and max.
 _PART = regex(r"[^\W_\d]+?(?=m(?:ax|in)(?![a-z]))|[^\W_\d]+'*|\d+")
 _EXTREME = regex(
@@ -128,9 +126,8 @@ def _state_name(
             turns = re.search(r"ang|áng|wink|угл|угол", key.label, re.IGNORECASE) is not None
             along = [x for x in coordinates if is_angle(x) == turns] or coordinates
             number = source_of(value) if len(along) == 1 else "…"
-            number = (
-                with_radians(number, most=6.3) if is_angle(along[0]) and not is_rate else number
-            )
+            turned = with_radians(number, most=6.3)
+            number = turned if is_angle(along[0]) and not is_rate else number
             if not turns or along[0] not in {*"xyzrs"}:
                 hint = f"write {along[0]}{chr(39) * is_rate}: {number or '…'}"
         if re.search(r"[=→>]", key.label):
@@ -143,8 +140,8 @@ def _state_name(
             rate = _put_in(law, {**state, f"p_{momentum}": number}) if number != "0" else "0"
             is_known = not {*coordinates} & {*re.findall(r"\w+", rate)} and formula_or_none(rate)
             given = f"write {momentum}': {rate}" if is_known else f"give {momentum}' = {law}"
-            given = given if law else f"give {momentum}': {rule.format(momentum)}"
-            hint = f"a state has velocities, not momenta: {given}"
+            hint = "a state has velocities, not momenta: "
+            hint += given if law else f"give {momentum}': {rule.format(momentum)}"
         if part := key_meant(key.label, _SIMULATION_ATTRIBUTES):
             inner = f"{part}: {source_of(value)}"
             hint = f"an end of the run stands under simulation: write simulation: {{{inner}}}"
@@ -400,22 +397,14 @@ def read_simulation(file: FileReader, node: DocumentNode) -> SimulationDefaults:
 
 def _number(file: FileReader, node: DocumentNode, what: str) -> Expression:
     wrong = _number_meant(node.value, what) if isinstance(node, Scalar) else None
-    if wrong is None and (whole := _in_numbers(source_of(node), file.scope.formulas)):
+    whole = _put_in(_put_in(source_of(node), file.scope.formulas), file.scope.formulas)
+    names = {each.name for each in name_nodes(formula_or_none(whole) or Name("?"))}
+    if wrong is None and whole != source_of(node) and names <= {"pi"}:  # 2*pi*sqrt(m/k)
         wrong = f"{what} is a number", f"write {whole}"
     if wrong is None:
         return file.expression(node, what, NUMBERS)
     file.error(wrong[0], node.span, wrong[1])
     return ZERO
-
-
-def _in_numbers(text: str, values: dict[str, str]) -> str:
-    """`2*pi*sqrt(1/4)` for `2*pi*sqrt(m/k)`; nothing for numbers and where values are missing."""
-    whole = text
-    for _ in range(_DEEPEST):
-        whole = _put_in(whole, values)
-    formula = formula_or_none(whole)
-    names = {"?"} if formula is None else {node.name for node in name_nodes(formula)}
-    return whole if whole != text and names <= {"pi"} else ""
 
 
 def _put_in(text: str, values: dict[str, str]) -> str:
