@@ -48,7 +48,7 @@ def read_functions(file: FileReader, node: DocumentNode) -> dict[str, tuple[str,
             names = call[2] if call else "" if hint.startswith(_FORMULA) else given
             file.scope.arguments[name] = re.split(r"\s*,\s*", names)
             continue
-        listed = f"write {name}: [{variables.get(name, first)}]"
+        listed = f"write {name}: [{variables.get(name, first)}]" * value.is_empty
         arguments = [file.scalar(item, f"an argument of '{key.label}'")
                      for item in file.items(value, what, listed)]  # fmt: skip
         for argument in arguments:
