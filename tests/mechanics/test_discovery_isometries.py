@@ -44,6 +44,20 @@ def test_a_flat_plane_has_the_eight_of_a_free_particle(name):
     assert found.name.startswith("Schrödinger sch(2)")
 
 
+CONES = {"r": (17, "Schrödinger sch(4)"), "sinh(r)": (11, "so(4,1)"), "2*sin(r/2)": (11, "so(5)")}
+
+
+@pytest.mark.parametrize("f", mostly_long(CONES, "r"))
+def test_what_stands_over_a_sphere_in_eulers_angles_has_constant_curvature(f):
+    """dr^2 + f^2 dl^2: flat, hyperbolic and a sphere, of four dimensions."""
+    sphere = "(theta'^2 + sin(theta)^2*phi'^2 + (psi' + cos(theta)*phi')^2)/4"
+    coordinates = f"{{r: {POS}, theta: {{}}, phi: {{}}, psi: {{}}}}"
+    found = summary(derive(problem(f"(r'^2 + ({f})^2*{sphere})/2", coordinates)).discovery)
+    dimension, name = CONES[f]
+    assert found.dimension == dimension
+    assert found.name.startswith(name)
+
+
 @pytest.mark.long
 @pytest.mark.parametrize("V", ["0", "b*a^3"])
 def test_a_universe_with_a_scalar_field_is_a_flat_plane_of_powers(V):

@@ -58,7 +58,7 @@ def ambient_functions(metric: Metric, allowed: Allowance) -> list[Expr]:
     if metric.n == 1:
         length = _arc_length(metric.g[0][0], metric.q[0])
         return [] if length is None else [length]
-    for tried in (_of_warped(metric, K), _of_all(metric, K)):
+    for tried in chain([_of_warped(metric, K)], _of_cone(metric, allowed), [_of_all(metric, K)]):
         if len(tried) > _MOST:
             return []
         try:
@@ -138,6 +138,28 @@ def _of_warped(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
         pairs = zip(metric.q, factors, strict=True)
         factors = [chain(each, _of_stretching(x, metric)) for x, each in pairs]
     return list(product(*({sympy.S.One: None, **dict.fromkeys(each)} for each in factors)))
+
+
+def _of_cone(metric: Metric, allowed: Allowance) -> Iterator[list[tuple[Expr, ...]]]:
+    """f Y and df/ds for ds^2 + f^2 h, with the Y of a curved h of more than two coordinates."""
+    for k, x in enumerate(metric.q):
+        others = [i for i in range(metric.n) if i != k]
+        if metric.n < 4 or any(metric.g[i][k] != 0 for i in others):
+            continue
+        rest = metric.of(others)
+        split = [simplify(e).as_independent(*rest.q, as_Add=False) for row in rest.g for e in row]
+        first = next(own for own, _ in split if own != 0)
+        if not free_of(metric.g[k][k], rest.q) or any(
+            not free_of(other, [x]) or not free_of(simplify(own / first), [x])
+            for own, other in split
+        ):
+            continue
+        h = Metric(rest.q, [[simplify(e / first) for e in row] for row in rest.g])
+        Y = ambient_functions(h, allowed) if h.curvature != 0 else []
+        f = _real_beside(_root(first), metric.g[k][k])
+        slope = simplify(f.diff(x) / _real_beside(_root(metric.g[k][k]), metric.g[k][k]))
+        if Y:
+            yield [*((f, y) for y in Y), (slope,)]
 
 
 def _of_all(metric: Metric, K: Expr) -> list[tuple[Expr, ...]]:
