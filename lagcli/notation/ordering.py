@@ -80,8 +80,6 @@ class Ordering:
                 return (2, *self._parts(node))
             case Sum() if self._is_plain(node):
                 return (1, 0, self._first(node), "~", *self._parts(node))
-            case Sum():
-                return (3, *self._parts(node))
             case Call(function=function, primes=primes):
                 varies = function in _CIRCULAR and not self._is_constant(node)  # sin α sin θ
                 return (4, varies, _RANK.get(function, function), primes, *self._parts(node))
@@ -109,14 +107,11 @@ class Ordering:
         (J + m r²) φ'²/2, m g (R + h) cos θ, m l (x' cos θ + l θ'), k (y − b) ((x − a)² + (y − b)²).
         """
         base = node.base if isinstance(node, Power) else node
-        if isinstance(base, Call) and base.function == "sqrt":
-            (base,) = base.arguments
-        elif (
-            isinstance(base, Call)
-            and base.function == "abs"
-            and isinstance(base.arguments[0], Name)
-        ):
-            return self.rank(base.arguments[0])
+        match base:
+            case Call(function="sqrt", arguments=(inner,)):
+                base = inner
+            case Call(function="abs", arguments=(Name() as letter,)):
+                return self.rank(letter)
         key = self._term(base if isinstance(base, Sum) else node)
         if isinstance(base, Sum) and not any(self._is_fast(part) for part in walk(base)):
             nested = any(isinstance(part, Sum) for term in base.terms for part in walk(term))
@@ -131,10 +126,11 @@ class Ordering:
         letters = [self._place(base) for base, _ in ranked if isinstance(base, Name)]
         first = min(letters, default=_AFTER_NUMBERS)
         # (m1 + m2) g l, (2 + sqrt(2)) k, but m g (R + h) and m2 (J + m1 r²)
+        numbers = [pair for pair in ranked if isinstance(pair[0], Number)]
+        numbers += [pair for pair in ranked if _is_root_of_number(pair[0])]
         leading = [pair for pair in ranked if self._leads(pair[0], first)]
-        yield from (pair for pair in ranked if isinstance(pair[0], Number))
-        yield from leading
-        yield from (p for p in ranked if p not in leading and not isinstance(p[0], Number))
+        yield from (*numbers, *leading)
+        yield from (pair for pair in ranked if pair not in (*numbers, *leading))
 
     def with_letters(self, factors: Sequence[Expression]) -> list[Expression]:
         """The factors with the letters among them in their order: m g for g m."""
@@ -321,6 +317,10 @@ def _has_letters(node: Expression) -> bool:
     return any(isinstance(part, Name) for part in walk(node))
 
 
+def _is_root_of_number(node: Expression) -> bool:
+    return isinstance(node, Call) and node.function == "sqrt" and not _has_letters(node)
+
+
 def positive_first(terms: Sequence[Expression]) -> list[Expression]:
     """The terms with one that has no minus first; of a sum at rest all that follow it.
 
@@ -470,8 +470,6 @@ def _factor_names(node: Expression) -> Iterator[Name]:
         case Product(factors=factors):
             for factor in factors:
                 yield from _factor_names(factor)
-        case _:
-            return
 
 
 def _flat(key: Key) -> Flat:

@@ -125,3 +125,16 @@ def test_a_potential_without_a_minimum_is_named_by_a_formula(name: str) -> None:
     answers = solve(read_problem("t.yaml", file.encode()).checked(), ["reduction"])
     shown = name.replace("_eff", r"_{\mathrm{eff}}")
     assert f"${shown}$ has no minimum" in render([answers], "latex", Options())
+
+
+@pytest.mark.parametrize("root", ["sqrt(2)", "sqrt(3)", "sqrt(7)"])
+@pytest.mark.parametrize("inside", ["{}*q", "q*{}", "{}*(a + b)*q", "(a + b)*{}*q", "{}*pi*q"])
+def test_a_root_of_a_number_stands_with_the_numbers(root: str, inside: str) -> None:
+    """In the energy, with the products of the file, as in the momenta."""
+    angle = inside.format(root)
+    physics = f"L: q'^2/2 + exp(q)*(cos({angle})*s'^2 - 2*sin({angle})*q'*s')/2"
+    found = text("q, s", "a b", physics, "energy", "momenta")
+    shown = f"√{root[5]} "
+    assert f"cos({shown}" in found
+    assert f"sin({shown}" in found
+    assert found.count("cos(") == found.count(f"cos({shown}")
