@@ -553,3 +553,19 @@ def test_of_what_rolls_on_a_moving_or_curved_ground_all_are_found(name):
     charges = [c.charge for c in discovery.charges]
     assert rank_on_surface(found.dynamics, charges) == number
     assert rank_on_surface(found.dynamics, [*charges, expected]) == number
+
+
+@pytest.mark.parametrize(("axis", "power"), [("z", 2), ("x", 2), ("y", 4)])
+def test_without_its_field_a_charge_on_a_cylinder_turns_and_glides(axis, power):
+    """As with an angle in place of the constraint."""
+    u, w = (x for x in "xyz" if x != axis)
+    derivation = derive(
+        f"{{coordinates: [x, y, z], parameters: {{m: {{assume: positive}}, B: {{}}}}, "
+        f"L: \"m*(x'^2 + y'^2 + z'^2)/2 + B*{u}*{axis}'\", "
+        f"constraints: {{tube: {u}^{power} + {w}^{power} = 1}}}}"
+    )
+    [case] = derivation.special_cases
+    assert (str(case.parameter), case.value) == ("B", 0)
+    new = {c.name for c in case.charges}
+    assert f"boost_{axis}" in new
+    assert (f"L_{axis}" in new) is (power == 2)

@@ -9,6 +9,7 @@ charge in crossed fields has the eight of the oscillator in a frame that drifts 
 """
 
 import re
+from random import Random
 
 import pytest
 import sympy
@@ -790,3 +791,19 @@ def test_two_coupled_oscillators_of_one_changing_mass_have_their_phases(factor, 
     )
     assert summary(found.discovery).independent == 4
     assert not found.discovery.stopped
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(2))
+def test_without_a_core_a_fading_spring_in_space_has_its_phases(seed):
+    """u/t of x = t u(1/t) oscillates: Kamke, *Differentialgleichungen*, 2.14; 3 (3 + 1) in all."""
+    random = Random(seed)
+    letters, time = random.choice(["xyz", "uvw"]), random.choice(["t", "(1 + b*t)", "(2 - t)"])
+    R = "(" + " + ".join(f"{x}^2" for x in letters) + ")"
+    v = " + ".join(f"{x}'^2" for x in letters)
+    derivation = derive(
+        f"{{coordinates: [{', '.join(letters)}], parameters: {{k: {POS}, b: {POS}, g: {{}}}}, "
+        f'L: "({v})/2 - k*{R}/(2*{time}^4) - g/{R}"}}'
+    )
+    [case] = derivation.special_cases
+    assert (str(case.parameter), case.value, case.number) == ("g", 0, 12)

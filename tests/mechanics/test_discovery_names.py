@@ -532,3 +532,44 @@ def test_keplers_problem_on_a_curved_plane_names_its_runge_lenz_vector(sign):
     at_rest = found["runge_lenz_x"].charge.xreplace(still)
     ratio = sympy.simplify(at_rest * sympy.sqrt(x**2 + y**2) / x)
     assert ratio.subs(sympy.Symbol("k", positive=True), 1) < 0
+
+
+FIELDS = {  # of the unit vectors e_3 of the body in space, and e_z of space in the body
+    "L_x": "sin({phi})*sin(s)", "L_y": "-cos({phi})*sin(s)",
+    "L_1": "sin({psi})*sin(s)", "L_2": "cos({psi})*sin(s)",
+}  # fmt: skip
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", FIELDS)
+@pytest.mark.parametrize(("phi", "psi"), [("phi", "psi"), ("a", "b"), ("b", "a")])
+def test_an_axis_along_a_field_is_one_of_space_whatever_the_field_turns(name, phi, psi):
+    """z-x-z: Goldstein, Poole, Safko, section 4.4; the spherical top turns about those of its body.
+
+    Of a top with C = A nothing but the letters and their order tell space and body apart.
+    """
+    C, field = "A" if name[2:].isdigit() else "C", FIELDS[name].format(phi=phi, psi=psi)
+    q = [phi, "s", psi] if C == "A" else Random(name + phi).sample([phi, "s", psi], 3)
+    found = names_of(
+        f"{{coordinates: [{', '.join(q)}], "
+        f"parameters: {{{', '.join(f'{p}: {POS}' for p in sorted({'A', C, 'c'}))}}}, "
+        f"T: \"A*(s'^2 + {phi}'^2*sin(s)^2)/2 + {C}*({psi}' + {phi}'*cos(s))^2/2\", V: -c*{field}}}"
+    )
+    assert {n for n in found if n.startswith("L_")} == {name}
+    of_s = {"L_x": "cos({phi})", "L_y": "sin({phi})", "L_1": "cos({psi})", "L_2": "-sin({psi})"}
+    change = found[name].transformation.changes[q.index("s")]
+    assert str(change) == of_s[name].format(phi=phi, psi=psi)
+
+
+@pytest.mark.parametrize("axis", "xyz")
+@pytest.mark.parametrize("number", ["1", "2"])
+def test_a_screw_is_no_rotation(axis, number):
+    """A cholesteric crystal; its components of p are turned as it goes along the axis."""
+    u, w = (x for x in "xyz" if x != axis)
+    wave = f"cos({number}*{axis})*({u}'^2 - {w}'^2) + 2*sin({number}*{axis})*{u}'*{w}'"
+    derivation = derive(
+        f"{{coordinates: [x, y, z], parameters: [], T: \"(x'^2 + y'^2 + z'^2)/2 + ({wave})/6\"}}"
+    )
+    found = {c.name for c in derivation.discovery.charges}
+    assert found == {"energy", f"p_{u}", f"p_{w}", "charge_1"}
+    assert f"with sines and cosines of {axis}, polynomial" in derivation.discovery.ansatz

@@ -29,6 +29,7 @@ from lagcli.mechanics.discovery.spectrum import (
     sums,
 )
 from lagcli.mechanics.discovery.time_dependent import of_changing_coefficients
+from lagcli.statements.wording import enumerated
 
 _MOST_FUNCTIONS = 60  # measured: at most 54
 _MOST_CURVED = 4
@@ -46,6 +47,11 @@ class TimeFunctions:
     changing: bool = False  # with the solutions of a linear equation whose coefficients change
     lacking: bool = False  # no closed form was found of exponents of linear equations
     unsolved: bool = False  # no formula is known for solutions of such an equation
+
+    @property
+    def suggested(self) -> bool:
+        """Whether the equations of motion suggest some beyond powers of t."""
+        return bool(self.exponents or self.changing or self.forced)
 
     @property
     def words(self) -> str:
@@ -293,6 +299,7 @@ def in_words(spaces: Sequence[Expr], kinds: Kinds) -> str:
         shapes.append("with powers −2 to 3 of the coordinate" if kinds.powers else degree)
         if kinds.exponentials:
             shapes.append("and in exponentials of them")
-    if any(s.has(sympy.sin, sympy.cos) for s in spaces):
-        shapes.append("with sines and cosines of the angles")
+    turning = {x for s in spaces for f in s.atoms(sympy.sin, sympy.cos) for x in f.free_symbols}
+    if angles := [x.name for x in kinds.angles if x in turning]:
+        shapes.append(f"with sines and cosines of {enumerated(angles)}")
     return " ".join(shapes) or "constant in the coordinates"

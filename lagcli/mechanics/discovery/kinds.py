@@ -38,7 +38,7 @@ class Kinds:
     angles: list[Symbol] = field(default_factory=list)
     radii: list[Symbol] = field(default_factory=list)
     cyclic: list[Symbol] = field(default_factory=list)  # among the angles
-    tilted: list[Symbol] = field(default_factory=list)  # of the cyclic, with an inertia that varies
+    precessing: list[Symbol] = field(default_factory=list)  # in no inertia, and its own one varies
     latitudes: Mapping[Symbol, Expr] = field(default_factory=dict)  # with what is 0 at the poles
     alone: list[Symbol] = field(default_factory=list)  # cyclic, in no inertia with a latitude
     curved: bool = False
@@ -94,8 +94,6 @@ def kinds(
         (found.angles if angle else found.lengths).append(x)
         if angle and cyclic:
             found.cyclic.append(x)
-            if not free_of(inertia[x][equations.q.index(x)], equations.q):
-                found.tilted.append(x)
         elif cyclic and x in turning:
             found.angles.append(x)
         elif angle and x in travelling:
@@ -116,6 +114,10 @@ def kinds(
     found.angles += [x for x in found.waves if x not in found.angles]
     not_waves = [x for x in found.lengths if x not in found.waves]
     in_inertia = {s for row in equations.mass for m in row for s in m.free_symbols}
+    found.precessing = [
+        x for k, x in enumerate(equations.q)
+        if x in found.angles and x not in in_inertia and not free_of(inertia[x][k], equations.q)
+    ]  # fmt: skip
     found.curved = set(found.angles) <= set(not_waves) and not in_inertia.isdisjoint(found.lengths)
     found.powers = len(found.lengths) == len(equations.q) == 1 and not free_of(
         equations.mass[0][0], equations.v

@@ -200,7 +200,8 @@ class Naming:
         """Of two of x, y and z, and of the angles of a body with them."""
         places = {x: e for x, e in moved.items() if x.name in "xyz" and abs(e) in map(abs, moved)}
         turned = {x: e for x, e in moved.items() if x not in places}
-        if len(places) != 2 or not turned or not {*turned} <= {*self.kinds.angles}:
+        angles = {x for x in self.kinds.angles if x.name not in "xyz"}  # in a screw z moves, too
+        if len(places) != 2 or not turned or not {*turned} <= angles:
             return ""
         (x, one), (y, other) = places.items()
         inside = sympy.Tuple(*turned.values()).free_symbols
@@ -297,12 +298,9 @@ class Naming:
         alike, it is the one that is not called phi, or the later one.
         """
         [angle] = tilt.free_symbols
-        if angle not in self.kinds.cyclic:
-            return True
-        alike = [x for x in self.q if x in self.kinds.cyclic and x in moved]
-        named = next((x for x in alike if x.name == "phi"), alike[0])
-        precessing = next((x for x in alike if x in self.kinds.tilted), named)
-        return bool(precessing != angle)
+        pair = [x for x in self.q if moved.get(x, tilt) != tilt]
+        named = next((x for x in pair if x.name == "phi"), pair[0])
+        return bool(next((x for x in pair if x in self.kinds.precessing), named) != angle)
 
     def orientation(self, name: str, charge: NoetherCharge) -> Expr:
         """The sign that turns a charge into the textbook's: L_y = z p_x - x p_z."""

@@ -164,10 +164,8 @@ def _to_try(
     system, equations = searched.system, searched.equations
     if searched.dynamics.constraints.equations:
         discovery.words.append(_NOT_ALL)
-        values = exchanged(discovery.dynamics)
-        if discovery.dynamics.constraints.nonholonomic:
-            values += [*equal_inertias(system), *missing(system.parameters)]
-        return values, []
+        inertias = equal_inertias(system)
+        return [*exchanged(discovery.dynamics), *inertias, *missing(system.parameters)], []
     factors, pairs = _factors(searched, allowed)
     discovery.words += [_NOT_ALL] if _NOT_ALL in searched.words else []
     together = both_vanish(pairs, factors, system.parameters)
@@ -188,12 +186,11 @@ def _to_try(
         system.t in p.base.free_symbols and p.exp.free_symbols for p in system.L.atoms(sympy.Pow)
     ):
         discovery.words.append(_NOT_ALL)  # t^n: functions of time with other powers
-    exponents = searched.time_functions.exponents
-    if len(system.q) == 1 or exponents or _NOT_ALL in searched.words:
+    if len(system.q) == 1 or searched.time_functions.suggested or _NOT_ALL in searched.words:
         factors += system.parameters  # a term less: linear, with functions of time
     # without charges with these functions of time only those of a frame may be alike
     ratios = _RATIOS if _is_timed(searched) else (1,)
-    values = candidates(searched.dynamics, factors, exponents, ratios)
+    values = candidates(searched.dynamics, factors, searched.time_functions.exponents, ratios)
     both = inertia if searched.quadratic_mass else system.parameters
     together += both_missing(values, both, system, at_rest)
     if searched.accelerations:
