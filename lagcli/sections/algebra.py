@@ -32,6 +32,7 @@ from lagcli.statements.motions import Above
 from lagcli.statements.wording import conditions, rows_by_name, values_of, where_real
 
 if TYPE_CHECKING:
+    from lagcli.mechanics.discovery.special import SpecialCase
     from lagcli.mechanics.statements import Statements
 
 _SHARE = 0.8  # of the work that is left, for the Hamilton-Jacobi equation
@@ -41,7 +42,6 @@ _AS_WELL = ("R^", "R with", "Heisenberg", "Galilei")
 
 def derive(statements: Statements) -> AlgebraSection | None:
     """From the brackets of the generators; None where one is missing."""
-    from lagcli.mechanics.discovery.reality import real_where
     from lagcli.mechanics.discovery.summary import algebra_section, summary
 
     discovery = statements.derivation.discovery
@@ -54,28 +54,26 @@ def derive(statements: Statements) -> AlgebraSection | None:
     if missing:
         statements.lacks("the algebra of all symmetries", missing)
         return None
-    special = tuple(
-        SpecialValue(
-            parameter=case.parameter.name,
-            value=statements.as_written(case.value),
-            number=case.number,
-            degree=case.degree,
-            charges={c.name: statements.by_terms(c.charge) for c in case.charges},
-            given={p.name: statements.as_written(value) for p, value in case.given},
-            where=tuple(
-                dict.fromkeys(
-                    bound
-                    for charge in case.charges
-                    for bound in real_where(
-                        charge, statements.system, [case.value, *(v for _, v in case.given)]
-                    )
-                )
-            ),
-        )
-        for case in statements.derivation.special_cases
-    )
+    special = tuple(_special(statements, case) for case in statements.derivation.special_cases)
     section = algebra_section(discovery, found, lambda: _separates(statements))
     return replace(section, special=special, named_where=_named_where(statements, found.name))
+
+
+def _special(statements: Statements, case: SpecialCase) -> SpecialValue:
+    from lagcli.mechanics.discovery.reality import finite_where, real_where
+
+    system, values = statements.system, [case.value, *(v for _, v in case.given)]
+    charges = {c.name: statements.by_terms(c.charge) for c in case.charges}
+    bounds = [b for charge in case.charges for b in real_where(charge, system, values)]
+    return SpecialValue(
+        parameter=case.parameter.name,
+        value=statements.as_written(case.value),
+        number=case.number,
+        degree=case.degree,
+        charges=charges,
+        given={p.name: statements.as_written(value) for p, value in case.given},
+        where=tuple(dict.fromkeys([*finite_where(charges.values(), system, values), *bounds])),
+    )
 
 
 def _named_where(statements: Statements, name: str | None) -> tuple[Above, ...]:
@@ -125,8 +123,10 @@ def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
         verdict = "Whether the motion is integrable is undecided."
     elif section.separates:
         verdict = "The Hamilton-Jacobi equation separates: the motion is integrable."
-    elif section.determined:
+    elif section.determines == "state":
         verdict = "The motion is integrable: these give the state at every time."
+    elif section.determines == "orbit":
+        verdict = "The motion is integrable: these give the orbit, and a quadrature the time."
     yield Paragraph((verdict,))
     for cases in _alike(section.special):
         number = cases[0].number

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 def derive(statements: Statements) -> ChargesSection:
     """What the ansatz holds, each proved on the motion."""
-    from lagcli.mechanics.discovery.reality import real_where
+    from lagcli.mechanics.discovery.reality import finite_where, real_where
 
     discovery = statements.derivation.discovery
     listed = (*discovery.charges, *discovery.momentum_equations)
@@ -34,13 +34,13 @@ def derive(statements: Statements) -> ChargesSection:
         statements.lacks("the symmetries", "; ".join(discovery.stopped))
         return ChargesSection(charges=(), sought=False, discovered=True)
     statements.warnings.extend(discovery.stopped)
-    return ChargesSection(
-        charges=tuple(
-            replace(stated_charge(statements, each), where=real_where(each, statements.system))
-            for each in listed
-        ),
-        discovered=True,
-    )
+    system, charges = statements.system, []
+    for each in listed:
+        stated = stated_charge(statements, each)
+        trees = [f for f in (*stated.transformation.values(), stated.gauge, stated.charge) if f]
+        where = (*finite_where(trees, system), *real_where(each, system))
+        charges.append(replace(stated, where=where))
+    return ChargesSection(charges=tuple(charges), discovered=True)
 
 
 def json(section: ChargesSection) -> Object:

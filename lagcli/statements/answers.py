@@ -216,7 +216,7 @@ class AlgebraSection:
     `closed`: every bracket is a combination of all of them and of constants.  `with_constants`:
     constants belong to the algebra that `dimension` counts without them.  `integrable` is
     True or None; `separates` where the Hamilton-Jacobi equation shows it, not the charges, and
-    `determined` where it is their number alone: as many as a state has dimensions.
+    where their number alone does, it `determines` the state, or the orbit without the time.
     `named_where`: the name is another one where the charges are not real.  `autonomous`: how many
     charges do not depend on t, and the name of the algebra that they make.  `by_functions`:
     `in_involution` counts functions of the charges, as fewer charges are.  Where the motion
@@ -233,7 +233,7 @@ class AlgebraSection:
     closed: bool = False
     with_constants: bool = False
     separates: bool = False
-    determined: bool = False
+    determines: Literal["", "state", "orbit"] = ""
     special: tuple[SpecialValue, ...] = ()
     named_where: tuple[Above, ...] = ()
     is_prescribed: bool = False

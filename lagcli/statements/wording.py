@@ -200,8 +200,7 @@ def joined(where: Sequence[Above], word: str) -> list[Part]:
 
 
 def _sides(each: Above) -> list[Part]:
-    base = _squared(each.left) if each.right == ZERO else None
-    if base is not None:
+    if (base := _not_zero(each)) is not None:
         return _compared(base, " ≠ ")
     match each:
         case Above(left=Negative(operand=left), right=Number(value=0)):
@@ -228,6 +227,11 @@ def _compared(difference: Expression, sign: str) -> list[Part]:
         named = any(isinstance(node, Name) for node in walk(plus))
         return [plus, sign, minus] if named else [minus, sign, plus]
     return [difference, f"{sign}0"]
+
+
+def _not_zero(each: Above) -> Expression | None:
+    """q of q² > 0; None of another condition."""
+    return _squared(each.left) if each.right == ZERO else None
 
 
 def _squared(expression: Expression) -> Expression | None:
@@ -391,11 +395,11 @@ def in_any_direction(mode: ModesOfFrequency) -> Iterator[Paragraph]:
 
 
 def where_real(where: Sequence[Above], *, several: bool = False) -> Iterator[Paragraph]:
-    """For which times a charge is meant, and for which parameters it is real."""
-    timed = [each for each in where if "t" in names_in(each)]
-    if timed:
-        yield Paragraph(("These are for " if several else "This is for ", *conditions(timed), "."))
-    if others := [each for each in where if each not in timed]:
+    """For which times a charge is meant, where none divides by 0, and where it is real."""
+    meant = [each for each in where if "t" in names_in(each) or _not_zero(each) is not None]
+    if meant:
+        yield Paragraph(("These are for " if several else "This is for ", *conditions(meant), "."))
+    if others := [each for each in where if each not in meant]:
         subject, their = ("All of them are", "their") if several else ("It is", "its")
         rest = f"; otherwise {their} real and {their} imaginary part{'s' * several} are conserved."
         yield Paragraph((f"{subject} real for ", *conditions(others), rest))

@@ -19,6 +19,7 @@ import sympy
 
 from lagcli import load
 from lagcli.algebra import is_zero
+from lagcli.formatters import Options
 from lagcli.formatters.grammar import to_grammar
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.discovery import limits
@@ -27,6 +28,7 @@ from lagcli.mechanics.discovery.reality import real_where
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.special_search import _beyond_products
 from lagcli.mechanics.discovery.summary import summary
+from lagcli.pipeline import render
 from lagcli.reader import parse_text, read_problem
 from tests.solved import solve
 
@@ -314,3 +316,25 @@ V: (k + {drive})*(x^2 + y^2)/2
     for each in section.special:
         rooted = any("sqrt(k" in to_grammar(value) for value in each.charges.values())
         assert bool(each.where) == rooted
+
+
+@pytest.mark.parametrize(
+    ("spring", "wave"), [("w^2", "cos(n*t)"), ("w^2", "sin(2*n*t)"), ("9", "1")]
+)
+def test_a_charge_says_where_it_divides_by_zero(spring, wave):
+    """Beside its resonance: a drive with the own frequency is another formula."""
+    head = "title: p\ncoordinates: [x]\n"
+    head += "parameters: {w: {assume: positive}, n: {assume: positive}, F: {}}\n"
+    problem = read_problem("p.yaml", f"{head}L: x'^2/2 - {spring}*x^2/2 + F*x*{wave}\n".encode())
+    answers = solve(problem.checked(), ["discovered"])
+    build = Derivation(problem.checked()).system.build
+    w, n = (build(parse_text(x)) for x in "wn")
+    number = 2 if "2*n" in wave else 1
+    charges = answers.sections["discovered"].charges
+    for charge in charges:
+        gaps = [build(c.left) - build(c.right) for c in charge.where]
+        below = sympy.denom(sympy.together(build(charge.charge))).xreplace({w: number * n})
+        assert bool(gaps) == (below == 0)
+        assert all(is_zero(gap.xreplace({w: number * n})) is True for gap in gaps)
+    assert any(charge.where for charge in charges) is (spring != "9")
+    assert ("This is for" in render([answers], "text", Options())) is (spring != "9")

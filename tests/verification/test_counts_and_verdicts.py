@@ -194,32 +194,46 @@ def test_charges_give_the_state_where_there_are_as_many_as_dimensions_of_states(
     charges = {"a": "x'", "b": "y'", "c": "x - t*x'", "d": "y - t*y'"}
     section = AlgebraSection(
         ansatz="", dimension=number, name=None, independent=number, in_involution=2,
-        integrable=True, number=number, determined=True,
+        integrable=True, number=number, determines="state",
     )  # fmt: skip
     known = listed(**dict(list(charges.items())[:number]))
     found = printed(problem, answers, discovered=known, algebra=section)
     assert found.complete is (number == 4)
 
 
-STATES = [  # the text, the dimension of the states, whether as many charges are found
-    ("[x]", "", "T: x'^2/2\nV: m*x^2/2\ndissipation: c*x'^2/2", True),
-    ("[x, y]", "", "T: (x'^2 + y'^2)/2\nV: -m*y\ndissipation: c*(x'^2 + y'^2)/2", True),
-    ("[x]", "", "T: x'^2/2\nV: m*x^4/2\ndissipation: c*x'^2/2", None),
-    ("[x, y, phi]", "blade: x'*sin(phi) = y'*cos(phi)", "T: m*(x'^2 + y'^2)/2 + c*phi'^2/2", True),
-    ("[x, y, phi]", "blade: x'*sin(phi) = y'*cos(phi) - phi'", "T: m*(x'^2 + y'^2) + c*phi'^2", None),
+@pytest.mark.parametrize("last", ["x*y' - y*x'", "x - t*x'"])
+def test_charges_give_the_orbit_where_all_but_one_are_without_the_time(last):
+    problem, answers, _ = sheet(f"{PLANE}V: 0\n", "energy")
+    section = AlgebraSection(
+        ansatz="", dimension=3, name=None, independent=3, in_involution=2,
+        integrable=True, number=3, determines="orbit",
+    )  # fmt: skip
+    found = printed(problem, answers, discovered=listed(a="x'", b="y'", c=last), algebra=section)
+    assert found.complete is ("t" not in last)
+
+
+ROD = "rod: (x - u)^2 + (y - w)^2 = c^2, blade: (x' + u')*(y - w) = (y' + w')*(x - u)"
+STATES = [  # the text, what as many charges as are found give
+    ("[x]", "", "T: x'^2/2\nV: m*x^2/2\ndissipation: c*x'^2/2", "state"),
+    ("[x, y]", "", "T: (x'^2 + y'^2)/2\nV: -m*y\ndissipation: c*(x'^2 + y'^2)/2", "state"),
+    ("[x]", "", "T: x'^2/2\nV: m*x^4/2\ndissipation: c*x'^2/2", ""),
+    ("[x, y, phi]", "blade: x'*sin(phi) = y'*cos(phi)", "T: m*(x'^2 + y'^2)/2 + c*phi'^2/2", "state"),
+    ("[x, y, phi]", "blade: x'*sin(phi) = y'*cos(phi) - phi'", "T: m*(x'^2 + y'^2) + c*phi'^2", ""),
+    ("[x, y, u, w]", ROD, "T: m*(x'^2 + y'^2 + u'^2 + w'^2)/2", "orbit"),
+    ("[u, x, y, w]", ROD, "T: 3*m*(x'^2 + y'^2 + u'^2 + w'^2)", "orbit"),
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("coordinates", "constraint", "rest", "integrable"), STATES)
+@pytest.mark.parametrize(("coordinates", "constraint", "rest", "determines"), STATES)
 def test_without_brackets_the_number_of_charges_alone_makes_a_motion_integrable(
-    coordinates, constraint, rest, integrable
+    coordinates, constraint, rest, determines
 ):
     """Linear drag; the motions of a knife edge on a table are circles (Neimark and Fufaev, II.2)."""
     held = f"constraints: {{{constraint}}}\n" if constraint else ""
     text = f"coordinates: {coordinates}\n{PARAMETERS}{held}{rest}\n"
     problem, answers, algebra = sheet(text, "algebra")
-    assert (algebra.in_involution or 0, algebra.integrable) == (0, integrable)
-    assert algebra.determined is bool(integrable)
+    assert (algebra.in_involution or 0, algebra.integrable) == (0, bool(determines) or None)
+    assert algebra.determines == determines
     assert not answers.warnings
     assert verified(problem, answers).complete
 

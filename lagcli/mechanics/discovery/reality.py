@@ -1,19 +1,22 @@
-"""Where a charge is real: roots of parameters that may have either sign, and of the time."""
+"""Where a charge is real and finite: roots and differences of parameters, roots of the time."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 import sympy
 from sympy import Expr
 
 from lagcli.algebra import is_zero, simplify
+from lagcli.algebra.factors import factors_of
 from lagcli.algebra.positivity import weak_sign
 from lagcli.algebra.real_roots import not_negative_where_real
 from lagcli.algebra.signs import sign
+from lagcli.expression import Expression, Quotient, Sum, walk
 from lagcli.mechanics.conditions import conditions
 from lagcli.mechanics.noether import NoetherCharge
 from lagcli.mechanics.system import System
+from lagcli.notation.ordering import bases
 from lagcli.statements.motions import Above
 
 
@@ -39,6 +42,24 @@ def real_where(
     given_real = [bound for f in (system.L, *values) for bound in not_negative_where_real(f)]
     wanted = [*([t] if positive else []), *sorted(constant, key=_by_length)]
     return conditions(wanted, system.order, given_real)
+
+
+def finite_where(
+    formulas: Iterable[Expression], system: System, values: Sequence[Expr] = ()
+) -> tuple[Above, ...]:
+    """Where no divisor is 0 that may be so for positive parameters, nor one of L or of values."""
+    quotients = (node for tree in formulas for node in walk(tree) if isinstance(node, Quotient))
+    sums = dict.fromkeys(b for node in quotients for b in bases(node.denominator))
+    divisors = [system.build(each) for each in sums if isinstance(each, Sum)]
+    constant = [d for d in divisors if d.free_symbols <= {*system.parameters}]
+    positive = {p: sympy.Dummy(positive=True) for p in system.parameters}
+    powers = sympy.Tuple(system.L, *values).atoms(sympy.Pow)
+    own = {f for p in powers if p.exp.is_negative for f, _ in factors_of(p.base)}
+    wanted = [
+        f**2 for divisor in constant for f, _ in factors_of(divisor)
+        if sign(f) is None and sign(f.xreplace(positive)) is None and not {f, -f} & own
+    ]  # fmt: skip
+    return conditions(wanted, system.order)
 
 
 def _bounds(formula: Expr) -> Iterator[Expr]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from typing import Literal
 
 from sympy import Expr, Tuple
 
@@ -52,9 +53,8 @@ def algebra_section(
     Liouville, J. Math. Pures Appl. 20 (1855) 137 (n integrals in involution: quadratures).
     Arnold, *Mathematical Methods of Classical Mechanics*, 2nd ed., sections 47 and 49.
     """
-    states = dimension_of_states(discovery.dynamics)
-    determined = not found.integrable and 0 < states == found.independent
-    integrable = found.integrable or determined or None
+    determines = "" if found.integrable else _determined(discovery, found.independent or 0)
+    integrable = found.integrable or bool(determines) or None
     separable = integrable is None and discovery.canonical and separates()
     return AlgebraSection(
         ansatz="; ".join((discovery.ansatz, *found.notes)),
@@ -64,7 +64,7 @@ def algebra_section(
         in_involution=found.in_involution,
         integrable=True if separable else integrable,
         separates=separable,
-        determined=determined,
+        determines=determines,
         number=len(discovery.charges),
         closed=found.closed,
         with_constants=found.with_constants,
@@ -72,6 +72,26 @@ def algebra_section(
         by_functions=found.by_functions,
         is_prescribed=discovery.is_prescribed,
     )
+
+
+def _determined(discovery: Discovery, independent: int) -> Literal["", "state", "orbit"]:
+    """What as many independent charges give by algebra.
+
+    One less than a state has dimensions, without the time where nothing depends on it, leave a
+    curve: dt = dx/f(x) along it (Goriely, *Integrability and Nonintegrability of Dynamical
+    Systems*, chapter 2).
+    """
+    dynamics = discovery.dynamics
+    system, states = dynamics.system, dimension_of_states(dynamics)
+    if 0 < states == independent:
+        return "state"
+    relations = [e.f for e in dynamics.constraints.equations]
+    if not (0 < states - 1 <= independent) or not free_of(
+        Tuple(system.L, *system.applied_forces, *relations), [system.t]
+    ):
+        return ""
+    fixed = [c.charge for c in discovery.fixed_charges]
+    return "orbit" if rank_on_surface(dynamics, fixed) == states - 1 else ""
 
 
 def summary(discovery: Discovery) -> Summary:

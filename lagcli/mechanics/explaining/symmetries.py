@@ -194,10 +194,16 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
             f"Of the {found.number} conserved quantities {number} {'is' if number == 1 else 'are'} "
             f"functionally independent: the rank of their gradients in phase space is {number}."
         )
-    if found.determined:
+    if found.determines == "state":
         yield says(
             f"A state has {number} dimensions, so the constant values of these {number} give the "
             "state at every time, without a further integration: the motion is integrable."
+        )
+    elif found.determines and number is not None:
+        yield says(
+            "Nothing depends on the time explicitly, and a state has one dimension more than there "
+            "are such constants without it: their values leave a curve of states, along which a "
+            "quadrature gives the time. The motion is integrable."
         )
     elif found.in_involution is not None:
         yield says(*_integrability(found, n))

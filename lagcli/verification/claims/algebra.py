@@ -106,9 +106,10 @@ class Counted:
             why = f"{independent} are independent, not {section.independent}"
             x.refute("the number of independent charges", why)
             return None
-        if section.determined and independent != self.states:
-            x.refute("that the charges give the state", f"a state has {self.states} dimensions")
-            section = replace(section, determined=False, integrable=None)
+        if section.determines and not self._suffice(section.determines):
+            what = f"that the charges give the {section.determines}"
+            x.refute(what, f"a state has {self.states} dimensions")
+            section = replace(section, determines="", integrable=None)
         if section.name is not None and not self._has_name(section.name):
             x.refute(f"that the algebra is {section.name}", "its structure constants are others")
             section = replace(section, name=None)
@@ -141,13 +142,22 @@ class Counted:
     def _in_involution(self, claimed: int) -> bool:
         """Whether at most `claimed` charges are in involution, n of them where integrable."""
         n, section = self.freedom, self.section
-        by_them = section.integrable and not (section.separates or section.determined)
+        by_them = section.integrable and not (section.separates or section.determines)
         if claimed > n or (by_them and claimed < n):
             return False
-        t = self.x.reference.time
-        fixed = [k for k, place in enumerate(self.places) if self._still(place, t)]
+        fixed = self._fixed()
         commuting = {(i, j) for i in fixed for j in fixed if self._commute(i, j)}
         return self._largest([], fixed, commuting) <= claimed
+
+    def _suffice(self, what: str) -> bool:
+        """Whether there are as many as a state has dimensions, or one less without t: an orbit."""
+        if what == "state":
+            return self._rank_of_slopes(range(self.count)) == self.states
+        return self._rank_of_slopes(self._fixed()) == self.states - 1
+
+    def _fixed(self) -> list[int]:
+        t = self.x.reference.time
+        return [k for k, place in enumerate(self.places) if self._still(place, t)]
 
     def _still(self, place: int, t: int) -> bool:
         """Whether a charge does not contain the time."""
