@@ -19,9 +19,12 @@ def along(text):
     system, motion = derivation.dynamics.system, derivation.dynamics.motion
     solved = dict(zip(system.qddot, motion.accelerations, strict=True))
     relations = derivation.dynamics.constraints.relations
-    return derivation.discovery, lambda f: relations.substitute(
-        system.total_derivative(f).xreplace(solved)
-    )
+
+    def rate(formula):
+        found = system.total_derivative(formula).xreplace(solved)
+        return found if relations is None else relations.substitute(found)
+
+    return derivation.discovery, rate
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -90,3 +93,34 @@ constraints: {{no_turn: phi'*cos(theta) + psi' = 0}}
     [case] = cases
     assert (str(case.parameter), str(case.value)) == ("B", "A")
     assert {c.name for c in case.charges} == {"p_phi", "L_x", "L_y"}
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_momentum_has_an_integrating_factor_under_forces_along_the_velocity(seed):
+    """v' = g' v + ...: p_f exp(-g); Gorringe, Leach, Am. J. Phys. 61 (1993) 991."""
+    rng = Random(seed)
+    n, k = rng.choice(["3/2", "-1", "a"]), rng.choice(["", " + b*f'", " + 2*t"])
+    rate = f"({n})*r'/r{k}"
+    discovery, rate_of = along(f"""
+coordinates: {{r: {POS}, f: {{}}}}
+parameters: {{a: {POS}, b: {POS}, mu: {POS}}}
+T: (r'^2 + r^2*f'^2)/2
+V: mu*r^2/2
+forces: {{r: "({rate})*r'", f: "({rate})*r^2*f'"}}
+""")
+    [charge] = [c.charge for c in discovery.charges]
+    assert is_zero(rate_of(charge))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_skate_in_a_field_has_one_with_a_part_at_rest(seed):
+    """z' = f(y) x', in a field B along z: x' sqrt(1 + f^2) - B int dy/sqrt(1 + f^2)."""
+    f, h = Random(seed).choice([("y", "1"), ("2*y", "2"), ("sinh(y)", "1"), ("3", "1")])
+    discovery, rate = along(f"""
+coordinates: [x, y, z]
+parameters: {{B: {{}}}}
+L: (x'^2 + y'^2 + z'^2)/2 + {h}*B*x*y'
+constraints: {{edge: "z' = ({f})*x'"}}
+""")
+    assert all(is_zero(rate(c.charge)) for c in discovery.charges)
+    assert summary(discovery).independent >= 3

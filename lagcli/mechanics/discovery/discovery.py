@@ -290,6 +290,10 @@ class Discovery(Setting):
             else:
                 self.listing.add([charge])
         self.stopped += [self.unproved] if self.unproved else []
+        if not (constraints or self.canonical):
+            known = [c.charge for c in self.point_charges]
+            found = list(point.with_integrating_factors(self.noether, allowed))
+            self.listing.add(new_charges(known, found, self.dynamics, allowed))
         if not constraints:
             self.listing.rebase(lambda charges: without_time(charges, self.system, allowed))
 

@@ -6,7 +6,7 @@ boundary term takes up what the forces do: dG/dt = K + sum_j F_j eta_j.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from collections.abc import Set as AbstractSet
 
 import sympy
@@ -18,6 +18,7 @@ from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.search import Search, SlotSolution
 from lagcli.mechanics.discovery.slots import combined
+from lagcli.mechanics.discovery.turning_momenta import with_factors
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 from lagcli.record import replace
 
@@ -53,6 +54,16 @@ def with_gauge(
         # Q = -h - G by the formula; the textbook's energy is h
         return replace(charge, charge=noether.energy.function + gauge)
     return charge
+
+
+def with_integrating_factors(noether: Noether, allowed: Allowance) -> Iterator[NoetherCharge]:
+    """exp(-g) p_j - S, where forces leave dp_j/dt = (dg/dt) p_j + exp(g) dS/dt."""
+    momenta = noether.dynamics.lagrange.momenta
+    for factor, p, S in with_factors(noether.dynamics, momenta, allowed):
+        changes = tuple(factor if p == other else sympy.S.Zero for other in momenta)
+        charge = with_gauge(noether, Transformation(changes, sympy.S.Zero), S)
+        if charge is not None:
+            yield charge
 
 
 def is_energy(transformation: Transformation) -> bool:

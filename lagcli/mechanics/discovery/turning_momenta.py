@@ -3,7 +3,8 @@
     dw/dt = (ds/dt) A w,  A constant,  so  exp(-A s) w  is constant,
 
 along the motion, with s the time or a coordinate: the components of omega in Suslov's problem
-with a rotor by the time, x' and y' of a vehicle on omniwheels by its angle.
+with a rotor by the time, x' and y' of a vehicle on omniwheels by its angle.  One alone may have a
+factor of all coordinates, dw/dt = (dg/dt) w + b.
 
 References
 ----------
@@ -23,6 +24,7 @@ from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.spectrum import frequency_of
 from lagcli.mechanics.discovery.surface import independent_on_surface, relations_on_surface
 from lagcli.mechanics.dynamics import Dynamics
+from lagcli.mechanics.total_derivative import boundary_term
 
 _MOST = 6  # functions w
 
@@ -40,12 +42,9 @@ def turning(dynamics: Dynamics, forms: Sequence[Expr], allowed: Allowance) -> It
     system, motion = dynamics.system, dynamics.motion
     if motion is None:
         return
-    relations = dynamics.constraints.relations
-    assert relations is not None
-    solved = dict(zip(system.qddot, motion.accelerations, strict=True))
 
     def rate(form: Expr) -> Expr:
-        return simplify(relations.substitute(system.total_derivative(form).xreplace(solved)))
+        return _on_motion(dynamics, form)
 
     first = [forms[k] for k in independent_on_surface(forms, dynamics, allowed)][:_MOST]
     rates = {form: rate(form) for form in first}
@@ -70,6 +69,40 @@ def turning(dynamics: Dynamics, forms: Sequence[Expr], allowed: Allowance) -> It
                 sympy.Add(*(c * form for c, form in zip(row, w, strict=True))) for row in rows
             ]
             yield from _constants(Matrix(images), turned, s)
+
+
+def with_factors(
+    dynamics: Dynamics, forms: Sequence[Expr], allowed: Allowance
+) -> Iterator[tuple[Expr, Expr, Expr]]:
+    """exp(-g), w and S, with exp(-g) w - S constant, where dw/dt = (dg/dt) w + exp(g) dS/dt."""
+    system, v = dynamics.system, dynamics.system.qdot
+    for form in forms if dynamics.motion is not None else ():
+        allowed.check()
+        w, rate = _on_surface(dynamics, form), _on_motion(dynamics, form)
+        if w == 0 or not (w.is_polynomial(*v) and rate.is_polynomial(*v)):
+            continue
+        quotient, rest = sympy.div(sympy.Poly(rate, *v), sympy.Poly(w, *v))
+        if quotient == 0 or quotient.total_degree() > 1 or rest.total_degree() > 1:
+            continue
+        g = boundary_term(simplify(quotient.as_expr()), system)
+        if g is not None:
+            factor = simplify(sympy.exp(-g))
+            S = boundary_term(simplify(factor * rest.as_expr()), system)
+            if S is not None:
+                yield factor, form, S
+
+
+def _on_surface(dynamics: Dynamics, formula: Expr) -> Expr:
+    relations = dynamics.constraints.relations
+    return simplify(formula if relations is None else relations.substitute(formula))
+
+
+def _on_motion(dynamics: Dynamics, form: Expr) -> Expr:
+    """d/dt of a form on the motion."""
+    system, motion = dynamics.system, dynamics.motion
+    assert motion is not None
+    solved = dict(zip(system.qddot, motion.accelerations, strict=True))
+    return _on_surface(dynamics, system.total_derivative(form).xreplace(solved))
 
 
 def _linear(formula: Expr, v: Sequence[Symbol]) -> Expr | None:

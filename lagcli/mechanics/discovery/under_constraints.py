@@ -20,7 +20,7 @@ from lagcli.mechanics.discovery.momentum_equation import Momenta, MomentumEquati
 from lagcli.mechanics.discovery.scaling import bare_terms, scaled
 from lagcli.mechanics.discovery.surface import independent_on_surface
 from lagcli.mechanics.discovery.surface_integrals import Integral, IntegralTerm, SurfaceIntegrals
-from lagcli.mechanics.discovery.turning_momenta import squares_of_velocities, turning
+from lagcli.mechanics.discovery.turning_momenta import squares_of_velocities, turning, with_factors
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 from lagcli.record import replace as changed
 
@@ -141,6 +141,12 @@ class UnderConstraints:
             if number != together:
                 found += [c for c in map(self._linear_charge, pair) if c.verified == "exact"]
                 number = rank_on_surface(self.dynamics, [*known, *(c.charge for c in found)])
+        for factor, form, S in with_factors(self.dynamics, forms, self.allowed):
+            values = [*known, *(c.charge for c in found)]
+            if rank_on_surface(self.dynamics, [*values, factor * form - S]) != number:
+                charge = self._linear_charge(simplify(factor * form), S)
+                found += [charge] if charge.verified == "exact" else []
+                number = rank_on_surface(self.dynamics, [*known, *(c.charge for c in found)])
         return found
 
     @cached_property
@@ -149,13 +155,13 @@ class UnderConstraints:
         still = dict.fromkeys(self.system.qdot, sympy.S.Zero)
         return [p.xreplace(still) for p in self.dynamics.lagrange.momenta]
 
-    def _linear_charge(self, form: Expr) -> NoetherCharge:
-        """Of a linear function of the velocities: p.eta without its part at rest is the form."""
-        form, *_ = scaled((form,), set(self.system.parameters))
+    def _linear_charge(self, form: Expr, S: Expr = sympy.S.Zero) -> NoetherCharge:
+        """w - S of a linear function of the velocities: p.eta without its part at rest is w."""
+        form, S = scaled((form, S), set(self.system.parameters))
         tangent = Transformation(self._tangent(form), sympy.S.Zero)
-        gauge = dot(self._at_rest, tangent.changes)
+        gauge = dot(self._at_rest, tangent.changes) + S
         charge = self.noether.charge("", "discovered", tangent, gauge)
-        return changed(charge, charge=form if charge.conserved else charge.charge)
+        return changed(charge, charge=form - S if charge.conserved else charge.charge)
 
     def _displacements(self, known: Sequence[NoetherCharge]) -> list[Vector]:
         """Admissible ones with angles along which a momentum is constant, or those of lengths.
