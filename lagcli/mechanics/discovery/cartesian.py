@@ -69,7 +69,8 @@ def about_an_axis(
         squares = sympy.Mul(*(b ** (e // 2) for b, e in powers if e.is_Integer))
         scales = [squares * sympy.sqrt(simplify(inertia[k] / m)) for k in places]
         functions = [scale * X[k] for scale, k in zip(scales, places, strict=True)]
-        if all(scale.is_rational_function(*scale.free_symbols) for scale in scales):
+        real = not any(scale.has(sympy.I) for scale in scales)  # z is no time
+        if real and all(scale.is_rational_function(*scale.free_symbols) for scale in scales):
             return Cartesian(tuple(q), ("x", "y", "z"), tuple(functions), m / squares**2)
     return None
 
