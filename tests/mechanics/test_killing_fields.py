@@ -37,6 +37,14 @@ def sphere(radius, theta, phi, places):
     return (radius**2, one), ((radius * sin(theta)) ** 2, other)
 
 
+def complex_plane(k):
+    """That of Fubini and Study, or of Bergman, in real coordinates: su(3) or su(2,1)."""
+    N = 1 + k * (x**2 + y**2 + u**2 + v**2)
+    units = [tuple(int(i == j) for j in range(4)) for i in range(4)]
+    along = [(-k / N**2, form) for form in ((x, y, u, v), (-y, x, -v, u))]
+    return metric((x, y, u, v), *((1 / N, form) for form in units), *along)
+
+
 # name -> metric, isometries, whether something stretches it
 KNOWN = {
     "hole": (
@@ -65,6 +73,8 @@ KNOWN = {
     "universe": (
         metric((t, x, y, z), (-1, (1, 0, 0, 0)),
                *((t**3, tuple(int(k == j) for k in range(4))) for j in (1, 2, 3))), 6, True),
+    **{f"complex {name} plane": (complex_plane(k), 8, False)
+       for name, k in (("projective", 1), ("hyperbolic", -1))},
     "nothing": (metric((x, y), (1 + x**4 + y**2, (1, 0)), (1 + x * y**3, (0, 1))), 0, False),
 }  # fmt: skip
 

@@ -24,7 +24,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import derivative, dot, simplify
 from lagcli.algebra.build import CIRCULAR, free_of
-from lagcli.mechanics.discovery.ansatz import TimeFunctions, complexity, ordered
+from lagcli.mechanics.discovery.ansatz import TimeFunctions, complexity, ordered, products_of_two
 from lagcli.mechanics.discovery.constant_curvature import ConstantCurvature, Vector
 from lagcli.mechanics.discovery.killing_jets import KillingJets
 from lagcli.mechanics.discovery.limits import Allowance
@@ -121,6 +121,12 @@ class KillingFields:
             return found
         own = {x: along.get(x) or self._of_coordinate(x) for x in self.metric.q}
         moving = [x for x in self.metric.q if x not in cyclic]
+        lengths = [x for x in moving if x**2 in own[x]]
+        if len(lengths) > 1:  # of what is projective
+            monomials = products_of_two([sympy.S.One, *lengths])
+            found += self._solutions(monomials, found)
+            if len(found) == self.number:
+                return found
         for count in range(1, len(moving) + 1):
             for chosen in combinations(moving, count):
                 given = {x: own[x] if x in (*cyclic, *chosen) else [sympy.S.One] for x in own}

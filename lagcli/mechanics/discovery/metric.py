@@ -24,7 +24,7 @@ import sympy
 from mpmath import mpf
 from sympy import Expr, Symbol
 
-from lagcli.algebra import derivative, dot, simplify
+from lagcli.algebra import derivative, dot, simplify, solve_linear
 from lagcli.algebra.build import CIRCULAR, free_of
 from lagcli.algebra.numeric import DIGITS, Evaluator
 
@@ -73,9 +73,13 @@ class Metric:
                  else zero for y in self.q]
                 for x in self.q
             ]  # fmt: skip
+        n = range(self.n)
+        solved = solve_linear(self.g, [[sympy.Integer(i == k) for k in n] for i in n])
+        if solved is not None and not solved.singular:
+            return [list(row) for row in solved.values]
         g = sympy.Matrix([list(row) for row in self.g])
         above, below = g.adjugate(), g.det()
-        return [[simplify(above[i, j] / below) for j in range(self.n)] for i in range(self.n)]
+        return [[simplify(above[i, j] / below) for j in n] for i in n]
 
     @cached_property
     def place(self) -> dict[Symbol, sympy.Rational] | None:
