@@ -78,8 +78,8 @@ def _determined(discovery: Discovery, independent: int) -> Literal["", "state", 
     """What as many independent charges give by algebra.
 
     One less than a state has dimensions, without the time where nothing depends on it, leave a
-    curve: dt = dx/f(x) along it (Goriely, *Integrability and Nonintegrability of Dynamical
-    Systems*, chapter 2).
+    curve: dt = dx/f(x) along it (Rauch-Wojciechowski, Przybylska, Regul. Chaotic Dyn. 30 (2025)
+    866).
     """
     dynamics = discovery.dynamics
     system, states = dynamics.system, dimension_of_states(dynamics)
