@@ -303,6 +303,22 @@ def test_growths_are_commensurate_as_frequencies_are(force):
             assert sympy.simplify(charge.charge.subs(motion).diff(t)) == 0
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_a_saddle_that_turns_has_four_linear_ones_in_its_axes(seed):
+    """Thompson, Harmon, Ball, Can. J. Phys. 80 (2002) 1433; also with a field and a bowl."""
+    source = Random(seed)
+    angle = source.choice(["2*W*t", "-W*t", "W*t + pi/3"])
+    field = source.choice(["", " + B*(x*y' - y*x')/2"])
+    bowl = source.choice(["", " - g*(x^2 + y^2)/2"])
+    saddle = f"k*((x^2 - y^2)*cos({angle}) + 2*x*y*sin({angle}))/2"
+    derivation = derive(
+        problem(f"m*(x'^2 + y'^2)/2 - {saddle}{field}{bowl}", parameters="m k W B g")
+    )
+    found = summary(derivation.discovery)
+    assert (found.dimension, found.independent, found.integrable) == (5, 4, True)
+    assert min(digits_of(derivation).values()) > 20
+
+
 @pytest.mark.long
 def test_frequencies_are_compared_under_one_damping():
     text = "{coordinates: [x, y], parameters: [a, b, c], T: (x'^2 + y'^2)/2, "

@@ -125,7 +125,7 @@ class ChargeBrackets:
             with mpmath.workdps(DIGITS):
                 # the same parameters for all states; others where charges are not real
                 turn = bad // _PATIENCE
-                base = self.dynamics.states.take(1 + first + turn)[-1]
+                base = self._of_order(self.dynamics.states.take(1 + first + turn)[-1], turn)
                 width = turn if turn % 2 else 1  # beyond a horizon r^2 > m as well
                 state = dict(base)
                 for x in (*system.q, *system.qdot):
@@ -145,6 +145,16 @@ class ChargeBrackets:
             if bad % _PATIENCE == 0:
                 self._samples.clear()
                 place = {}
+
+    def _of_order(self, state: State, turn: int) -> State:
+        """With parameters of other orders where no value was real: (m W - B)^2 > 8 m k is rare."""
+        source = random.Random(turn)
+        scaled = {
+            p: state[p] * mpf(2) ** source.randint(-3, 3)
+            for p in (self.dynamics.system.parameters if turn > 2 else ())
+            if p in state and not p.is_integer
+        }
+        return {**state, **scaled}
 
     def _sample(self, state: State) -> Sample | None:
         """None where there are no real values."""

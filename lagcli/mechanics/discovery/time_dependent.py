@@ -4,7 +4,7 @@ Equations x'' = K x/tau^2 + C x'/tau, tau = a t + b, have constant coefficients 
 where the stretching of time is tau times a function with a difference of two exponents.
 
 Two equations of a charge in a field B(t) and a central force are one in axes that turn with -B/2
-(Larmor).
+(Larmor).  Those of a turning saddle are constant in its axes.
 
 Of one other equation, with mu = exp of the integral of p, x = y/sqrt(mu) and y'' + I y = 0,
 I = q - p'/2 - p^2/4.  Where I is constant, or K/Q^2 with Q of second degree in t, the solutions Y
@@ -57,10 +57,12 @@ def of_changing_coefficients(
     others += [g for f in [*between, *([s, s**2] if rows else [])] for g in (tau * f, f)]
     driven = [f for k in rows for f in _terms(given[k]) if f.free_symbols.isdisjoint(moving)]
     forced += [g for f in driven for g in (tau**2 * f, tau**2 * f * s)]
+    turned = _in_turning_axes(given, q, v, t)
+    translations += turned
     turning = _turning_pairs(given, q, v, t)
     seconds = {second for second, _ in turning.values()}
     for k, (acceleration, x, rate) in enumerate(zip(given, q, v, strict=True)):
-        if k in rows or k in seconds:
+        if turned or k in rows or k in seconds:
             continue
         if k not in turning:
             solved = solved and not _changes_by(acceleration, moving - {x, rate}, moving, t)
@@ -132,6 +134,36 @@ def of_euler(
         return tau, [], []
     chosen = [scaled[k] + v[k] for k in rows], [q[k] for k in rows], [v[k] for k in rows]
     return tau, exponents(*chosen, t), rows
+
+
+def _in_turning_axes(
+    accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
+) -> list[Expr]:
+    """Of x'' = S x + D x' of two coordinates, constant in axes that turn with half of a wave's.
+
+    With x = R y, R' = W R J:  y'' = (R^-1 S R + W R^-1 D R J + W^2) y + (R^-1 D R - 2 W J) y'.
+    """
+    waves = {u.args[0] for a in accelerations for u in a.atoms(sympy.sin, sympy.cos)}
+    turning = [u for u in waves if free_of(u.diff(t), [t]) and u.diff(t) != 0]
+    if (
+        len(q) != 2
+        or len(turning) != 1
+        or any(a.count_ops() > _MOST_OPERATIONS for a in accelerations)
+    ):
+        return []
+    [angle] = turning
+    S, D = (sympy.Matrix([[simplify(a.diff(x)) for x in y] for a in accelerations]) for y in (q, v))
+    J = sympy.Matrix([[0, -1], [1, 0]])
+    for theta in (angle / 2, -angle / 2) if free_of(sympy.Tuple(*S, *D), [*q, *v]) else ():
+        W, R = theta.diff(t), sympy.Matrix(2, 2, [sympy.cos(theta), -sympy.sin(theta),
+                                                 sympy.sin(theta), sympy.cos(theta)])  # fmt: skip
+        of_x, of_v = ((R.T * A * R).applyfunc(simplify) for A in (S, D))
+        if free_of(sympy.Tuple(*of_x, *of_v), [t]):
+            still = of_x + W * of_v * J + W**2 * sympy.eye(2)
+            moved = still * sympy.Matrix(list(q)) + (of_v - 2 * W * J) * sympy.Matrix(list(v))
+            found = [f for e in exponents(list(moved), q, v, t) for f in e.functions(t)]
+            return [f * turn for f in found for turn in (sympy.cos(theta), sympy.sin(theta))]
+    return []
 
 
 def _turning_pairs(
