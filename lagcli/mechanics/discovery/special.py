@@ -173,6 +173,8 @@ def new_charges(
 ) -> tuple[NoetherCharge, ...]:
     """Those that are no combinations of the known ones, over the constants, on the constraints."""
     system, charges = dynamics.system, [*known, *(c.charge for c in found)]
+    if not found:
+        return ()
     if dynamics.constraints.equations:
         kept = independent_on_surface(charges, dynamics, allowed)
     else:
