@@ -164,8 +164,12 @@ def _to_try(
     system, equations = searched.system, searched.equations
     if searched.dynamics.constraints.equations:
         discovery.words.append(_NOT_ALL)
-        inertias = equal_inertias(system)
-        return [*exchanged(discovery.dynamics), *inertias, *missing(system.parameters)], []
+        values = exchanged(discovery.dynamics)
+        constraints = discovery.dynamics.constraints
+        polynomial = all(e.f.is_polynomial(*system.q) for e in constraints.equations if e.holonomic)
+        if constraints.nonholonomic or polynomial:  # the motion of a linkage is long to derive
+            values += [*equal_inertias(system), *missing(system.parameters)]
+        return values, []
     factors, pairs = _factors(searched, allowed)
     discovery.words += [_NOT_ALL] if _NOT_ALL in searched.words else []
     together = both_vanish(pairs, factors, system.parameters)

@@ -27,6 +27,7 @@ from lagcli.mechanics.dynamics import Dynamics
 from lagcli.mechanics.total_derivative import boundary_term
 
 _MOST = 6  # functions w
+_MOST_OPERATIONS = 250  # of a rate as it comes
 
 
 def turning(dynamics: Dynamics, forms: Sequence[Expr], allowed: Allowance) -> Iterator[list[Expr]]:
@@ -78,6 +79,8 @@ def with_factors(
     system, v = dynamics.system, dynamics.system.qdot
     for form in forms if dynamics.motion is not None else ():
         allowed.check()
+        if _derivative(dynamics, form).count_ops() > _MOST_OPERATIONS:
+            continue
         w, rate = _on_surface(dynamics, form), _on_motion(dynamics, form)
         if w == 0 or not (w.is_polynomial(*v) and rate.is_polynomial(*v)):
             continue
@@ -99,10 +102,15 @@ def _on_surface(dynamics: Dynamics, formula: Expr) -> Expr:
 
 def _on_motion(dynamics: Dynamics, form: Expr) -> Expr:
     """d/dt of a form on the motion."""
+    return _on_surface(dynamics, _derivative(dynamics, form))
+
+
+def _derivative(dynamics: Dynamics, form: Expr) -> Expr:
+    """The same as it comes."""
     system, motion = dynamics.system, dynamics.motion
     assert motion is not None
     solved = dict(zip(system.qddot, motion.accelerations, strict=True))
-    return _on_surface(dynamics, system.total_derivative(form).xreplace(solved))
+    return system.total_derivative(form).xreplace(solved)
 
 
 def _linear(formula: Expr, v: Sequence[Symbol]) -> Expr | None:
