@@ -154,7 +154,9 @@ def _in_turning_axes(
     [angle] = turning
     S, D = (sympy.Matrix([[simplify(a.diff(x)) for x in y] for a in accelerations]) for y in (q, v))
     J = sympy.Matrix([[0, -1], [1, 0]])
-    for theta in (angle / 2, -angle / 2) if free_of(sympy.Tuple(*S, *D), [*q, *v]) else ():
+    entries = sympy.Tuple(*S, *D)
+    changing = free_of(entries, [*q, *v]) and not free_of(entries, [t])
+    for theta in (angle / 2, -angle / 2) if changing else ():
         W, R = theta.diff(t), sympy.Matrix(2, 2, [sympy.cos(theta), -sympy.sin(theta),
                                                  sympy.sin(theta), sympy.cos(theta)])  # fmt: skip
         of_x, of_v = ((R.T * A * R).applyfunc(simplify) for A in (S, D))
