@@ -114,6 +114,11 @@ def dot(a: Iterable[Expr], b: Iterable[Expr]) -> Expr:
     return sympy.Add(*(x * y for x, y in zip(a, b, strict=True)))
 
 
+def unit_vectors(n: int) -> list[tuple[Expr, ...]]:
+    """Those of n components."""
+    return [tuple(sympy.Integer(i == k) for i in range(n)) for k in range(n)]
+
+
 def rank(A: Matrix, relations: Relations | None = None) -> int:
     """The rank of A for generic values of the symbols."""
     if not relations and has_full_rank([[as_expr(x) for x in row] for row in A]):

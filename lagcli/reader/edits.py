@@ -14,7 +14,7 @@ from lagcli.reader.habits import KEYS, MAPS, is_unit
 from lagcli.reader.misshapen import with_entries
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, entries_in, names_in, nodes_in
 from lagcli.reader.regex import regex
-from lagcli.reader.text import SourceText
+from lagcli.reader.text import SourceText, as_sum
 from lagcli.record import replace
 
 #: The text that a hint proposes; what follows a colon may be the reason.
@@ -316,9 +316,7 @@ def _with_given(entry: str, given: str, section: str) -> str:
     """An entry, of a coordinate that has a force already with the sum of both."""
     name, _, law = entry.partition(": ")
     own = re.search(rf"(?<![\w']){re.escape(name)}:[^\S\n]*([^\n,}}#]*[^\s,}}#])", given)
-    return (
-        f"{name}: {own[1]} + {law}".replace("+ -", "- ") if own and section == "forces" else entry
-    )
+    return f"{name}: {as_sum((own[1], law))}" if own and section == "forces" else entry
 
 
 def _on_lines(mistake: Diagnostic, source: Source) -> Diagnostic:

@@ -14,7 +14,7 @@ from lagcli.diagnostics import Diagnostic, Source
 from lagcli.expression import Call, Expression, name_nodes, terms_of, walk
 from lagcli.reader.plain_sign import plain_sign
 from lagcli.reader.regex import balanced, regex
-from lagcli.reader.text import SourceText
+from lagcli.reader.text import SourceText, as_sum
 
 #: What dry friction is proportional to.
 _NORMAL = frozenset({"g", "N", "F_N"})
@@ -59,7 +59,7 @@ def opposite(formula: Expression, text: SourceText) -> str:
     """The terms with the other sign: `-mu*m*g*sign(x')`; nothing where a parenthesis is cut."""
     terms = [text.written(term.span) for term in terms_of(formula)]
     turned = [each[1:].strip() if each[0] == "-" else f"-{each}" for each in terms]
-    return " + ".join(turned).replace("+ -", "- ") if all(map(balanced, terms)) else ""
+    return as_sum(turned) if all(map(balanced, terms)) else ""
 
 
 class _Law(NamedTuple):

@@ -200,7 +200,7 @@ def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> Canoni
     for name, value in entries:
         if name.label in _GENERATING and f"p_{name.label}" not in by_key(node):
             used = {*re.findall(r"(?<!\w)p_(\w+)", source_of(value))}
-            old = used & {*file.scope.of_kind("coordinate")}
+            old = used & {*file.scope.coordinates}
             meant = f"F{1 + bool(used - old) + 2 * bool(old)}"
             file.error(f"'{name.label}' is not a new variable", name.span, f"the key is {meant}")
             name.value = meant
@@ -228,7 +228,7 @@ def _transformation(file: FileReader, key: Scalar, node: DocumentNode) -> Canoni
         _check_new(file, name, what, labels, example)
         is_complete &= len(file.diagnostics) == before
         coordinates[label] = expression
-    number = sum(1 for _ in file.scope.coordinates)
+    number = len(file.scope.coordinates)
     if is_complete and len(coordinates) != number and not file.scope.refused:
         counted = f"{len(coordinates) or 'no'} new coordinate{'s' * (len(coordinates) != 1)}"
         file.error(f"{what} has {counted}, the file has {number}", key.span, example)

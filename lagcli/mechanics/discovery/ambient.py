@@ -155,10 +155,8 @@ def _of_cone(metric: Metric, allowed: Allowance) -> Iterator[list[tuple[Expr, ..
         ):
             continue
         h = Metric(rest.q, [[simplify(e / first) for e in row] for row in rest.g])
-        Y = ambient_functions(h, allowed) if h.curvature != 0 else []
-        f = _real_beside(_root(first), metric.g[k][k])
-        slope = simplify(f.diff(x) / _real_beside(_root(metric.g[k][k]), metric.g[k][k]))
-        if Y:
+        if h.curvature != 0 and (Y := ambient_functions(h, allowed)):
+            f, slope = _radius_and_slope(first, metric.g[k][k], x)
             yield [*((f, y) for y in Y), (slope,)]
 
 
@@ -227,9 +225,14 @@ def _profile(x: Symbol, metric: Metric) -> Iterator[Expr]:
         return
     A = own[metric.q.index(x)]
     for B in (part for part in own if x in part.free_symbols and part != A):
-        f = _real_beside(_root(B), A)
-        for function in (f, simplify(f.diff(x) / _real_beside(_root(A), A))):
+        for function in _radius_and_slope(B, A, x):
             yield function.as_independent(x, as_Add=False)[1]
+
+
+def _radius_and_slope(B: Expr, A: Expr, x: Symbol) -> tuple[Expr, Expr]:
+    """f and df/ds of A dx^2 + B dy^2 = ds^2 + f^2 dy^2."""
+    f = _real_beside(_root(B), A)
+    return f, simplify(f.diff(x) / _real_beside(_root(A), A))
 
 
 def _real_beside(root: Expr, A: Expr) -> Expr:

@@ -41,6 +41,7 @@ from lagcli.mechanics.discovery.lifted import growth_of, lifted, of_growing, of_
 from lagcli.mechanics.discovery.limits import MOST_UNKNOWNS, Allowance, TooMuchWork
 from lagcli.mechanics.discovery.listing import more, times
 from lagcli.mechanics.discovery.modular import NoPoint
+from lagcli.mechanics.discovery.names import own_name
 from lagcli.mechanics.discovery.on_surface import ALL_ARE_KNOWN, all_are_known, search_on_surface
 from lagcli.mechanics.discovery.products import Products
 from lagcli.mechanics.discovery.relation import Relation
@@ -195,7 +196,7 @@ class Discovery(Setting):
         self.cartesian, self.cartesian_lead = there.cartesian, there.cartesian_lead
         self.listing.add(lift(there.point_charges))
         for charge in there.hidden_charges:
-            name = "" if charge.name.startswith("charge_") else charge.name
+            name = own_name(charge.name)
             self.listing.add_hidden((name, c) for c in lift([charge]))
 
     @property

@@ -24,6 +24,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, simplify
 from lagcli.mechanics.discovery.killing import known_factors
+from lagcli.mechanics.discovery.names import own_name
 from lagcli.mechanics.discovery.products import integral_of
 from lagcli.mechanics.discovery.scaling import scaled
 from lagcli.mechanics.discovery.slots import SlotEquations
@@ -78,8 +79,7 @@ class FixedValues:
             gauge = dot(momenta, eta) - whole
             integral = integral_of(noether, tuple(eta), simplify(whole), gauge)
             if integral is not None:
-                name = "" if charge.name.startswith("charge_") else charge.name
-                yield replace(integral, name=name)
+                yield replace(integral, name=own_name(charge.name))
 
 
 def at_fixed_momenta(noether: Noether, equations: SlotEquations) -> Iterator[FixedValues]:

@@ -17,6 +17,7 @@ from sympy import Expr
 
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.build import free_of
+from lagcli.algebra.linear import unit_vectors
 from lagcli.mechanics.discovery.ansatz import affine, quadratic_unknowns
 from lagcli.mechanics.discovery.constant_curvature import Vector
 from lagcli.mechanics.discovery.hidden import is_gyroscopic
@@ -60,7 +61,7 @@ class KillingFrame:
         if not fixed or is_gyroscopic(equations):
             return None
         if free_of(entries, [*equations.q, *equations.v]):
-            shifts = _units(len(equations.q))
+            shifts = unit_vectors(len(equations.q))
             return cls([*shifts, *_rotations(equations)], shifts, equations.q)
         if isometries is None or not isometries.functions:
             return None
@@ -106,14 +107,16 @@ class KillingFrame:
     @classmethod
     def _of_squares(cls, equations: SlotEquations) -> KillingFrame | None:
         """p_i^2/g_ii for T0 = sum g_ii(q_i) q_i'^2/2."""
-        q, mass, units = set(equations.q), equations.mass, _units(len(equations.q))
+        q, mass = set(equations.q), equations.mass
         if is_gyroscopic(equations) or any(
             m.free_symbols & q - {x} if i == k else m != 0
             for k, (x, row) in enumerate(zip(equations.q, mass, strict=True))
             for i, m in enumerate(row)
         ):
             return None
-        squares = [(e, tuple(x / mass[k][k] for x in e)) for k, e in enumerate(units)]
+        squares = [
+            (e, tuple(x / mass[k][k] for x in e)) for k, e in enumerate(unit_vectors(len(mass)))
+        ]
         return cls((), (), equations.q, squares=squares)
 
     @property
@@ -125,10 +128,6 @@ class KillingFrame:
     def products(self, degree: int) -> Iterable[tuple[Vector, ...]]:
         """Killing tensors as symmetric products A B ..."""
         return self.squares or combinations_with_replacement(self.fields, degree)
-
-
-def _units(n: int) -> list[Vector]:
-    return [tuple(sympy.Integer(i == k) for i in range(n)) for k in range(n)]
 
 
 def _rotations(equations: SlotEquations) -> list[Vector]:

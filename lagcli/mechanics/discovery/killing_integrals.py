@@ -150,23 +150,23 @@ class KillingIntegrals:
 
     def _functions(self) -> list[Expr]:
         """Terms of V and of its slopes along the fields times monomials, the shortest first."""
-        q, X, one = self.equations.q, self.frame.X, sympy.S.One
+        q = self.equations.q
         curved = bool(self.frame.accelerations)
         gradient = self._gradient(self._rest)
         slopes = gradient if curved else [dot(A, gradient) for A in self.frame.spanning]
         terms = [term for each in (self._rest, *slopes) for term in bare_terms(each, q)]
         degrees = (2,) if len(q) == 2 or curved else (3, 1) if self.degree == 3 else (1,)
         for highest in degrees:
-            monomials = [sympy.Mul(*x) for x in combinations_with_replacement([one, *X], highest)]
+            monomials = self._monomials(highest)
             made = dict.fromkeys(a * b for a in dict.fromkeys(terms) for b in monomials)
             if len(made) * len(q) < _MOST_FUNCTIONS:
                 break
         return sorted(made, key=lambda e: (sympy.count_ops(e), str(e)))
 
-    @property
-    def _monomials(self) -> list[Expr]:
-        X = self.frame.X
-        return [sympy.S.One, *X, *products_of_two(X)]
+    def _monomials(self, degree: int) -> list[Expr]:
+        """In X up to this degree."""
+        factors = combinations_with_replacement([sympy.S.One, *self.frame.X], degree)
+        return [sympy.Mul(*each) for each in factors]
 
     def _closed(self, rate: Expr) -> list[Expr]:
         """What must vanish: the rate for N = 3, the curl of the slopes of S for even N."""
@@ -247,10 +247,11 @@ class KillingIntegrals:
     def _shapes(self, f: Expr) -> list[Expr]:
         """Terms of f times monomials in X, and these over roots in f: x/r of Kepler's problem."""
         q = self.equations.q
-        made = [a * b for a in bare_terms(f, q) if a != 1 for b in (*self._monomials, *q)]
+        monomials = self._monomials(2)
+        made = [a * b for a in bare_terms(f, q) if a != 1 for b in (*monomials, *q)]
         made += [sympy.fraction(a)[0] for a in bare_terms(f, q)]  # Liouville's f(u) + g(v)
-        made += [m / root for root in roots_in(f, q) for m in self._monomials]
-        terms = {term for each in (*made, *self._monomials) for term in bare_terms(each, q)}
+        made += [m / root for root in roots_in(f, q) for m in monomials]
+        terms = {term for each in (*made, *monomials) for term in bare_terms(each, q)}
         return sorted((m for m in terms if m != 1), key=sympy.default_sort_key)
 
     def _collected(self, whole: Expr) -> Expr:

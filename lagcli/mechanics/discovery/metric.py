@@ -26,6 +26,7 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import derivative, dot, simplify, solve_linear
 from lagcli.algebra.build import CIRCULAR, free_of
+from lagcli.algebra.linear import unit_vectors
 from lagcli.algebra.numeric import DIGITS, Evaluator
 
 HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
@@ -74,7 +75,7 @@ class Metric:
                 for x in self.q
             ]  # fmt: skip
         n = range(self.n)
-        solved = solve_linear(self.g, [[sympy.Integer(i == k) for k in n] for i in n])
+        solved = solve_linear(self.g, unit_vectors(self.n))
         if solved is not None and not solved.singular:
             return [list(row) for row in solved.values]
         g = sympy.Matrix([list(row) for row in self.g])

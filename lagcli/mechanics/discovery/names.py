@@ -351,6 +351,11 @@ def _equal(moved: Mapping[Symbol, Expr]) -> bool:
     return len(set(moved.values())) == 1
 
 
+def own_name(name: str) -> str:
+    """That of a charge elsewhere; nothing for charge_1, a mere number."""
+    return "" if name.startswith("charge_") else name
+
+
 def distinct(names: Sequence[str]) -> list[str]:
     """Each name once: mode_cos and mode_cos_2; what has none is charge_1, charge_2 and so on."""
     result: list[str] = []

@@ -41,6 +41,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import derivative, dot, simplify
+from lagcli.algebra.linear import unit_vectors
 
 Vector = tuple[Expr, ...]
 
@@ -106,9 +107,8 @@ class Slot:
 
 def point_slots(equations: SlotEquations) -> list[Slot]:
     """u = -q' for tau and the unit vectors for xi: the point transformations."""
-    n = range(len(equations.q))
-    units = [tuple(sympy.Integer(i == j) for i in n) for j in n]
-    return [Slot(("tau",), tuple(-v for v in equations.v)), *linear_slots(units)]
+    rates = Slot(("tau",), tuple(-v for v in equations.v))
+    return [rates, *linear_slots(unit_vectors(len(equations.q)))]
 
 
 def linear_slots(units: Sequence[Vector]) -> list[Slot]:

@@ -18,7 +18,7 @@ from lagcli.mechanics.discovery.hidden import QuadraticIntegrals
 from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.discovery.listing import shown, times
 from lagcli.mechanics.discovery.modular import NoPoint
-from lagcli.mechanics.discovery.names import Naming, distinct
+from lagcli.mechanics.discovery.names import Naming, distinct, own_name
 from lagcli.mechanics.discovery.pivots import Pivots
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import point_slots
@@ -240,7 +240,7 @@ def _named_apart(
     for c in charges:
         stem, _, number = c.name.rpartition("_")  # mode_2 beside a mode
         name = stem if number.isdigit() and stem in all_names else c.name
-        own.append("" if name.startswith("charge_") else name)
+        own.append(own_name(name))
     names = distinct([*taken, *own])[len(taken) :]
     return tuple(replace(c, name=name) for c, name in zip(charges, names, strict=True))
 

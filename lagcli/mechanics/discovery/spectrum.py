@@ -296,7 +296,8 @@ def frequency_of(square: Expr) -> Expr:
         # 4 m^2 of g/l - c^2/4 m^2; what is left is not torn apart
         factors = [f.as_base_exp() for f in sympy.Mul.make_args(below)]
         whole = sympy.Mul(*(b**n for b, n in factors if n == 2 or sympy.sqrt(b).is_Integer))
-        if not whole.is_number:
-            square = sympy.expand(whole * square)
-        root = sympy.sqrt(square) / (1 if whole.is_number else sympy.sqrt(whole))
+        if whole.is_number:
+            root = sympy.sqrt(square)
+        else:
+            root = sympy.sqrt(sympy.expand(whole * square)) / sympy.sqrt(whole)
     return simplify(root).replace(sympy.Abs, lambda x: x)

@@ -43,12 +43,8 @@ def turning(dynamics: Dynamics, forms: Sequence[Expr], allowed: Allowance) -> It
     system, motion = dynamics.system, dynamics.motion
     if motion is None:
         return
-
-    def rate(form: Expr) -> Expr:
-        return _on_motion(dynamics, form)
-
     first = [forms[k] for k in independent_on_surface(forms, dynamics, allowed)][:_MOST]
-    rates = {form: rate(form) for form in first}
+    rates = {form: _on_surface(dynamics, _rate(dynamics, form)) for form in first}
     for s, speed in ((system.t, sympy.S.One), *zip(system.q, system.qdot, strict=True)):
         allowed.check()
         w = list(first)
@@ -58,7 +54,7 @@ def turning(dynamics: Dynamics, forms: Sequence[Expr], allowed: Allowance) -> It
                 continue
             if len(independent_on_surface([*w, more], dynamics, allowed)) > len(w):
                 w.append(more)
-                rates[more] = rate(more)
+                rates[more] = _on_surface(dynamics, _rate(dynamics, more))
         n, vectors = len(w), [*([rates[form]] for form in w), *([speed * form] for form in w)]
         found = relations_on_surface(vectors, dynamics, allowed)
         rows, images = _closed(
@@ -79,9 +75,10 @@ def with_factors(
     system, v = dynamics.system, dynamics.system.qdot
     for form in forms if dynamics.motion is not None else ():
         allowed.check()
-        if _derivative(dynamics, form).count_ops() > _MOST_OPERATIONS:
+        rate = _rate(dynamics, form)
+        if rate.count_ops() > _MOST_OPERATIONS:
             continue
-        w, rate = _on_surface(dynamics, form), _on_motion(dynamics, form)
+        w, rate = _on_surface(dynamics, form), _on_surface(dynamics, rate)
         if w == 0 or not (w.is_polynomial(*v) and rate.is_polynomial(*v)):
             continue
         quotient, rest = sympy.div(sympy.Poly(rate, *v), sympy.Poly(w, *v))
@@ -100,13 +97,8 @@ def _on_surface(dynamics: Dynamics, formula: Expr) -> Expr:
     return simplify(formula if relations is None else relations.substitute(formula))
 
 
-def _on_motion(dynamics: Dynamics, form: Expr) -> Expr:
-    """d/dt of a form on the motion."""
-    return _on_surface(dynamics, _derivative(dynamics, form))
-
-
-def _derivative(dynamics: Dynamics, form: Expr) -> Expr:
-    """The same as it comes."""
+def _rate(dynamics: Dynamics, form: Expr) -> Expr:
+    """d/dt of a form on the motion, as it comes."""
     system, motion = dynamics.system, dynamics.motion
     assert motion is not None
     solved = dict(zip(system.qddot, motion.accelerations, strict=True))
