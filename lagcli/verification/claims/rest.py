@@ -25,6 +25,8 @@ LOOKED_AT = 24
 WANTED = 5
 #: How often each is looked at with parameters of other sizes.
 _ROUNDS = 4
+#: States from which each condition is made to fail: half of them allow what the others ask.
+_MOVED = 6
 BITS = PRECISIONS[1]
 _NEWTON_STEPS = 30
 #: Of a condition's change with its parameter: how far beside its bound stability is tried.
@@ -134,16 +136,17 @@ class RestPlace:
             {**{key: p * larger for key, p in self._momenta.items()}, **state.environment}
             for larger, state in zip(sizes, states, strict=True)
         ]
-        moved = (self._moved(known[0], bound, -1) for bound in self.where if known)
+        moved = (self._moved(k, bound, -1) for bound in self.where for k in known[:_MOVED])
         for each in (*filter(None, moved), *known):
             near = self.near(each, allowed=False)
             if near is not None:
                 yield near
 
     def _moved(self, known: Environment, bound: int, side: int) -> Environment | None:
-        """One parameter, or free coordinate, moved until left - right is near 0, on this side."""
+        """A parameter, free coordinate or momentum moved until left - right is near 0, so signed."""
         reference, problem = self.x.reference, self.x.problem
         signs = {p.name: p.assume for p in problem.parameters if not p.integer}
+        signs |= {name: "real" for name, _ in self._momenta if (name, 0) in known}
         signs |= {q.name: q.assume for q in problem.coordinates if (q.name, 0) not in self.values}
         by = reference.values(known).gradient(bound)
         slopes = {n: by.get(reference.program.symbol(n), arb(0)) for n in signs}
