@@ -28,7 +28,7 @@ from lagcli.mechanics.discovery.spectrum import (
     has_unsolved_exponents,
     sums,
 )
-from lagcli.mechanics.discovery.time_dependent import of_changing_coefficients
+from lagcli.mechanics.discovery.time_dependent import adjoint, of_changing_coefficients
 from lagcli.statements.wording import enumerated
 
 _MOST_FUNCTIONS = 60  # measured: at most 54
@@ -86,6 +86,8 @@ def time_functions(
     forced = forced_motion(accelerations, equations.q, equations.v, t)
     linear = accelerations, equations.q, equations.v, t
     changing, stretched, moved_along, solved = of_changing_coefficients(*linear)
+    if not potential:
+        changing += of_changing_coefficients(adjoint(*linear), *linear[1:])[0]
     forced += [f for f in moved_along if f not in forced]
     if changing or forced:  # sin(2 t) is 2 sin(t) cos(t) for a force at resonance
         others = _independent([*others, *stretched], t)

@@ -459,7 +459,7 @@ class Discovery(Setting):
             found = list(fixed.of_whole(self.noether, hidden))
             self.words.append(words)
             if found:
-                known = [c.charge for c in self.fixed_charges]
+                known = [c.charge for c in self.charges]
                 known += products_of_two(known)
                 new = new_charges(known, found, self.dynamics, self.allowed)
                 self.listing.add_hidden((charge.name, charge) for charge in new)

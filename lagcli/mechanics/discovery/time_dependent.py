@@ -84,6 +84,22 @@ def of_changing_coefficients(
     return translations, others, forced, solved
 
 
+def adjoint(
+    accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
+) -> list[Expr]:
+    """u'' of the factors u of integrals u.q' + w.q, where q'' = S q + D q' with S(t), D(t).
+
+    u'' = (S^T - D'^T) u - D^T u'.
+    """
+    terms, moving = [_terms(each) for each in accelerations], {*q, *v}
+    S, D = (
+        sympy.Matrix([[sympy.Add(*_factors(each, x, moving)) for x in y] for each in terms])
+        for y in (q, v)
+    )
+    u, rates = sympy.Matrix(list(q)), sympy.Matrix(list(v))
+    return [simplify(each) for each in (S - D.diff(t)).T * u - D.T * rates]
+
+
 def _by_modes(
     accelerations: Sequence[Expr], q: Sequence[Symbol], v: Sequence[Symbol], t: Symbol
 ) -> Sequence[Expr]:
