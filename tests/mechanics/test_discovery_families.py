@@ -23,6 +23,7 @@ from .derived import derive
 from .test_discovery_literature import problem
 
 POS = "{assume: positive}"
+TURNING = "(x^2 - y^2)*cos(2*W*t) + 2*x*y*sin(2*W*t)"
 
 
 def one_coordinate(L, force="", letter="x", positive="m k c g b Omega"):
@@ -316,6 +317,27 @@ def test_a_saddle_that_turns_has_four_linear_ones_in_its_axes(seed):
     )
     found = summary(derivation.discovery)
     assert (found.dimension, found.independent, found.integrable) == (5, 4, True)
+    assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("L", "forces"),
+    [
+        # a turning saddle with a drag, one in the field of a magnet; a drag that dies out
+        (f"(x'^2 + y'^2)/2 - k*({TURNING})/2", "{x: -c*x', y: -c*y'}"),
+        (f"(x'^2 + y'^2)/2 - k*({TURNING})/2", "{x: c*y', y: -c*x'}"),
+        ("(x'^2 + y'^2)/2 - k*y^2/2", "{x: -x'/t, y: -c*y'}"),
+        # circulatory: Merkin, *Introduction to the Theory of Stability*, chapter 6
+        ("(x'^2 + y'^2)/2 - k*(x^2 + y^2)/2", "{x: -b*y, y: b*x}"),
+        ("(x'^2 + y'^2)/2", "{x: -b*y - c*x', y: b*x - c*y'}"),
+    ],
+)
+def test_linear_forces_have_four_linear_integrals(L, forces):
+    """Their factors solve the adjoint equation, which is another one where forces do work."""
+    text = f"parameters: {{k: {POS}, c: {POS}, W: {POS}, b: }}\ncoordinates: [x, y]\n"
+    derivation = derive(f"{text}L: {L}\nforces: {forces}\n")
+    assert summary(derivation.discovery).independent == 4
     assert min(digits_of(derivation).values()) > 20
 
 

@@ -260,6 +260,10 @@ def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
         real = [Exponent(sign * growth, sympy.S.Zero) for sign in (1, -1)]
         return [*real, Exponent(sympy.S.Zero, frequency)]
     s = frequency_of(c)
+    if (gap := simplify(c - b**2 / 4)).is_nonnegative:  # the squares are conjugate
+        frequency = sympy.sqrt(simplify(b + 2 * s)) / 2
+        growth = simplify(frequency_of(gap) / (2 * frequency))
+        return [Exponent(sign * growth, frequency) for sign in (1, -1)]
     if has_roots(s):
         inside = frequency_of(simplify(b**2 / 4 - c))
         squares = [simplify(b / 2 + inside), simplify(b / 2 - inside)]
