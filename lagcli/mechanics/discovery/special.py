@@ -214,7 +214,10 @@ def equal_inertias(system: System) -> list[Value]:
         and is_zero(slope.xreplace(still)) is True
         and not any(slope.diff(v).xreplace(still) for v in system.qdot)
     ]  # fmt: skip
-    return [(b, a) for a, b in combinations(inertias, 2) if _admissible(b, a)]
+    return [
+        (b, a) for a, b in combinations(inertias, 2)
+        if a.is_positive == b.is_positive and _admissible(b, a)
+    ]  # fmt: skip
 
 
 def special_powers(equations: SlotEquations) -> list[Expr]:

@@ -51,7 +51,7 @@ from lagcli.platform.limited import limited_to
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 
-_MOST_FREEDOM = 4  # measured: up to 5
+_MOST_FREEDOM = 6  # measured: up to 5
 _UNITS = 64_000_000  # three frequencies: 13 values take 64 million
 _FOR_PIVOTS = 0.3  # of these
 _SHARE = 0.8  # of what its section has left
@@ -168,7 +168,7 @@ def _to_try(
         constraints = discovery.dynamics.constraints
         polynomial = all(e.f.is_polynomial(*system.q) for e in constraints.equations if e.holonomic)
         if constraints.nonholonomic or polynomial:  # the motion of a linkage is long to derive
-            values += [*equal_inertias(system), *missing(system.parameters)]
+            values += [*missing(system.parameters), *equal_inertias(system)]
         return values, []
     factors, pairs = _factors(searched, allowed)
     discovery.words += [_NOT_ALL] if _NOT_ALL in searched.words else []
