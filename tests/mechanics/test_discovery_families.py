@@ -845,3 +845,20 @@ def test_without_a_core_a_fading_spring_in_space_has_its_phases(seed):
     )
     [case] = derivation.special_cases
     assert (str(case.parameter), case.value, case.number) == ("g", 0, 12)
+
+
+@pytest.mark.parametrize(
+    ("parts", "names"),
+    [
+        ("-m*sqrt(1 - x'^2) - k*sqrt(1 - y'^2) - c*(x - y)", "energy energy_x"),  # two quarks
+        ("-m*sqrt(1 - x'^2) - x^4, u'^2*v'^2 - u*v, y'^4 - y*sin(t)", "energy_x energy_u_v"),
+        ("y'^2/2 - k*y^6 + x'^4 + x'*x^3 - c*x^2", "energy energy_x"),
+    ],
+)
+def test_each_part_of_a_lagrangian_has_its_energy(parts, names):
+    L = " + ".join(f"({part})" for part in parts.split(", "))
+    coordinates = [x for x in "xyuv" if f"{x}'" in L]
+    derivation = derive(problem(L, f"[{', '.join(coordinates)}]", "m k c"))
+    found = [c.name for c in derivation.discovery.charges]
+    assert {*names.split()} == {name for name in found if name.startswith("energy")}
+    assert min(digits_of(derivation).values()) > 20

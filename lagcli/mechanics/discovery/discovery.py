@@ -43,7 +43,7 @@ from lagcli.mechanics.discovery.listing import more, times
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.names import own_name
 from lagcli.mechanics.discovery.on_surface import ALL_ARE_KNOWN, all_are_known, search_on_surface
-from lagcli.mechanics.discovery.products import Products
+from lagcli.mechanics.discovery.products import Products, energies_of_parts
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.setting import Setting
@@ -309,6 +309,12 @@ class Discovery(Setting):
         if len(self.system.q) < 2 or not self.canonical:
             return
         if not self.quadratic_mass:
+            known = [c.charge for c in self.point_charges]
+            new = new_charges(
+                known, [*energies_of_parts(self.noether)], self.dynamics, self.allowed
+            )
+            naming = self.listing.naming
+            self.listing.add_hidden((naming.of_mode(c.transformation.changes), c) for c in new)
             if self.system.t not in self.equations_symbols:
                 self._at_fixed_values()
             return

@@ -244,9 +244,10 @@ class Naming:
         )
 
     def of_mode(self, eta: Sequence[Expr]) -> str:
-        """The energy of one normal mode, or of one coordinate that moves alone."""
-        moved = [x.name for x, e in zip(self.q, eta, strict=True) if e != 0]
-        return f"energy_{moved[0]}" if len(moved) == 1 else "energy_mode"
+        """The energy of one normal mode, or of coordinates that move alone."""
+        moved = {x.name: e for x, e in zip(self.q, eta, strict=True) if e != 0}
+        alone = len(moved) == 1 or all(e.is_Symbol for e in moved.values())
+        return f"energy_{'_'.join(moved)}" if alone else "energy_mode"
 
     def _rotation_of_sphere(self, moved: Mapping[Symbol, Expr]) -> str:
         """L_x: dtheta = -sin phi; L_y: dtheta = cos phi, for latitude and longitude.

@@ -1,4 +1,4 @@
-"""Integrals that are products of others: the energies of the modes stand for them.
+"""Energies of parts, and integrals that are products of others: those of the modes stand for them.
 
 Q_a Q_b has the multipliers Q_a eta_b + Q_b eta_a, where dQ/dt = sum eta_j (left side j).
 Q_cos^2 + Q_sin^2 = 2 mu E of a mode xi cos(omega t), with mu = xi M xi.
@@ -13,6 +13,7 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, is_zero, simplify
+from lagcli.algebra.build import free_of
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import NoPoint
 from lagcli.mechanics.discovery.point import with_gauge
@@ -122,6 +123,25 @@ class Products:
 
 def _turns(charge: NoetherCharge) -> set[Expr]:
     return {*sympy.Tuple(*charge.transformation.changes).atoms(sympy.sin, sympy.cos)}
+
+
+def energies_of_parts(noether: Noether) -> Iterator[NoetherCharge]:
+    """Of coordinates that no term of L has together with others: L = L1(x, x') + L2(y, y')."""
+    system = noether.system
+    rate = dict(zip(system.q, system.qdot, strict=True))
+    terms = [(t, t.free_symbols) for t in sympy.Add.make_args(sympy.expand(system.L))]
+    own = [{q for q, v in rate.items() if {q, v} & symbols} for _, symbols in terms]
+    edges = [pair for each in own for pair in combinations(each, 2)]
+    parts = sympy.utilities.iterables.connected_components((list(system.q), edges))
+    for part in parts if len(parts) > 1 else ():
+        L = sympy.Add(*(t for (t, _), coordinates in zip(terms, own, strict=True)
+                        if coordinates & {*part}))  # fmt: skip
+        if free_of(L, [system.t]):
+            eta = tuple(v if q in part else sympy.S.Zero for q, v in rate.items())
+            whole = dot([L.diff(v) for v in rate.values()], eta) - L
+            charge = integral_of(noether, eta, whole, L)
+            if charge is not None:
+                yield charge
 
 
 def integral_of(noether: Noether, eta: Vector, whole: Expr, gauge: Expr) -> NoetherCharge | None:
