@@ -143,7 +143,7 @@ class RestPlace:
                 yield near
 
     def _moved(self, known: Environment, bound: int, side: int) -> Environment | None:
-        """A parameter, free coordinate or momentum moved until left - right is near 0, so signed."""
+        """A parameter, coordinate or momentum moved until left - right is near 0, so signed."""
         reference, problem = self.x.reference, self.x.problem
         signs = {p.name: p.assume for p in problem.parameters if not p.integer}
         signs |= {name: "real" for name, _ in self._momenta if (name, 0) in known}
