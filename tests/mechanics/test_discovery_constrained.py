@@ -569,3 +569,17 @@ def test_without_its_field_a_charge_on_a_cylinder_turns_and_glides(axis, power):
     new = {c.name for c in case.charges}
     assert f"boost_{axis}" in new
     assert (f"L_{axis}" in new) is (power == 2)
+
+
+@pytest.mark.parametrize("pull", ["g*(m*y + n*v)", "0", "-g*x*m - g*u*n"])
+def test_products_whose_time_cancels_are_not_listed_on_constraints(pull):
+    """P_y² + 2 M g (m y + n v) of a rod in free fall is a sum of products of p_y + M g t, the boost."""
+    text = (
+        "coordinates: [x, y, u, v]\n"
+        "parameters: {m: {assume: positive}, n: {assume: positive}, g: {assume: positive}}\n"
+        f"T: m*(x'^2 + y'^2)/2 + n*(u'^2 + v'^2)/2\nV: {pull}\n"
+        "constraints: {rod: (x - u)^2 + (y - v)^2 = 1}\n"
+    )
+    discovery = derive(text).discovery
+    assert discovery.hidden_charges == ()
+    assert summary(discovery).independent >= 5

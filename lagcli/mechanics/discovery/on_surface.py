@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import sympy
 from sympy import Expr
 
-from lagcli.mechanics.discovery.ansatz import TimeFunctions, time_functions
+from lagcli.mechanics.discovery.ansatz import TimeFunctions, products_of_two, time_functions
 from lagcli.mechanics.discovery.constrained import dimension_of_states, rank_on_surface
 from lagcli.mechanics.discovery.listing import more
 from lagcli.mechanics.discovery.momentum_equation import Momenta
@@ -69,6 +69,9 @@ def search_on_surface(
             found += solved
         if nonholonomic:
             found = _independent(setting, found)
+        elif len(setting.fixed_charges) < len(setting.charges):  # products without the time
+            values = _values(setting)
+            found = search.new([*values, *products_of_two(values)], found)
         listing.add_hidden(("", charge) for charge in found)
         setting.words.append(
             "and of second degree without explicit time, with coefficients of second degree"
