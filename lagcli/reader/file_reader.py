@@ -33,6 +33,7 @@ from lagcli.reader.misshapen import (
     is_found,
     named_formulas,
     one_sum,
+    ranged,
     source_of,
     texts_of,
     with_state,
@@ -377,6 +378,9 @@ class FileReader:
         number = in_digits(alone, names) if is_open else alone
         units = "unit" in self.text
         wrong = unit_in_formula(number, what, self.scope.kinds, role in _NUMERIC, units)
+        is_varied = is_open and what.startswith(("the value of", "the initial"))
+        if is_varied and (several := ranged(what.split("'", 1)[1][:-1], node)):
+            wrong = f"{what} is one number", several
         if number != alone and not wrong:
             wrong = "a value is one number in digits", f"write {number}"
         if wrong:

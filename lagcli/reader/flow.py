@@ -11,7 +11,7 @@ import re
 
 from lagcli.diagnostics import Diagnostic
 from lagcli.reader.habits import unit_behind
-from lagcli.reader.misshapen import as_list
+from lagcli.reader.misshapen import as_list, ranged
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 
 
@@ -88,9 +88,11 @@ def _mend(
             elif hint == quoted and re.search(r"(?:[-+*]|^)\s*\([^()]*(?:\([^()]*\)[^()]*)*,", one):
                 hint = "a vector is a list of its components, as in [x, y]"
             message = "inside { } and [ ] a comma ends the value"
-            mistakes.append(Diagnostic(message, first.text.span(first.start, end), hint))
             if isinstance(first, Scalar):
                 first.value, first.end, first.broken = one, end, True
+            key = re.search(r"([\w']+)\s*:\s*$", first.text.source.text[: first.start])
+            hint = (ranged(key[1], first) if key else "") or hint
+            mistakes.append(Diagnostic(message, first.text.span(first.start, end), hint))
             keep[i + 1 : last + 1] = [False] * (last - i)
         i = last + 1
     return keep, mistakes

@@ -153,7 +153,7 @@ def state_without_headings(node: DocumentNode, coordinates: list[str]) -> str:
         given = listed[1].split(",") if listed else [*map(source_of, value.parts)]
         given = re.split(r"\s*;\s*|\s+", given[0]) if len(given) == 1 else given  # [1; 0]
         known = [*coordinates, *(f"{x}'" for x in coordinates if len(given) > len(coordinates))]
-        if heading.label in coordinates and isinstance(value, Sequence):
+        if heading.label.rstrip("'") in coordinates and isinstance(value, Sequence):
             return ""
         if given and len(given) == len(known):
             pairs = zip(known, given, strict=True)

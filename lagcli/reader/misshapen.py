@@ -47,6 +47,10 @@ RANGE = regex(
     r"\s*[\[(]?\s*(-?[\d.]*\d)\s*(?:\.\.+|…|to|bis|:|–)\s*(?:(-?[\d.]*\d)\s*:\s*)?"
     r"(-?[\d.]*\d)\s*[\])]?\s*"
 )
+_SPACED = regex(
+    r"\s*(?:np\.|numpy\.)?linspace\(\s*(-?[\d.]*\d)\s*,\s*(-?[\d.]*\d)\s*"
+    r"(?:,\s*(?:\w+\s*=\s*)?(\d+)\s*)?\)\s*"
+)
 _EQUATION = regex(r"\s*(?:\w+\.)?(?:Eq|Equality|Equal)\s*[(\[](.*)[)\]]\s*")
 _RELATION = regex(r"([^\s=<>≤≥:,{[][^=<>≤≥:,{[]*?)\s*[=<>≤≥]+\s*([^=<>≤≥:,\]}]*[^\s=<>≤≥:,\]}])")
 #: A velocity, or a difference of some.
@@ -167,8 +171,8 @@ def one_sum(node: DocumentNode, what: str) -> str:
         cases = [re.sub(r",?\s*(?:otherwise|else)\b:?", "", each).strip() for each in written]
         whole = without_cases(" else ".join(cases)) if len(cases) == 2 else ""
         return f"write {whole}" if "sign(" in whole else CASE
-    if what.startswith("the value of") and written:
-        return f"write {written[0]}; {swept(what.split(chr(39))[1], node)}"
+    if what.startswith(("the value of", "the initial")) and written:
+        return f"write {written[0]}; {swept(what.split(chr(39), 1)[1][:-1], node)}"
     if what.startswith("the definition of") and written and {*inner} <= {"x", "y", "z"}:
         name = what.split("'")[1]
         pairs_ = zip(inner or "xyz", written, strict=False)
@@ -303,6 +307,8 @@ def values_of(node: DocumentNode) -> str:
 
 def values_in(text: str) -> str:
     """`1,2,3` for `1, 2, 3`, `0:1:5` for a range, also `1, 5`; nothing for others."""
+    if spaced := _SPACED.fullmatch(text):
+        return f"{spaced[1]}:{spaced[2]}:{spaced[3] or 'COUNT'}"
     found = RANGE.fullmatch(text.replace(",", ":") if text.count(",") == 1 else text)
     if found is None:
         values = [each.strip() for each in text.split(",")]
@@ -318,8 +324,17 @@ def values_in(text: str) -> str:
 
 
 def swept(name: str, values: DocumentNode) -> str:
-    """How a parameter is given several values."""
-    return f"several are run by lagcli sweep FILE --vary {name}={values_of(values)}"
+    """How a parameter or a part of the initial state is given several values."""
+    varied = f"{name}={values_of(values)}"
+    varied = f'"{varied}"' if "'" in name else varied
+    return f"several are run by lagcli sweep FILE --vary {varied}"
+
+
+def ranged(name: str, node: DocumentNode) -> str:
+    """`write 0; several are run by ...` for `0:5`, `0 to 5`, `linspace(0, 5, 11)`; or nothing."""
+    text = node.value if isinstance(node, Scalar) else ""
+    found = RANGE.fullmatch(text) or _SPACED.fullmatch(text)
+    return f"write {found[1]}; {swept(name, node)}" if found else ""
 
 
 def key_by_shape(value: DocumentNode, problem: Mapping) -> str | None:

@@ -16,7 +16,7 @@ from lagcli.reader.file_reader import FileReader
 from lagcli.reader.habits import advised, is_constant, is_open, name_meant, unit_behind
 from lagcli.reader.headings import SAID, is_said, without_headings
 from lagcli.reader.listed_names import as_names
-from lagcli.reader.misshapen import RANGE, by_its_name, entries_of, source_of, swept
+from lagcli.reader.misshapen import by_its_name, entries_of, source_of, swept
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import in_digits, in_unit, wrong_unit
 from lagcli.reader.regex import regex
@@ -109,9 +109,6 @@ def read_parameters(
         elif is_free and is_open(bare):
             hint = f"leave out what is not known: write {key.label}:"
             file.error(f"'{bare}' is not a value", attributes["value"].span, hint)
-        elif isinstance(given, Scalar) and (found := RANGE.fullmatch(given.value)):
-            hint = f"write {found[1]}; {swept(key.label, given)}"
-            file.error(f"'{key.label}' has a range for its value", given.span, hint)
         elif given is not None and (pair := _in_order(given)):
             file.error(f"the value of '{key.label}' is a number alone", given.span, pair)
         elif isinstance(given, Scalar) and is_described(given.value, file.scope.kinds):

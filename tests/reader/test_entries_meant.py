@@ -131,6 +131,20 @@ def test_several_values_are_a_command_with_the_numbers_of_the_file(seed):
     assert swept.endswith(f"lagcli sweep p.yaml --vary k={','.join(values)}")
 
 
+@pytest.mark.parametrize("name", ["x", "x'"])
+@pytest.mark.parametrize(
+    ("given", "first", "varied"),
+    [
+        ("0:0.5:2", "0", "0:2:5"), ("1 to 3", "1", "1:3:3"), ("[1, 2, 4]", "1", "1,2,4"),
+        ("linspace(0, 3, 10)", "0", "0:3:10"), ("np.linspace(-1, 1, num=5)", "-1", "-1:1:5"),
+    ],
+)  # fmt: skip
+def test_several_initial_states_are_a_command(name, given, first, varied):
+    option = f"{name}={varied}" if name == "x" else f'"{name}={varied}"'
+    hint = f"write {first}; several are run by lagcli sweep p.yaml --vary {option}"
+    assert only_hint(f"initial: {{{name}: {given}}}\n") == hint
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_a_number_of_turns_is_exact(seed):
     number = random.Random(seed).randrange(1, 999)
