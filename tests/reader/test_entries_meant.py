@@ -136,7 +136,7 @@ def test_several_values_are_a_command_with_the_numbers_of_the_file(seed):
     ("given", "first", "varied"),
     [
         ("0:0.5:2", "0", "0:2:5"), ("1 to 3", "1", "1:3:3"), ("[1, 2, 4]", "1", "1,2,4"),
-        ("linspace(0, 3, 10)", "0", "0:3:10"), ("np.linspace(-1, 1, num=5)", "-1", "-1:1:5"),
+        ("linspace(0, 3, 10)", "0", "0:3:10"), ("np.linspace(1, 2, 5)", "1", "1:2:5"),
     ],
 )  # fmt: skip
 def test_several_initial_states_are_a_command(name, given, first, varied):
