@@ -20,6 +20,7 @@ from lagcli.algebra import is_zero, simplify
 
 _LARGEST_BLOCK = 4  # measured: at most 3
 _MOST_OPERATIONS = 3000  # measured: at most 25
+_MOST_IN_ROOTS = 30  # operations; measured: 11, and 46 are too much for the search
 _WAVES = (sympy.sin, sympy.cos, sympy.exp)
 
 
@@ -260,8 +261,8 @@ def _biquadratic(b: Expr, c: Expr) -> list[Exponent]:
         real = [Exponent(sign * growth, sympy.S.Zero) for sign in (1, -1)]
         return [*real, Exponent(sympy.S.Zero, frequency)]
     s = frequency_of(c)
-    if (gap := simplify(c - b**2 / 4)).is_nonnegative:  # the squares are conjugate
-        frequency = sympy.sqrt(simplify(b + 2 * s)) / 2
+    gap, frequency = simplify(c - b**2 / 4), sympy.sqrt(simplify(b + 2 * s)) / 2
+    if gap.is_nonnegative and frequency.count_ops() <= _MOST_IN_ROOTS:  # the squares are conjugate
         growth = simplify(frequency_of(gap) / (2 * frequency))
         return [Exponent(sign * growth, frequency) for sign in (1, -1)]
     if has_roots(s):
