@@ -69,6 +69,7 @@ def slips(problem: Problem) -> list[Diagnostic]:
         hint = f"it drives the motion: write {whole}" if whole else FRICTION
         found.append(_warning("the dissipation is negative", lost.span, hint))
     found += _new_places(problem)
+    found += _masses_beside(problem)
     for term in terms_of(problem.potential or ZERO):
         known = all(node.primes or node.name in signs for node in name_nodes(term))
         if known and has_velocity(term):
@@ -103,6 +104,29 @@ def _new_places(problem: Problem) -> Iterator[Diagnostic]:
                 message = f"'{one.name}' changes {x} by {text.written(change.span)}"
                 hint = f"write {step}: a symmetry has the change, not the new {x}"
                 yield _warning(message, change.span, hint)
+
+
+def _masses_beside(problem: Problem) -> Iterator[Diagnostic]:
+    """A warning for points whose mass is in none of the terms of T, or of L."""
+    whole = problem.lagrangian if problem.kinetic is None else problem.kinetic
+    values = {one.name: one.value for one in problem.parameters if one.value is not None}
+    meaning = {**values, **problem.definitions, **problem.named}
+
+    def names_in(formula: Expression) -> set[str]:
+        names, left = set[str](), {node.name for node in name_nodes(formula)}
+        while left:
+            names |= left
+            inner = name_nodes(*(meaning[name] for name in left if name in meaning))
+            left = {node.name for node in inner} - names
+        return names
+
+    energy, name = ("T", "kinetic energy") if problem.kinetic is not None else ("L", "energy")
+    for point in problem.points if whole is not None else ():
+        mass = set() if point.mass is None else names_in(point.mass)
+        if point.mass is not None and mass and not mass & names_in(whole):
+            message = f"the mass of '{point.name}' is not in {energy}, which is all of the {name}"
+            hint = f"add the {name} of '{point.name}' to {energy}, or leave out its mass"
+            yield _warning(message, point.mass.span, hint)
 
 
 def _turned_terms(kinetic: Expression) -> Iterator[Diagnostic]:

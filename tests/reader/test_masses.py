@@ -39,3 +39,21 @@ def test_products_of_what_has_a_sign(
 ])  # fmt: skip
 def test_values_and_what_has_none(mass: str, parameters: str, *, wrong: bool) -> None:
     assert bool(mistakes(mass, parameters)) is wrong
+
+
+@pytest.mark.parametrize("mass", ["m", "2*m/3", "M", "d"])
+@pytest.mark.parametrize(("energy", "has"), [
+    ("T: I*x'^2/2", ""), ("T: I*x'^2/2 + d*x'^2", "mMd"), ("L: I*x'^2/2 + m*x'^2/2", "mMd"),
+    ("V: I*x^2", "mMd"), ("T: M*x'^2/2", "mMd"), ("L: I*x'^2/2 - x^2", ""),
+])  # fmt: skip
+def test_a_mass_beside_t_that_is_not_in_it_is_warned_of(mass: str, energy: str, has: str) -> None:
+    """Without a word phi'' of a rolling disc was m g R sin(a)/I."""
+    text = (
+        "coordinates: [x]\nparameters: {m: {assume: positive}, I: {assume: positive},"
+        " M: {value: 3*m}}\ndefinitions: {d: M/2}\n"
+        f"points: {{a: {{position: [x], mass: '{mass}'}}}}\n{energy}\n"
+    )
+    found = [each.message for each in read("p.yaml", text.encode()).diagnostics]
+    meant = any(letter in has for letter in mass if letter in "mMd")
+    expected = f"the mass of 'a' is not in {energy[0]}"
+    assert [message[: len(expected)] for message in found] == ([] if meant else [expected])
