@@ -36,8 +36,13 @@ _WORDS = (
     (r"\bthe derivative of S\b", "S", "the derivative of the action"),
 )
 #: Names there are those of the file.
-_OF_THE_FILE = re.compile(r"(\bthe functions? .*? (?:is|are) not specified)")
-_OF_FUNCTIONS = re.compile(r"(the functions? )(.*)( (?:is|are) not specified)")
+_OF_THE_FILE = re.compile(
+    r"(\bthe functions? .*? (?:is|are) not specified"
+    r"|\bsines and cosines of (?:\w+, )*\w+(?: and \w+)?)"
+)
+_OF_FUNCTIONS = re.compile(
+    r"(the functions? |sines and cosines of )(.*?)( (?:is|are) not specified|$)"
+)
 _OPERATION = re.compile(r"\w\(|[*/^]| [-+] ")
 _LETTERS = re.compile(
     r"(?<![\w'])(T \+ V|[LH]|T(?= is | plus )|V(?= depends | without )|t(?= explicitly))(?![\w'])"
@@ -170,7 +175,7 @@ def _typeset(text: str) -> list[Any]:
 
 
 def _functions(text: str) -> list[Any]:
-    """The functions in "the functions U and Phi are not specified" as formulas."""
+    """What has names in "the functions U and Phi are not specified" as formulas."""
     lead, names, end = _OF_FUNCTIONS.split(text)[1:4]
     parts = re.split(r"(, | and )", names)
     return [lead, *(part if k % 2 else Name(part) for k, part in enumerate(parts)), end]

@@ -122,8 +122,8 @@ def _masses_beside(problem: Problem) -> Iterator[Diagnostic]:
 
     energy, name = ("T", "kinetic energy") if problem.kinetic is not None else ("L", "energy")
     for point in problem.points if whole is not None else ():
-        mass = set() if point.mass is None else names_in(point.mass)
-        if point.mass is not None and mass and not mass & names_in(whole):
+        mass = set() if whole is None or point.mass is None else names_in(point.mass)
+        if whole and point.mass and mass and not mass & names_in(whole):
             message = f"the mass of '{point.name}' is not in {energy}, which is all of the {name}"
             hint = f"add the {name} of '{point.name}' to {energy}, or leave out its mass"
             yield _warning(message, point.mass.span, hint)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from lagcli.document import Block, Paragraph
 from lagcli.expression import Expression
 from lagcli.formatters.json_values import Object, fields_of
-from lagcli.notation.letters import names_in
+from lagcli.notation.letters import names_in, with_names
 from lagcli.platform.effort import OutOfWork
 from lagcli.platform.limited import limited_to
 from lagcli.problem_data import ExpectAlgebra, ExpectSpecial
@@ -29,7 +29,7 @@ from lagcli.sections._expected import expected_of, judged
 from lagcli.statements.answers import AlgebraSection, Answers, SpecialValue
 from lagcli.statements.declaration import Explained, declared, step
 from lagcli.statements.motions import Above
-from lagcli.statements.wording import conditions, rows_by_name, values_of, where_real
+from lagcli.statements.wording import conditions, rows_by_name, values_of, where_real, with_powers
 
 if TYPE_CHECKING:
     from lagcli.mechanics.discovery.special import SpecialCase
@@ -102,10 +102,10 @@ def _separates(statements: Statements) -> bool:
     return found is not None and len(found.constants) == len(separation.system.q)
 
 
-def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
+def blocks(section: AlgebraSection, answers: Answers) -> Iterator[Block]:
     """The ansatz, the algebra, whether the motion is integrable, and the special values."""
-    named = f", {section.name}" if section.name else ""
-    yield Paragraph((f"Searched: {section.ansatz}.",))
+    named = [", ", *with_powers(section.name)] if section.name else []
+    yield Paragraph(("Searched: ", *with_names(section.ansatz, answers.coordinates), "."))
     if section.is_prescribed:
         return
     number = section.independent
@@ -117,7 +117,8 @@ def blocks(section: AlgebraSection, _: Answers) -> Iterator[Block]:
     counts = "" if section.dimension_counts == "charges" else f" of the {section.dimension_counts}"
     counts += ", modulo constants" if section.with_constants and not section.name else ""
     where = [" where ", *conditions(section.named_where)] if section.named_where else []
-    yield Paragraph((f"Dimension {section.dimension}{counts}{named}", *where, f"; {charges}."))
+    lead = f"Dimension {section.dimension}{counts}"
+    yield Paragraph((lead, *named, *where, f"; {charges}."))
     verdict = "The motion is integrable."
     if section.integrable is None:
         verdict = "Whether the motion is integrable is undecided."

@@ -87,6 +87,12 @@ def with_names(text: str) -> list[Part]:
     return [Name(part) if k % 2 else part for k, part in enumerate(text.split("`")) if part]
 
 
+def with_powers(algebra: str) -> list[Part]:
+    """The name of an algebra, in which R^2 is a power."""
+    parts = enumerate(re.split(r"\bR\^(\d+)", algebra))
+    return [Power(Name("R"), Number(Fraction(x))) if k % 2 else x for k, x in parts if x]
+
+
 def with_constraints(sides: Mapping[str, tuple[Expression, Expression]]) -> Iterator[Block]:
     """The constraints that hold besides the equations of motion."""
     if sides:

@@ -1,5 +1,7 @@
 """The algebra of the symmetries as it is read."""
 
+from types import SimpleNamespace
+
 from lagcli.document import Paragraph
 from lagcli.expression import ZERO, Name
 from lagcli.sections.algebra import blocks
@@ -26,7 +28,7 @@ def test_values_with_the_same_symmetries_are_read_at_once():
     )
     read = [
         each.parts
-        for each in blocks(section, None)
+        for each in blocks(section, SimpleNamespace(coordinates=()))
         if isinstance(each, Paragraph) and each.parts[0] == "Where "
     ]
     assert [[part for part in parts if part != ""] for parts in read] == [

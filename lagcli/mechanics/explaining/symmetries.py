@@ -40,6 +40,7 @@ from lagcli.mechanics.explaining.conservation import noether_words
 from lagcli.mechanics.explaining.explainer import Explainer
 from lagcli.mechanics.explaining.words import Part, constraints_allow, listed, says
 from lagcli.mechanics.rest.rest_conditions import given_formulas
+from lagcli.notation.letters import with_names
 from lagcli.notation.ordering import positive_first
 from lagcli.statements.answers import (
     AlgebraSection,
@@ -53,6 +54,7 @@ from lagcli.statements.wording import (
     conditions,
     values_of,
     where_real,
+    with_powers,
 )
 
 #: A table of brackets of more charges than these is not read.
@@ -76,8 +78,9 @@ def discovered(explainer: Explainer, section: Section) -> Iterator[Block]:
     yield says(
         "A symmetry is a change of the coordinates and the time under which the action "
         "changes only "
-        f"by a boundary term. The search uses an ansatz with unknown coefficients: "
-        f"{discovery.ansatz}."
+        "by a boundary term. The search uses an ansatz with unknown coefficients: ",
+        *with_names(discovery.ansatz, explainer.system.names),
+        ".",
     )
     if discovery.cartesian:
         factors = discovery.cartesian_lead == THEY_ARE  # else only multiples of them are said
@@ -180,7 +183,8 @@ def algebra(explainer: Explainer, section: Section) -> Iterator[Block]:
         yield says(f"No symmetry was sought: {PRESCRIBED}.")
         return
     if not charges:
-        yield says(f"No symmetry was found and proved. Searched: {found.ansatz}.")
+        ansatz = with_names(found.ansatz, explainer.system.names)
+        yield says("No symmetry was found and proved. Searched: ", *ansatz, ".")
         yield from _at_special_values(explainer, found)
         return
     if found.in_involution is None:
@@ -305,13 +309,13 @@ def _dimension(found: AlgebraSection) -> Iterator[Block]:
     name = found.name.removesuffix(MODULO_CONSTANTS)
     where = [" where ", *conditions(found.named_where)] if found.named_where else []
     if name == found.name:
-        lead = f"The algebra of the {kind} found has dimension {found.dimension}: {name}"
+        lead = f"The algebra of the {kind} found has dimension {found.dimension}: "
     else:
         lead = (
             f"Constants occur among the brackets. The algebra of the {kind} found has dimension "
-            f"{found.dimension} modulo constants and {found.dimension + 1} with them: {name}"
+            f"{found.dimension} modulo constants and {found.dimension + 1} with them: "
         )
-    yield says(lead, where, ".")
+    yield says(lead, *with_powers(name), where, ".")
     yield from _without_time(found, where)
 
 
@@ -320,7 +324,7 @@ def _without_time(found: AlgebraSection, where: list[Part]) -> Iterator[Block]:
     if found.autonomous is not None:
         number, name = found.autonomous
         close = f"The {number} conserved quantities that do not depend on t close under the bracket"
-        yield says(f"{close}: {name.removesuffix(MODULO_CONSTANTS)}", where, ".")
+        yield says(f"{close}: ", *with_powers(name.removesuffix(MODULO_CONSTANTS)), where, ".")
 
 
 def _integrability(found: AlgebraSection, n: int) -> list[Part]:
