@@ -6,6 +6,7 @@ Values are followed exactly where they are rational; others are looked at when t
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from fractions import Fraction
@@ -301,12 +302,27 @@ def _check_dissipation(file: FileReader, problem: Problem) -> None:
         file.error("the dissipation contains no velocity", formula.span, hint)
     elif _parity(formula, problem.definitions) == -1:
         message = "the dissipation changes its sign with the velocities"
-        law = SourceText.of(problem.source).written(formula.span)
-        whole = as_rayleigh(law)
-        rates = {node.name for node in name_nodes(formula) if node.primes}
-        hint = f"a law of a force: write forces: {{{''.join(rates)}: {law}}}"
-        hint = hint if len(rates) == 1 and not problem.forces else FRICTION
+        whole = as_rayleigh(SourceText.of(problem.source).written(formula.span))
+        power, force = _odd_meant(formula, problem)
+        hint = f"write {power}: its force is opposite to the velocity" if power else force
         file.error(message, formula.span, f"write {whole}: {FRICTION}" if whole else hint)
+
+
+def _odd_meant(formula: Expression, problem: Problem) -> tuple[str, str]:
+    """What is odd in the velocities as Rayleigh's function, or empty, and as a law of a force.
+
+    c q'^3/3 is divided as c |q'|^3/3 is, whose force is -c q' |q'|.
+    """
+    law = SourceText.of(problem.source).written(formula.span)
+    rates = {node.name for node in name_nodes(formula) if node.primes}
+    calls = {node.function for node in walk(formula) if isinstance(node, Call)}
+    parts = map(int, re.findall(r"/\s*(\d+)(?![\d.])", law))
+    is_power = calls <= {"abs"} and any(part & part - 1 for part in parts)
+    power = re.sub(r"(?<!\w)(?<!abs\()[^\W\d]\w*'(?!')", r"abs(\g<0>)", law) if is_power else ""
+    force = law if law[0] == "-" else opposite(formula, SourceText.of(problem.source))
+    is_one = len(rates) == 1 and rates <= {one.name for one in problem.coordinates}
+    hint = f"a law of a force: write forces: {{{''.join(rates)}: {force}}}"
+    return power, hint if is_one and force else FRICTION
 
 
 def _check_momenta(file: FileReader, problem: Problem) -> None:
@@ -333,14 +349,14 @@ def _check_potential(file: FileReader, problem: Problem) -> None:
     rest = written(term.span for term in terms if term not in wrong)
     moved = written(term.span for term in wrong)
     sums = [node for term in wrong for node in walk(term) if isinstance(node, Sum)]
-    rates = {node.name for term in wrong for node in name_nodes(term) if node.primes}
+    power, force = _odd_meant(wrong[0], problem) if not wrong[1:] else ("", FRICTION)
     if any(len({*map(has_velocity, each.terms)}) > 1 for each in sums):
         hint = FRICTION
-    elif len(rates) == 1 and any(_parity(term, problem.definitions) == -1 for term in wrong):
-        hint = f"a law of a force: write forces: {{{''.join(rates)}: -{moved}}}"
+    elif _parity(wrong[0], problem.definitions) == -1 and not power:
+        hint = force
     else:
         given = f"{written([problem.dissipation.span])} + " if problem.dissipation else ""
-        hint = f"friction has no potential: write dissipation: {given}{moved}"
+        hint = f"friction has no potential: write dissipation: {given}{power or moved}"
         hint += f", and V: {rest}" if rest else " in place of V"
     file.error("a term of V is not linear in the velocities", wrong[0].span, hint)
 

@@ -1,6 +1,8 @@
 """A force that drives, or that brakes another motion, is warned of; laws of books are not."""
 
+import math
 import random
+import re
 
 import pytest
 
@@ -164,3 +166,27 @@ def test_a_coefficient_is_no_dissipation(law):
     assert told.hint.startswith(f"write {law}*x'^2/2: ")
     right = text.replace(f": {law}\n", f": {law}*x'^2/2\n")
     assert read_problem("p", right.encode()).diagnostics == ()
+
+
+def value(formula, rate):
+    names = {"abs": abs, "tanh": math.tanh, "c": 2, "m": 3, "k": 5, "v": rate}
+    return eval(formula.replace("x'", "v").replace("^", "**"), names)  # noqa: S307
+
+
+@pytest.mark.parametrize("section", ["dissipation: ", "V: k*x + "])
+@pytest.mark.parametrize("law", [
+    "c*x'^3/3", "c*m*x'^5/5", "x'^3*c/6", "c*abs(x')^2*x'/3", "x'*abs(x')/3*c",
+    "c*x'*abs(x')", "c*x'^3", "k*x'^5/2", "c*x'^2*tanh(x'/3)", "x'^3/m",
+])  # fmt: skip
+def test_an_odd_function_of_a_velocity_is_written_such_that_it_brakes(section, law):
+    text = f"coordinates: [x]\nparameters: [m, c, k]\nT: m*x'^2/2\n{section}{law}\n"
+    [only] = read_problem("p.yaml", text.encode()).diagnostics
+    where, given = re.search(
+        r"(?:write |dissipation: )?(dissipation|forces)?(?:: \{x: )?([^:,{}]*\w'[^:,{}]*)",
+        only.hint,
+    ).groups()
+    for rate in (-2, -1, 1, 2):
+        found = value(given, rate)
+        assert abs(found) == pytest.approx(abs(value(law, rate)))
+        assert found * rate < 0 if where == "forces" else found > 0
+    assert (where == "forces") == ("/3*" not in law and not re.search("/[356]$", law))
