@@ -20,7 +20,7 @@ from lagcli.algebra import is_zero, simplify
 
 _LARGEST_BLOCK = 4  # measured: at most 3
 _MOST_OPERATIONS = 3000  # measured: at most 25
-_MOST_IN_ROOTS = 30  # operations; measured: 11, and 46 are too much for the search
+_MOST_IN_ROOTS = 20  # operations; measured: 18 are found, 26 take all the work of the search
 _WAVES = (sympy.sin, sympy.cos, sympy.exp)
 
 
