@@ -8,7 +8,7 @@ Ibragimov, *Elementary Lie Group Analysis and Ordinary Differential Equations*, 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import suppress
 
 import sympy
@@ -292,9 +292,7 @@ class Discovery(Setting):
                 self.listing.add([charge])
         self.stopped += [self.unproved] if self.unproved else []
         if not (constraints or self.canonical):
-            known = [c.charge for c in self.point_charges]
-            found = list(point.with_integrating_factors(self.noether, allowed))
-            self.listing.add(new_charges(known, found, self.dynamics, allowed))
+            self.listing.add(self._new([*point.with_integrating_factors(self.noether, allowed)]))
         if not constraints:
             self.listing.rebase(lambda charges: without_time(charges, self.system, allowed))
 
@@ -309,11 +307,7 @@ class Discovery(Setting):
         if len(self.system.q) < 2 or not self.canonical:
             return
         if not self.quadratic_mass:
-            known = [c.charge for c in self.point_charges]
-            new = new_charges(
-                known, [*energies_of_parts(self.noether)], self.dynamics, self.allowed
-            )
-            naming = self.listing.naming
+            new, naming = self._new([*energies_of_parts(self.noether)]), self.listing.naming
             self.listing.add_hidden((naming.of_mode(c.transformation.changes), c) for c in new)
             if self.system.t not in self.equations_symbols:
                 self._at_fixed_values()
@@ -465,12 +459,17 @@ class Discovery(Setting):
             found = list(fixed.of_whole(self.noether, hidden))
             self.words.append(words)
             if found:
-                known = [c.charge for c in self.charges]
-                known += products_of_two(known)
-                new = new_charges(known, found, self.dynamics, self.allowed)
+                new = self._new(found, products_of_two([c.charge for c in self.charges]))
                 self.listing.add_hidden((charge.name, charge) for charge in new)
                 return True
         return False
+
+    def _new(
+        self, found: Sequence[NoetherCharge], products: Sequence[Expr] = ()
+    ) -> tuple[NoetherCharge, ...]:
+        """Those that are no combinations of what is known, and of products of it."""
+        known = [*(c.charge for c in self.charges), *products]
+        return new_charges(known, found, self.dynamics, self.allowed)
 
     def _symmetries(self) -> list[tuple[Expr, ...]]:
         """Killing vectors that V admits: their products, which are nothing new, stand alone."""
