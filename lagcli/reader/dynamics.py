@@ -144,10 +144,21 @@ def declare_definitions(file: FileReader, node: DocumentNode) -> list[tuple[Scal
             hint = f"write {square[1]}: sqrt({source_of(value)})"
             file.error(f"'{key.label}' is not a name", key.span, hint, refused=square[1])
             continue
-        if file.declare(key.label, "definition", key.span):
+        if relation := _relation(file, key, value):
+            hint = f"a relation of coordinates: write constraints: {{{key.label}: {relation}}}"
+            file.error(f"'{key.label}' is a coordinate, not a definition", key.span, hint)
+        elif file.declare(key.label, "definition", key.span):
             file.scope.definitions[key.label] = Definition(place=len(declared))
             declared.append((key, value))
     return declared
+
+
+def _relation(file: FileReader, key: Scalar, value: DocumentNode) -> str:
+    """`x = R*phi` for the definition R*phi of a coordinate x; nothing for others."""
+    x, law = key.label, source_of(value)
+    is_coordinate = file.scope.kinds.get(x) == "coordinate" and "H" not in file.sections
+    is_other = isinstance(value, Scalar) and not re.search(rf"'|\b{re.escape(x)}\b", law)
+    return f"{x} = {law}" if is_coordinate and is_other else ""
 
 
 def read_definitions(

@@ -236,6 +236,21 @@ def test_a_coordinate_as_the_name_of_a_constraint_is_its_left_side(seed):
     assert read_problem("p.yaml", pasted.encode()).diagnostics == ()
 
 
+@pytest.mark.parametrize("form", ["{{{}}}", "\n  {}", "{{h: R, {}}}"])
+@pytest.mark.parametrize(
+    ("x", "law"), [("x", "R*phi"), ("phi", "x/R"), ("x", "R*(phi - a)"), ("phi", "w*t")]
+)
+def test_a_definition_of_a_coordinate_is_a_constraint(x, law, form):
+    """Under another name it would be accepted, and the rolling lost without a word."""
+    begin = "coordinates: [x, phi]\nparameters: [m, R, a, w]\n"
+    energy = "T: m*x'^2/2 + m*R^2*phi'^2/4\n"
+    definitions = f"definitions: {form.format(f'{x}: {law}')}\n"
+    [found] = read_problem("p.yaml", f"{begin}{definitions}{energy}".encode()).diagnostics
+    right = f"constraints: {{{x}: {x} = {law}}}"
+    assert found.hint == f"a relation of coordinates: write {right}"
+    assert read_problem("p.yaml", f"{begin}{right}\n{energy}".encode()).diagnostics == ()
+
+
 @pytest.mark.parametrize(
     "written", ["y: y - a*x", "y: y - l", "floor: y - l", "y: x = y", "v: a*x"]
 )
