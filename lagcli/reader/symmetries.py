@@ -51,7 +51,7 @@ def _symmetry(file: FileReader, key: Scalar, value: DocumentNode) -> Symmetry:
     what = f"the symmetry '{key.label}'"
     coordinates = file.scope.coordinates
     before = len(file.diagnostics)
-    usual = _usual_change(key.label, coordinates) or _shift(coordinates[:1])
+    usual = _usual_change(key.label, coordinates) or _shift(_alike(coordinates))
     changes: dict[str, Expression] = {}
     for name, change in _entries(file, key, value, usual):
         if name.label == "gauge" and isinstance(change, Scalar) and change.value in _WORDS:
@@ -111,7 +111,9 @@ def _entries(
         is_formula = re.search(r"[*/^∂]", said) or (changed[1:] and re.search("[-+]", said))
         usual = "" if is_formula and not rates else _shift(changed)
     items = [*map(source_of, value.parts)]
-    if len(items) == len(coordinates) and not {*items} <= {*coordinates}:  # [-y, x]
+    if not all(isinstance(each, Scalar) for each in value.parts):  # [[0, -1], [1, 0]]
+        usual = _usual_change(key.label, coordinates)
+    elif len(items) == len(coordinates) and not {*items} <= {*coordinates}:  # [-y, x]
         usual = f"{{{', '.join(map('{}: {}'.format, coordinates, items))}}}"
     meant = _changes_meant(file, said) or _generated(file, said) or usual
     hint = f"write {'shift: ' * (said == key.label)}{meant}"
@@ -123,8 +125,14 @@ def _entries(
     return [*file.entries(value, what, hint)]
 
 
-def _shift(names: list[str]) -> str:
-    return f"{{{(*names, 'x')[0]}: 1}}"
+def _shift(names: list[str], change: str = "1") -> str:
+    return as_flow(dict.fromkeys(names or ["x"], change))
+
+
+def _alike(coordinates: list[str]) -> list[str]:
+    """The coordinates with the letters of the first, which a translation changes: x1 and x2."""
+    letters = [re.sub(r"(?<=.)(?:_.*|\d+)$", "", x) for x in coordinates]
+    return [x for x, each in zip(coordinates, letters, strict=True) if each == letters[0]]
 
 
 def _generated(file: FileReader, text: str) -> str:
@@ -159,7 +167,7 @@ def _listed(file: FileReader, texts: list[str]) -> str:
             found[name_meant(text, one=True) or text] = change
     if not found and re.search(r"[*/^∂]", whole) and "'" not in whole:
         return "write name: {coordinate: change}, as in rotation: {x: -y, y: x}"
-    found = found or {"shift": _shift(coordinates)}
+    found = found or {"shift": _shift(_alike(coordinates))}
     return f"write {{{', '.join(map('{0[0]}: {0[1]}'.format, found.items()))}}}"
 
 
@@ -168,12 +176,14 @@ def _usual_change(word: str, coordinates: list[str]) -> str:
     if "time" in word or word in {"t", "energy"}:
         return "{t: 1}"
     if "boost" in word.casefold() or "galil" in word.casefold():
-        return f"{{{coordinates[0] if coordinates else 'x'}: t}}"
+        return _shift(_alike(coordinates), "t")
+    if re.search("trans|shift|homogen", word.casefold()):
+        return _shift(_alike(coordinates))
     if "rot" not in word.casefold() or not coordinates:
         return ""
-    angle = next((name for name in reversed(coordinates) if is_angle(name)), "")
-    if len(coordinates) == 1 or (angle and not {"x", "y"} <= {*coordinates}):
-        return _shift([angle or coordinates[0]])
+    angles = _alike([name for name in reversed(coordinates) if is_angle(name)])
+    if len(coordinates) == 1 or (angles and not {"x", "y"} <= {*coordinates}):
+        return _shift(angles[::-1] or coordinates)
     return "{{{0}: -{1}, {1}: {0}}}".format(*coordinates)
 
 

@@ -118,3 +118,38 @@ def test_no_other_symmetry_is_proposed_for_a_formula(given):
     assert found.endswith("; write coordinate: change, as in {x: -y, y: x}")
     [found] = messages(text(**FILE, symmetries=f"[{given}]"))
     assert found.endswith("write name: {coordinate: change}, as in rotation: {x: -y, y: x}")
+
+
+@pytest.mark.parametrize(
+    "names", [("x1", "x2"), ("x_a", "x_b", "x_c"), ("phi1", "phi2"), ("q1", "q2")]
+)
+@pytest.mark.parametrize(
+    "shape", ["{}", "[{}]", "{{{}: yes}}", "{{{}: }}", "{{{}: {{}}}}", "{{{}: [{names}]}}"]
+)
+def test_a_translation_moves_all_bodies(names, shape):
+    listed = ", ".join(names)
+    squares = " + ".join(f"m*{x}'^2/2" for x in names)
+    file = {"coordinates": f"[{listed}]", "T": squares, "V": f"k*({names[0]} - {names[1]})^2/2"}
+    word = "rotation" if names[0] == "phi1" else "translation"
+    given = shape.format(word, names=listed)
+    [found] = messages(text(**FILE | file, symmetries=given))
+    assert found.endswith(f"{{{', '.join(f'{x}: 1' for x in names)}}}{'}' * (':' not in given)}")
+
+
+@pytest.mark.parametrize("word", ["translation", "boost"])
+def test_a_translation_is_along_one_axis(word):
+    file = FILE | {
+        "V": "k*(x1 - x2)^2",
+        "coordinates": "[x1, y1, x2, y2]",
+        "T": "m*(x1'^2 + y1'^2 + x2'^2 + y2'^2)/2",
+    }
+    change = "t" if word == "boost" else "1"
+    [found] = messages(text(**file, symmetries=f"[{word}]"))
+    assert found.endswith(f"write {{{word}: {{x1: {change}, x2: {change}}}}}")
+
+
+def test_a_matrix_is_not_read_as_a_list_of_changes():
+    [found] = messages(text(**FILE, symmetries="{rotation: [[0, -1], [1, 0]]}"))
+    assert found.endswith("write {x: -y, y: x}")
+    [found] = messages(text(**FILE, symmetries="{squeeze: [[0, 1], [1, 0]]}"))
+    assert found.endswith("write coordinate: change, as in {x: -y, y: x}")
