@@ -253,7 +253,8 @@ class FileReader:
         elif isinstance(node, Mapping) and keys is not None:
             maps = [v for k, v in node.entries if isinstance(v, Mapping) and k.label not in keys]
             whole = maps if len(maps) == len(node.entries) else [node]
-            hint = f"write [{', '.join(map(source_of, whole))}]"
+            if whole == maps or not hint or all(k.label in keys for k, _ in node.entries):
+                hint = f"write [{', '.join(map(source_of, whole))}]"
         elif isinstance(node, Mapping) and hint in {"", "write [one, another]", _FREQUENCIES}:
             rates = [state_meant(key.label, self.scope.coordinates) for key, _ in node.entries]
             left = (f"{each} = " * each.endswith("''") for each in rates)

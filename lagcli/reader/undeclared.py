@@ -228,7 +228,10 @@ def _together(diagnostics: list[Diagnostic], starts: Sequence[int]) -> list[Diag
     kept = {id(each): each for each in diagnostics}
     for group in groups.values():
         is_other = group[0][1]["hint"] == _THE_KEY
-        if group[1:] and not (is_other and len({found["key"] for _, found in group}) == 1):
+        keys = {
+            found.group("key") if is_other else found.group("place", "key") for _, found in group
+        }
+        if group[1:] and len(keys) >= (2 if is_other else len(group)):
             kept[id(group[0][0])] = _of_keys(group, is_other=is_other)
             for each, _ in group[1:]:
                 del kept[id(each)]

@@ -147,7 +147,7 @@ _EXPECTED = list_of(
         on=equation("the equation of a family of equilibria", PLACE),
         stable=STABILITY,
     ),
-    "write [{at: {x: 0}, stable: yes}]",
+    "a list of places, as in [{at: {x: 0}, stable: yes}]",
 )
 SECTION = declared(
     globals(),

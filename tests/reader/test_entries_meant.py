@@ -84,6 +84,19 @@ def test_a_map_in_the_place_of_a_list_of_maps_is_an_item_of_it(given):
     assert read(whole).checked()
 
 
+@pytest.mark.parametrize("given", ["{stable: 0, unstable: 1}", "{x: [0, 1]}", "0"])
+def test_what_is_no_item_of_a_list_is_shown_an_example(given):
+    hint = only_hint(f"expect: {{equilibria: {given}}}\n")
+    assert hint == "a list of places, as in [{at: {x: 0}, stable: yes}]"
+
+
+@pytest.mark.parametrize("more", ["", ", stable: yes"])
+def test_places_of_two_items_are_not_one(more):
+    items = ", ".join(f"{{x: {place}{more}}}" for place in (0, 1))
+    hint = only_hint(f"expect: {{equilibria: [{items}]}}\n")
+    assert hint == "write at: {x: 0}; write at: {x: 1}"
+
+
 def test_a_row_by_its_time_keeps_the_time():
     hint = only_hint("expect: {trajectory: {at: {1: {x: 3}, 2: {x: 4}}}}\n")
     assert hint == "write [{t: 1, x: 3}, {t: 2, x: 4}]"
