@@ -27,6 +27,8 @@ from lagcli.reader.undeclared import COORDINATE, UNDECLARED
 
 _MOMENTA = "momenta stand in H: give H, or write velocities x'"
 _ORDERS = ("coordinate", "velocity", "acceleration", "third derivative")
+#: Kinds of names whose values follow from the state: tension(theta) is the tension.
+_OF_STATE = frozenset({"definition", "multiplier", "contact force", "observable"})
 
 
 def name_mistakes(
@@ -329,10 +331,10 @@ def _call(node: Call, scope: Scope, role: Role, what: str) -> Iterator[Diagnosti
         of_time = any(part.name == "t" for part in name_nodes(*node.arguments))
         if scope.kinds.get(name) == "coordinate" and of_time:
             hint = f"{written} is taken at the time t; there are no delays"
-        elif scope.kinds.get(name) == "definition" and all(
-            isinstance(each, Name) for each in node.arguments
+        elif scope.kinds.get(name) in _OF_STATE and all(
+            isinstance(x, Name) for x in node.arguments
         ):
-            hint = f"a definition has no arguments: write {written}"
+            hint = f"it has no arguments: write {written}"
         elif scope.kinds.get(name) == "parameter" and node.arguments == (Name("t"),):
             hint = f"a function of time is declared as such: functions: {{{name}: [t]}}"
         yield Diagnostic(message, node.span, hint)

@@ -100,3 +100,13 @@ def test_a_formula_that_moves_is_a_question(asked):
     text = PROBLEM.partition("find:")[0] + f"find: {{{asked}}}\n"
     (mistake,) = read_problem("f.yaml", text.encode()).diagnostics
     assert mistake.hint.startswith(f"write {{value: {asked.partition(': ')[2]}, in_terms_of: [")
+
+
+@pytest.mark.parametrize(
+    "asked", ["lambda_rod(theta)", "{value: lambda_rod(theta), in_terms_of: [theta]}"]
+)
+def test_a_multiplier_has_no_arguments(asked):
+    begin = "coordinates: [r, theta]\nparameters: [m, g, l]\nT: m*(r'^2 + r^2*theta'^2)/2\n"
+    rest = "V: -m*g*r*cos(theta)\nconstraints: {rod: r = l}\nfind: {tension: "
+    [only] = read_problem("p.yaml", f"{begin}{rest}{asked}}}\n".encode()).diagnostics
+    assert "write lambda_rod" in only.hint or "value: lambda_rod, in" in only.hint
