@@ -27,6 +27,8 @@ class Field(ExpressionField):
         The known expressions that are put in.
     alone, closed
         As of `ExpressionField`.
+    one_kind
+        Whether cosh(x) is (exp(x) + exp(-x))/2 where exponentials of x are put in as well.
 
     Its generators are made on demand: symbols; sin and cos (sinh and cosh) of base
     arguments with their quadratic relation; exponentials and symbolic powers; roots;
@@ -41,11 +43,17 @@ class Field(ExpressionField):
     """
 
     def __init__(
-        self, expressions: Iterable[Expr] = (), *, alone: bool = False, closed: bool = False
+        self,
+        expressions: Iterable[Expr] = (),
+        *,
+        alone: bool = False,
+        closed: bool = False,
+        one_kind: bool = False,
     ) -> None:
         expressions = list(expressions)
         symbols = {s for e in expressions for s in e.free_symbols}
         super().__init__(capacity=len(symbols) + 4, alone=alone, closed=closed)
+        self._one_kind = one_kind
         self._memo: dict[Expr, Element] = {}
         self._powers: dict[Expr, Multiples] = {}
         self.circular = Multiples(self, "circular")
@@ -76,6 +84,9 @@ class Field(ExpressionField):
                 self.exponential.prepare(node.args[0])
             elif node.is_Pow:
                 self._power_family(node.base).prepare(node.exp)
+        for node in found if self._one_kind else ():
+            if isinstance(node, _HYPERBOLIC) and self.exponential.has(node.args[0]):
+                self.exponential.prepare(node.args[0])
 
     def __call__(self, expression: Expr) -> Element:
         """The element of an expression; ZeroDivisionError where it has none."""
@@ -159,7 +170,7 @@ class Field(ExpressionField):
                 return cosine / sine
             return (cosine if isinstance(node, sympy.sec) else sine).inverse()
         if isinstance(node, _HYPERBOLIC):
-            cosine, sine = self.hyperbolic.pair(argument)
+            cosine, sine = self._hyperbolic(argument)
             if isinstance(node, sympy.sinh):
                 return sine
             if isinstance(node, sympy.cosh):
@@ -176,3 +187,11 @@ class Field(ExpressionField):
         value = node.func(*[self.to_sympy(self(a)) for a in node.args])
         # SymPy may have evaluated the function of the normalized arguments
         return self.opaque(value) if value.func is node.func else self(value)
+
+    def _hyperbolic(self, argument: Expr) -> tuple[Element, Element]:
+        """(cosh, sinh), by exponentials where the field is of one kind and these occur."""
+        if not (self._one_kind and self.exponential.has(argument)):
+            return self.hyperbolic.pair(argument)
+        half, grown = self.rational(Fraction(1, 2)), self.exponential.power(argument)
+        fallen = grown.inverse()
+        return (grown + fallen) * half, (grown - fallen) * half

@@ -75,6 +75,10 @@ class Multiples:
             unit = self._unit.get(base, Fraction(1))
             self._unit[base] = Fraction(lcm(unit.numerator, multiple.denominator))
 
+    def has(self, argument: Expr) -> bool:
+        """Whether multiples of a part of the argument were prepared."""
+        return any(base in self._unit for _, base in split(self.field, argument))
+
     @cached_property
     def _together(self) -> list[tuple[Expr, dict[Expr, Fraction]]]:
         """Sums of base arguments that stand in one ratio wherever they were prepared: a r - a b.

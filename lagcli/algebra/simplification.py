@@ -176,7 +176,7 @@ def is_zero(expression: Expr, relations: Relations | None = None) -> bool | None
         expression = relations.substitute(expression)
     if _vanishes_for_any_roots(expression):
         return True
-    field = Field([expression])
+    field = Field([expression], one_kind=True)
     try:
         element = field(expression)
     except ZeroDivisionError:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from random import Random
+
 import mpmath
 import pytest
 import sympy as sp
@@ -126,3 +128,18 @@ def test_what_is_no_multiple_is_not_divided() -> None:
     field = Field([quotient])
     assert not field(quotient).is_polynomial()
     assert is_zero(field.to_sympy(field(quotient)) - quotient)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_hyperbolic_functions_are_exponentials_beside_these(seed: int) -> None:
+    """cosh(u) - (exp(u) + exp(-u))/2 was said not to vanish."""
+    draw = Random(seed)
+    x, a = sp.Symbol("x", real=True), sp.Symbol("a", positive=True)
+    formula: sp.Expr = sp.Integer(0)
+    for _ in range(3):
+        u = draw.choice([x, 2 * x, x / 3, sp.sqrt(6) * x / 4, a * x]) + draw.choice([0, a])
+        function = draw.choice([sp.cosh, sp.sinh, sp.tanh, sp.coth])
+        part = function(u) ** draw.choice([1, 2]) * draw.choice([x, a, 1])
+        formula += part - part.rewrite(sp.exp)
+    assert is_zero(formula) is True
+    assert is_zero(formula + a * sp.exp(x)) is False

@@ -427,3 +427,18 @@ constraints: {cone: z = c*sqrt(x^2 + y^2)}
     assert {charge.name for charge in found.charges} == {"energy", "L_z"}
     assert found.unconstrained is not None
     assert "the kinetic energy is flat, but no Cartesian coordinates were found" in found.ansatz
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(("V", "linear"), [("cosh", 4), ("sinh", 4), ("0*cosh", 5)])
+def test_a_potential_in_hyperbolic_functions_is_seen_in_exponential_coordinates(V, linear):
+    """Basilakos and Lukes-Gerakopoulos, Phys. Rev. D 78 (2008) 083509: V0 x^2, nothing by y."""
+    text = (
+        "coordinates: {a: {assume: positive}, f: {}}\nparameters: {V0: {assume: positive}}\n"
+        f"L: -3*a*a'^2 + a^3*(f'^2/2 - V0*{V}(sqrt(6)*f/4)^2)\n"
+    )
+    derivation = derive(text)
+    v = derivation.system.qdot
+    assert sum(c.charge.diff(*v[:1], 2) == 0 for c in derivation.discovery.charges) >= linear
+    assert summary(derivation.discovery).independent == 4
+    assert min(digits_of(derivation).values()) > 20

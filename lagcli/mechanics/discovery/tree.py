@@ -45,7 +45,7 @@ class Tree:
     ) -> None:
         self.allowed = allowed
         leaves = _leaves(expressions)
-        self.field = Field(leaves, closed=True)
+        self.field = Field(leaves, closed=True, one_kind=True)
         self.field.circular.most = _MOST_MULTIPLE
         elements = {}
         for leaf in leaves:
