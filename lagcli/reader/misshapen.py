@@ -167,6 +167,8 @@ def one_sum(node: DocumentNode, what: str) -> str:
     if what.startswith("the initial") and len(written) == 2:
         name, with_unit = what.split("'")[1], unit_mistake(" ".join(written))
         return with_unit[1] if with_unit else "write {0}: {1}, {0}': {2}".format(name, *written)
+    if what in {"'for'", "'holds_while'"} or what.startswith("the question"):
+        return f"one alone: write {written[0]}" if written else ""
     if any(re.search(r"\bif\b|[<>]", term) for term in (*written, *inner)):
         cases = [re.sub(r",?\s*(?:otherwise|else)\b:?", "", each).strip() for each in written]
         whole = without_cases(" else ".join(cases)) if len(cases) == 2 else ""

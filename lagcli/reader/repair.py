@@ -115,12 +115,13 @@ def with_whole(
         return [clause]
     if matrices := _of_matrices(node, what, scope):
         return [matrices]
-    if what == "'holds_while'" and (parts := comparisons_in(node.value))[1:]:
-        forces = [
-            each for each in parts if {*re.findall(r"\w+", each)} & {*scope.of_kind("multiplier")}
-        ]
-        hint = f"a condition is one comparison: write {(forces or parts)[0]}"
-        return [replace(found[0], hint=hint)]
+    is_equation = read is read_equation
+    of_one = what == "'holds_while'" or (is_equation and what.startswith("the question"))
+    if of_one and (parts := comparisons_in(re.sub(r"\bor\b|\|\|", " and ", node.value)))[1:]:
+        marks = {"="} if is_equation else {*scope.of_kind("multiplier")}
+        marked = [each for each in parts if marks & {*re.findall(r"\w+|(?<![<>])=", each)}]
+        rule = "a question has one equation" if is_equation else "a condition is one comparison"
+        return [replace(found[0], hint=f"{rule}: write {(marked or parts)[0]}")]
     of_words = role.order < 0 or is_sentence(node.value, scope.kinds)
     constant = None if of_words else _CONSTANT.search(node.value)
     if constant and not {*re.findall(r"\w+", constant[0])} & scope.kinds.keys():

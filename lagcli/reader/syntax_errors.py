@@ -66,7 +66,7 @@ def explain(error: Unexpected, tokens: list[Token], excerpt: Excerpt, start: str
         return Diagnostic("'->' has no meaning", _span(token, excerpt), "write '='")
     if token.type == "COMPARISON":
         message = f"'{token}' stands only in 'holds_while' and in the gap of a contact, and once"
-        hint = "write each by itself, under its own name" if start == "comparison" else CASE
+        hint = "each stands by itself, under its own name" if start == "comparison" else CASE
         if re.fullmatch(r"\s*\w*\s*(?:<=|≤)\s*0\s*", excerpt.value) and start == "expression":
             hint = "write {assume: real}: no assumption says <= 0"
         if start == "expression" and re.search(r"<[^<>]+>", excerpt.value):
@@ -238,7 +238,7 @@ def _unexpected(
         hint = f"write {{equation: {named[1]}, multiplier: {named[2]}}}"
         return "a comma ends the equation", hint
     if several and start == "equation" and inside is None:
-        return "two equations in one", "write each by itself, under its own name"
+        return "two equations in one", "each stands by itself, under its own name"
     if token.type == "COMMA" and previous is not None and previous.type in _END_VALUE:
         if CASES & {str(other) for other in before}:
             return "a formula has no cases", CASE

@@ -110,3 +110,23 @@ def test_a_multiplier_has_no_arguments(asked):
     rest = "V: -m*g*r*cos(theta)\nconstraints: {rod: r = l}\nfind: {tension: "
     [only] = read_problem("p.yaml", f"{begin}{rest}{asked}}}\n".encode()).diagnostics
     assert "write lambda_rod" in only.hint or "value: lambda_rod, in" in only.hint
+
+
+@pytest.mark.parametrize(
+    "written",
+    ["{} and t > 0", "{} && t > 0", "t > 0 and {}", "{} or x = h", "[{}, t > 0]"],
+)
+@pytest.mark.parametrize("equation", ["y = 0", "y = h", "y' = v - x"])
+def test_of_several_statements_the_equation_is_asked(equation, written):
+    begin = "coordinates: [x, y]\nparameters: [m, g, h, v]\nT: m*(x'^2 + y'^2)/2\n"
+    law = written.format(equation)
+    text = f"{begin}V: m*g*y\nfind:\n  landing:\n    where: {law}\n    for: x\n"
+    found = read_problem("p.yaml", text.encode()).diagnostics
+    assert [each.hint.partition("write ")[2] for each in found] == [equation]
+
+
+def test_a_question_is_for_one_name():
+    begin = "coordinates: [x, y]\nparameters: [m, g]\nT: m*(x'^2 + y'^2)/2\nV: m*g*y\n"
+    text = f"{begin}find: {{landing: {{where: y = 0, for: [x, t]}}}}\n"
+    [only] = read_problem("p.yaml", text.encode()).diagnostics
+    assert only.hint == "one alone: write x"
