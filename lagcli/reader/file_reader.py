@@ -253,7 +253,13 @@ class FileReader:
         elif isinstance(node, Mapping) and keys is not None:
             maps = [v for k, v in node.entries if isinstance(v, Mapping) and k.label not in keys]
             whole = maps if len(maps) == len(node.entries) else [node]
-            if whole == maps or not hint or all(k.label in keys for k, _ in node.entries):
+            places = {k.label for k, v in node.entries if isinstance(v, Scalar)}
+            places &= {*self.scope.coordinates}
+            if (
+                not hint
+                or maps == whole
+                or all(k.label in keys or k.label in places for k, _ in node.entries)
+            ):
                 hint = f"write [{', '.join(map(source_of, whole))}]"
         elif isinstance(node, Mapping) and hint in {"", "write [one, another]", _FREQUENCIES}:
             rates = [state_meant(key.label, self.scope.coordinates) for key, _ in node.entries]

@@ -242,6 +242,8 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
         hint = ""
     if not hint and role.time and name[-1] == "t" and (len(name) == 2 or name[:-1] in GREEK):
         return f"did you mean {name[:-1]}*t?"
+    if parts := [x for point, x in scope.components.items() if point.startswith(f"{name}.")]:
+        return f"a vector, whose components are {', '.join(parts)}"
     if re.fullmatch(r"_?\d+", name.removeprefix(closest(name, scope.usable(role)))):
         return UNDECLARED  # x0 beside x is another quantity
     hint = hint or (
@@ -260,7 +262,7 @@ def _advice(name: str, scope: Scope, role: Role, primes: int, what: str) -> str:
     if (number := in_digits(name)) != name:
         return f"write {number}"
     multipliers = list(scope.of_kind("multiplier")) if role.multipliers else []
-    if len(multipliers) == 1 and re.fullmatch(r"[A-Z]\w?|F_?\w|lam\w*|λ", name):
+    if len(multipliers) == 1 and re.fullmatch(r"[A-Z]\w?|F_?\w|lam\w*|λ|tension|normal\w*", name):
         return f"the multiplier of the constraint: write {multipliers[0]}"
     if rate:
         return f"the velocity of {rate[0]} is {rate[0]}'"

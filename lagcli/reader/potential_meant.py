@@ -44,7 +44,7 @@ def potential_meant(
         if potential and named <= {*re.findall(r"\w+", potential)}:
             return f"leave it out: {', '.join(sorted(named))} stands in V" if named else ""
         if not terms and not is_constant(word, source_of(value)):
-            return "the energy of a spring stands in V: k*(x - l_0)^2/2"
+            return "the energy of a spring stands in V, as in k*(x - l_0)^2/2"
     elif word.casefold() in GRAVITY and not {"L", "H"} & {*given}:
         formulas = potential + " " + (source_of(given["forces"]) if "forces" in given else "")
         if re.search(r"(?<!\w)(?:g|gravity)(?!\w)", formulas):

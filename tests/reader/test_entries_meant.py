@@ -404,3 +404,14 @@ def test_assumptions_with_commas_are_one_word(words):
     alone = given.replace(f"assume: {words}", "positive")
     [only] = read_problem("p.yaml", alone.encode()).diagnostics
     assert only.hint == "write assume: positive"
+
+
+@pytest.mark.parametrize("law", ["k*(left - right)^2/2", "k*distance(left, right)^2", "k*left"])
+def test_a_point_in_a_formula_is_not_a_parameter(law):
+    begin = (
+        "coordinates: [u, w]\nparameters: [m, k]\npoints:\n  left: {position: [u, 0], mass: m}\n"
+    )
+    text = f"{begin}  right: {{position: [w, k], mass: m}}\nV: {law}\n"
+    hints = [each.hint for each in read_problem("p.yaml", text.encode()).diagnostics]
+    assert any(each.startswith("a vector, whose components are u, 0") for each in hints)
+    assert not any("parameters" in each for each in hints)

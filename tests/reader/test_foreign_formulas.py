@@ -258,3 +258,18 @@ def test_an_index_of_a_product_that_may_begin_at_0_or_1_is_unclear(text):
 def test_an_index_that_the_names_have_is_none_of_a_component():
     names = Vocabulary(("x", "y"), frozenset({"k_1", "k_2", "k_x", "k_y"}))
     assert translated("k[1]*x + k[2]*y", names) == "k_1*x + k_2*y"
+
+
+@pytest.mark.parametrize("argument", ["w*t", "t", "2*pi*t", "w*t + 1"])
+def test_a_square_of_the_time_may_be_a_wave(argument):
+    """In MATLAB and SciPy, square(w*t) is sign(sin(w*t)): no power is proposed."""
+    begin = "coordinates: [x]\nparameters: {m: 1, w: 2}\nT: m*x'^2/2\nforces: {x: "
+
+    def hint(law):
+        [found] = read_problem("p.yaml", f"{begin}{law}}}\n".encode()).diagnostics
+        return found.hint
+
+    assert hint(f"m*square({argument})").startswith("a square wave is written sign(sin(w*t))")
+    assert hint(f"m*signal.square({argument})").startswith("a function has its name alone")
+    assert hint("-m*square(x')") == "write -m*x'^2"
+    assert hint("-m*sq(w*t)") == "write -m*(w*t)^2"

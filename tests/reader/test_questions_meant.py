@@ -103,9 +103,15 @@ def test_a_formula_that_moves_is_a_question(asked):
 
 
 @pytest.mark.parametrize(
-    "asked", ["lambda_rod(theta)", "{value: lambda_rod(theta), in_terms_of: [theta]}"]
+    "asked",
+    [
+        "lambda_rod(theta)",
+        "{value: lambda_rod(theta), in_terms_of: [theta]}",
+        "{value: tension, in_terms_of: [theta]}",
+        "{value: normal_force, in_terms_of: [theta]}",
+    ],
 )
-def test_a_multiplier_has_no_arguments(asked):
+def test_a_multiplier_has_its_name_without_arguments(asked):
     begin = "coordinates: [r, theta]\nparameters: [m, g, l]\nT: m*(r'^2 + r^2*theta'^2)/2\n"
     rest = "V: -m*g*r*cos(theta)\nconstraints: {rod: r = l}\nfind: {tension: "
     [only] = read_problem("p.yaml", f"{begin}{rest}{asked}}}\n".encode()).diagnostics

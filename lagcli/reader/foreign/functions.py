@@ -123,6 +123,9 @@ class Functions(Sums):
             squares = " + ".join(f"{each}^2" for each in grouped)
             return Part(f"sqrt({squares})", 3, is_call=True)
         if word in SQUARES and len(arguments) == 1:
+            used = {*re.findall(r"\w+", arguments[0])}
+            if word == "square" and "t" in used and not used & {*self.names.coordinates}:
+                raise UnclearText  # a square wave?
             return Part(f"{grouped[0]}^2", 2)
         if word in POWERS and len(arguments) == 2:
             return Part(f"{grouped[0]}^{grouped[1]}", 2)
