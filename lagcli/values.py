@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from fractions import Fraction
+from functools import partial
 from typing import TypeVar
 
 from lagcli.diagnostics import Diagnostic
@@ -31,6 +32,8 @@ from lagcli.rewriting import expressions_in, rebuilt, substituted
 
 #: Beside the terms of a constraint, a residual that is rounding.
 _ROUNDED = 1e-9
+#: Of a value in a difference quotient, its least size, and steps to a root.
+_DIFFERENCE, _FLAT, _NEWTON = 2.0**-12, 1e-6, 20
 #: Of the time in a difference quotient.
 _STEP = Fraction(1, 10**4)
 
@@ -126,7 +129,8 @@ def _apart(problem: Problem, contact: Contact, given: Values) -> Diagnostic | No
         hint = f"write {line.translate(str.maketrans('<>', '><'))}: {hint}"  # y <= 0
     elif isinstance(contact.equation.left, Name) and contact.equation.left in problem.initial:
         at = problem.initial[contact.equation.left].span  # y >= R
-        hint = f"start where {line}: {hint}"
+        right = line.rpartition("=")[2].rpartition(">")[2].strip()
+        hint = f"start where {line}: write {contact.equation.left}: {right}"
     return Diagnostic(message, at, hint, severity="warning")
 
 
@@ -191,26 +195,41 @@ def _off(
     *,
     rate: bool,
 ) -> Diagnostic:
-    """The warning at the last entry of `initial` that the difference, or its rate, is linear in."""
+    """The warning at the last entry of `initial` with which the difference, or its rate, is 0."""
 
-    def difference_at(name: str, value: Fraction) -> float:
-        changed = {**given, name: number(value)}
+    def difference_at(name: str, value: float) -> float:
+        changed = {**given, name: number(Fraction(value))}
         if rate:
             return _rate(problem, equation, changed)
         found = _residual(equation, changed)
         return math.nan if found is None else found[0]
 
+    digits = 6 if rate else 12
     for entry, formula in reversed([*problem.initial.items()]):
         name, before = str(entry), value_of(given[str(entry)])
         if before is None or (rate and not entry.primes):
             continue
-        one, two = (difference_at(name, _exact(before) + step) for step in (1, 2))
-        slope = one - off
-        if abs(slope) > 1e-6 and abs(two - one - slope) < 1e-6 * abs(slope):
-            value = float(before) - off / slope
-            hint = f"{difference}: write {name}: {round(value, 6) + 0:g}, or leave it out"
+        value, steps = _root(partial(difference_at, name), float(before), off)
+        if steps:
+            more = ", or leave it out" if rate or steps == 1 else ""
+            written = f"{round(value, digits) + 0:.{digits}g}"
+            hint = f"{difference}: write {name}: {written}{more}"
             return Diagnostic(message, formula.span, hint, severity="warning")
     return Diagnostic(message, equation.span, difference, severity="warning")
+
+
+def _root(function: Callable[[float], float], start: float, off: float) -> tuple[float, int]:
+    """Where a function is 0 by Newton's method, and the number of its steps, 0 without a root."""
+    value, left = start, off
+    for step in range(1, _NEWTON):
+        slope = (function(value + _DIFFERENCE) - function(value - _DIFFERENCE)) / (2 * _DIFFERENCE)
+        if not abs(slope) > _FLAT:
+            break
+        value -= left / slope
+        left = function(value)
+        if abs(left) <= _ROUNDED * abs(off):
+            return value, step
+    return start, 0
 
 
 def _question(question: Question, values: Values) -> Question:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import random
+
 import pytest
 
 from lagcli.pipeline import Request, derive, read, state
@@ -149,7 +151,7 @@ initial: {initial}
     ("gap", "hint"),
     [("x - y >= d", "write y - x >= d"), ("y - x >= d", None), ("x - y + d >= 0", None),
      ("y <= 0", "write y >= 0: a gap"), ("0 >= y", "write 0 <= y: a gap"), ("x <= 0", None),
-     ("x >= d", "start where x >= d: a gap is positive")],
+     ("x >= d", "start where x >= d: write x: d")],
 )  # fmt: skip
 def test_a_negative_gap_of_the_initial_state_is_a_warning(gap, hint):
     written = f"""coordinates: [x, y]
@@ -162,3 +164,26 @@ initial: {{x: 0, y: {3 if "+" not in gap else 1}}}
     assert problem is not None
     found = off_constraints(problem)
     assert [each.hint.startswith(hint) for each in found] == ([True] if hint else [])
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_a_state_beside_a_curve_is_moved_along_its_last_entry(seed):
+    draw = random.Random(seed)
+    constraint = draw.choice(["x^2 + y^2 = l^2", "y = x^2/2", "x*y = 1", "sin(y) = x/2"])
+    x, y = draw.choice([0.6, -0.7, 0.9]), draw.choice([0.85, -0.9, 1.1])
+    y = abs(y) if "x^2 +" not in constraint else y
+    begin = f"coordinates: [x, y]\nparameters: {{l: 1}}\nL: (x'^2 + y'^2)/2 - y\nconstraints: {{c: {constraint}}}\n"
+
+    def found(last):
+        problem = read("f.yaml", f"{begin}initial: {{x: {x}, y: {last}}}\n".encode()).problem
+        return off_constraints(problem)
+
+    [only] = found(y)
+    assert only.span.line == 5
+    assert found(only.hint.partition("write y: ")[2].partition(",")[0]) == []
+
+
+def test_a_state_that_no_value_of_one_entry_moves_to_the_constraint_is_shown_there():
+    begin = "coordinates: [x, y]\nL: (x'^2 + y'^2)/2\nconstraints: {c: x^2 + y^2 = -1}\n"
+    [only] = off_constraints(read("f.yaml", f"{begin}initial: {{x: 1, y: 2}}\n".encode()).problem)
+    assert "write" not in only.hint

@@ -300,7 +300,7 @@ def test_a_start_inside_of_a_wall_is_shown_where_it_is_written():
     contact = "contacts: {wall: {gap: x >= k, restitution: 0.5}}\ninitial: {theta: 0, x: 1}\n"
     [found] = off_constraints(read(contact).checked())
     assert (found.span.line, found.span.column) == (5, 24)
-    assert found.hint.startswith("start where x >= k: ")
+    assert found.hint == "start where x >= k: write x: k"
 
 
 BEAD = """coordinates: [theta]

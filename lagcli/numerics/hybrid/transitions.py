@@ -100,11 +100,15 @@ class Transitions:
 
     def _apart(self, k: int) -> Refusal:
         from lagcli.diagnostics import Diagnostic
+        from lagcli.values import off_constraints
 
-        constraint = self.modes.setup.whole.constraints[k]
+        constraint, problem = self.modes.setup.whole.constraints[k], self.modes.setup.problem
         message = f"the initial state is on the wrong side of the contact '{constraint.name}'"
-        hint = "correct it under initial: a gap is never negative"
-        return Refusal((Diagnostic(message, constraint.equation.span, hint),))
+        span, hint = constraint.equation.span, "a gap is never negative"
+        for each in off_constraints(problem):
+            if f"'{constraint.name}'" in each.message:
+                span, hint = each.span, each.hint
+        return Refusal((Diagnostic(message, span, hint),))
 
     # -- an event ------------------------------------------------------------------------------
 
