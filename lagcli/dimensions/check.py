@@ -109,13 +109,10 @@ def _units_that_fit(
     pairs = [(one, str(unit)) for one, unit in zip(chosen, units, strict=True) if unit is not None]
     if any("^(" in unit or unit.startswith("10^") for _, unit in pairs):
         return None  # nobody measures in m^(1/2), or in 10^-3 kg m: a term is wrong
-    if any(_dimension(one.unit) == _dimension(unit) for one, unit in pairs):
+    given = [read_unit(one.unit or "") for one in chosen]
+    if any(x and dimension_of(x) == dimension_of(y) for x, y in zip(units, given, strict=True)):
         return None  # N m and g cm^2/s^2: the numbers would have to change as well
     return pairs if len(pairs) == len(chosen) else None
-
-
-def _dimension(unit: str | None) -> Form:
-    return dimension_of(read_unit(unit or ""))
 
 
 def _wrong_unit(quantity: Quantity, unit: str, first: Diagnostic) -> Diagnostic:

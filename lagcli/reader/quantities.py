@@ -21,7 +21,7 @@ from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence, kind
 from lagcli.reader.number_units import in_digits, in_unit, wrong_unit
 from lagcli.reader.regex import regex
 from lagcli.reader.scope import VALUES, name_mistake
-from lagcli.reader.sign_meant import ASSUMPTIONS, NEUTRAL, sign_meant
+from lagcli.reader.sign_meant import ASSUMPTIONS, NEUTRAL, integer_meant, sign_meant
 from lagcli.reader.suggest import closest, did_you_mean
 from lagcli.record import replace
 
@@ -102,9 +102,10 @@ def read_parameters(
         given = attributes.get("value")
         bare = getattr(given, "value", "(")
         is_free = bare not in file.scope.kinds and bare[:1] not in {"(", "["}
-        if is_free and (sign := sign_meant(bare)):
+        sign = sign_meant(bare) if is_free else ""
+        if is_free and (said_ := integer_meant(bare) or f"assume: {sign}" * bool(sign)):
             rest = (f", {k}: {source_of(v)}" for k, v in attributes.items() if k not in _ASSUMED)
-            hint = f"write {key.label}: {{assume: {sign}{''.join(rest)}}}"
+            hint = f"write {key.label}: {{{said_}{''.join(rest)}}}"
             file.error(f"an assumption stands under 'assume' of '{key.label}'", key.span, hint)
         elif is_free and is_open(bare):
             hint = f"leave out what is not known: write {key.label}:"
@@ -431,8 +432,8 @@ def _said(file: FileReader, attributes: dict[str, DocumentNode]) -> _Said:
             is_below = re.search(r"\bnot?\b|nonpos|non[- _]pos|\bor\b", text.value)
             hint = "" if is_below else did_you_mean(text.value, ASSUMPTIONS)
             hint = f"write {sign}" if sign else hint
-            if text.value == "integer":
-                hint = "in place of assume write integer: yes"
+            if whole := integer_meant(text.value):
+                hint = f"in place of assume write {whole}"
             elif not sign and {*text.value.casefold().split()} <= NEUTRAL:
                 hint = "leave it out"
             hint = hint or f"write {''.join(meant) or 'one of ' + ', '.join(ASSUMPTIONS)}"

@@ -66,6 +66,15 @@ def sign_meant(text: str, relation: str = "") -> str:
     return SIGNS.get(found[1], "")
 
 
+def integer_meant(text: str) -> str:
+    """`integer: yes, assume: positive` for `positive integer` and `natural`; nothing for others."""
+    words = re.findall(r"\w+", text.casefold())
+    sign = next((each for each in ASSUMPTIONS if each in words), "")
+    sign = sign or "positive" * ("natural" in words)
+    is_integer = not {"integer", "int", "natural"}.isdisjoint(words)
+    return f"integer: yes{f', assume: {sign}' * bool(sign)}" * is_integer
+
+
 def _turned(text: str) -> str:
     """`> 0` for `0 < m`; other texts as they are."""
     found = re.fullmatch(r"\s*(-?[\d.]+)\s*([<>≤≥]=?)\s*[^\W\d]\w*\s*", text)

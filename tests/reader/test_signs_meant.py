@@ -209,3 +209,18 @@ def test_a_semicolon_that_is_left_out_does_not_part_the_lines_of_a_hint():
     written = text(T=None, V=None) + "T := m*x'^2/2;\nV := k*x^2/2;\n"
     [only] = messages(written)
     assert only.endswith("write T: m*x'^2/2, in line 4 write V: k*x^2/2")
+
+
+@pytest.mark.parametrize("form", ["n: {}", "n: {{assume: {}}}", "n: {{value: {}}}"])
+@pytest.mark.parametrize(
+    ("said", "sign"),
+    [("integer", ""), ("positive integer", "positive"), ("integer, nonzero", "nonzero"),
+     ("natural", "positive"), ("natural number", "positive"), ("int", "")],
+)  # fmt: skip
+def test_an_integer_is_no_description(form, said, sign):
+    """As a description, or as a sign alone, it would be accepted and lost."""
+    if "," in said:
+        said = f"'{said}'"
+    given = {"coordinates": "[x]", "T": "x'^2/2", "V": "x^2*cos(2*pi*n)"}
+    [found] = messages(text(**given, parameters=f"\n  {form.format(said)}"))
+    assert "integer: yes" + f", assume: {sign}" * bool(sign) in found
