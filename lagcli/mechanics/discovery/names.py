@@ -155,7 +155,8 @@ class Naming:
         turns = self._turning(*moved.values())
         if len(turns) == len(moved) == 2 and len({turn.args[0] for turn in turns}) == 1:
             # a circle: (cos Omega t, -sin Omega t)
-            return f"gyration_{self._turning(first).pop().func.__name__}"
+            each = [self._turning(e) for e in moved.values()]
+            return f"gyration_{each[0].pop().func.__name__}" if [*map(len, each)] == [1, 1] else ""
         if len(turns) != 1:
             return ""
         [turn] = turns  # the same for all coordinates: one amplitude of a mode
