@@ -102,8 +102,7 @@ class Discovery(Setting):
         #: of the integrals that were sought, in the velocities
         self.degree = 1
         if self.unsearched:
-            self.words.append("nothing")
-            self.stopped.append(self.unusable)
+            self.words, self.stopped = ["nothing"], [self.unusable]
         elif self.is_prescribed:
             self.words.append(f"nothing, as {PRESCRIBED}")
         else:
@@ -152,7 +151,8 @@ class Discovery(Setting):
             self.words.append(self.without_isometries)
         if len(self.system.q) > 1 and not self.dynamics.constraints.equations:
             what = "those" if self.degree > 1 else "other first integrals"
-            self.words.append(f"{what} of degree {self.degree + 1} or higher were not sought")
+            what += f" of degree {self.degree + 1} or higher" if self.quadratic_mass else ""
+            self.words.append(f"{what} were not sought")
 
     def _of_unconstrained(self) -> bool:
         """What is found without the coordinates that constraints give; whether it was sought."""

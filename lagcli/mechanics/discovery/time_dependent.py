@@ -57,12 +57,17 @@ def of_changing_coefficients(
     others += [g for f in [*between, *([s, s**2] if rows else [])] for g in (tau * f, f)]
     driven = [f for k in rows for f in _terms(given[k]) if f.free_symbols.isdisjoint(moving)]
     forced += [g for f in driven for g in (tau**2 * f, tau**2 * f * s)]
-    turned = _in_turning_axes(given, q, v, t)
-    translations += turned
+    turned: set[int] = set()
+    for pair in combinations(range(len(q)), 2):
+        both, x, rates = ([each[k] for k in pair] for each in (given, q, v))
+        if free_of(sympy.Tuple(*both), moving - {*x, *rates}):
+            of_axes = _in_turning_axes(both, x, rates, t)
+            translations += of_axes
+            turned |= {*pair} if of_axes else set()
     turning = _turning_pairs(given, q, v, t)
     seconds = {second for second, _ in turning.values()}
     for k, (acceleration, x, rate) in enumerate(zip(given, q, v, strict=True)):
-        if turned or k in rows or k in seconds:
+        if k in turned or k in rows or k in seconds:
             continue
         if k not in turning:
             solved = solved and not _changes_by(acceleration, moving - {x, rate}, moving, t)
@@ -161,11 +166,7 @@ def _in_turning_axes(
     """
     waves = {u.args[0] for a in accelerations for u in a.atoms(sympy.sin, sympy.cos)}
     turning = [u for u in waves if free_of(u.diff(t), [t]) and u.diff(t) != 0]
-    if (
-        len(q) != 2
-        or len(turning) != 1
-        or any(a.count_ops() > _MOST_OPERATIONS for a in accelerations)
-    ):
+    if len(turning) != 1 or any(a.count_ops() > _MOST_OPERATIONS for a in accelerations):
         return []
     [angle] = turning
     S, D = (sympy.Matrix([[simplify(a.diff(x)) for x in y] for a in accelerations]) for y in (q, v))
