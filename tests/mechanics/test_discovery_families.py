@@ -16,6 +16,7 @@ import sympy
 
 from lagcli.algebra import is_zero
 from lagcli.mechanics.discovery.summary import summary
+from lagcli.reader import read_problem
 from tests.oracle.constancy import digits_of
 from tests.solved import solve
 
@@ -862,3 +863,18 @@ def test_each_part_of_a_lagrangian_has_its_energy(parts, names):
     found = [c.name for c in derivation.discovery.charges]
     assert {*names.split()} == {name for name in found if name.startswith("energy")}
     assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("power", [2, 3])
+def test_what_is_new_at_two_values_is_new_beside_what_is_shown(power):
+    """Garnier's integral is 0 at g = 0, b = a, where the energy of x was known and not shown."""
+    text = (
+        "coordinates: [x, y]\nparameters: {a: {}, b: {}, g: {}}\n"
+        f"L: (x'^2 + y'^2)/2 - (a*x^2 + b*y^2)/2 - g*(x^2 + y^2)^{power}\n"
+    )
+    answers = solve(read_problem("p.yaml", text.encode()).checked(), ["algebra"])
+    assert answers.complete, answers.warnings
+    special = answers.sections["algebra"].special
+    [isotropic] = [s for s in special if s.number == 10]
+    assert ("energy_x" in isotropic.charges) is (power == 2)  # else it is new at g = 0

@@ -40,8 +40,6 @@ class Setting:
     ----------
     words, stopped : list of str
         What is searched, and which parts of it were not finished, and why.
-    without_isometries : str
-        That T has a constant curvature, where its isometries were not found.
     """
 
     def __init__(self, noether: Noether) -> None:
@@ -51,7 +49,8 @@ class Setting:
         self.allowed = Allowance()
         self.words: list[str] = []
         self.stopped: list[str] = []
-        self.without_isometries = ""
+        self._without_isometries = ""
+        self._isometries = 0, 0  # of T: how many there are, and formulas for them
 
     @cached_property
     def listing(self) -> Listing:
@@ -244,7 +243,7 @@ class Setting:
             kind, what = "of constant curvature", "isometries"
             if found.flat:
                 kind, what = "flat", "Cartesian coordinates"
-            self.without_isometries = f"the kinetic energy is {kind}, but no {what} were found"
+            self._without_isometries = f"the kinetic energy is {kind}, but no {what} were found"
         return found if found.functions else None
 
     @cached_property
@@ -270,7 +269,21 @@ class Setting:
             found = KillingFields(Metric(q, self.equations.mass), allowed)
             if len(found.fields) == found.number:
                 return found
+            self._isometries = found.isometries, len(found.fields)
         return None
+
+    @property
+    def without_isometries(self) -> str:
+        """That T has isometries that were not found, if it is so."""
+        number, found = self._isometries
+        moving = (self.system.t, *self.system.qdot)
+        shown = sum(c.transformation.displaces_without(moving) for c in self.point_charges)
+        if max(found, shown) >= number:
+            return self._without_isometries
+        return (
+            f"the kinetic energy has {number} isometries, of which formulas were found for "
+            f"{max(found, shown)}"
+        )
 
     @property
     def flat(self) -> Isometries | None:

@@ -119,12 +119,13 @@ def special_cases(
                 continue
             if len(choice) == 1:
                 at_one[choice[0]] = there
-            less = [discovery, *(each for case, each in searches if _holds(case, choice))]
-            if not all(_has_more(there, each) for each in less):
+            held = [(case, each) for case, each in searches if _holds(case, choice)]
+            if not all(_has_more(there, each) for each in (discovery, *(e for _, e in held))):
                 continue
+            printed = [*discovery.charges, *(c for case, _ in held for c in case.charges)]
             roots = _radicands(there.charges, variables)
             known = [
-                part for each in less for c in each.charges
+                part for c in printed
                 for part in _real_parts(_at_values(c.charge, choice, variables, roots), c.charge)
                 if not part.has(*NO_VALUE)  # divided by what is 0 there
             ]  # fmt: skip
