@@ -14,7 +14,7 @@ from lagcli.algebra.generators import ExpressionField
 from lagcli.algebra.multiples import Multiples
 from lagcli.algebra.roots import absolute, rational_power, sign
 
-_HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
+HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 _MAX_EXPONENT = 200  # measured: at most 16
 
 
@@ -78,14 +78,14 @@ class Field(ExpressionField):
         for node in reversed(found):
             if isinstance(node, CIRCULAR):
                 self.circular.prepare(node.args[0])
-            elif isinstance(node, _HYPERBOLIC):
+            elif isinstance(node, HYPERBOLIC):
                 self.hyperbolic.prepare(node.args[0])
             elif isinstance(node, sympy.exp):
                 self.exponential.prepare(node.args[0])
             elif node.is_Pow:
                 self._power_family(node.base).prepare(node.exp)
         for node in found if self._one_kind else ():
-            if isinstance(node, _HYPERBOLIC) and self.exponential.has(node.args[0]):
+            if isinstance(node, HYPERBOLIC) and self.exponential.has(node.args[0]):
                 self.exponential.prepare(node.args[0])
 
     def __call__(self, expression: Expr) -> Element:
@@ -169,7 +169,7 @@ class Field(ExpressionField):
             if isinstance(node, sympy.cot):
                 return cosine / sine
             return (cosine if isinstance(node, sympy.sec) else sine).inverse()
-        if isinstance(node, _HYPERBOLIC):
+        if isinstance(node, HYPERBOLIC):
             cosine, sine = self._hyperbolic(argument)
             if isinstance(node, sympy.sinh):
                 return sine

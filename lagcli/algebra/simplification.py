@@ -7,11 +7,11 @@ from contextlib import suppress
 from fractions import Fraction
 from functools import partial
 
-from sympy import Add, Dummy, Expr, Mul, Pow, S, Symbol, sqrt
+from sympy import Add, Dummy, Expr, Mul, Pow, S, Symbol, exp, sqrt
 
 from lagcli.algebra.cancellation import cancelled
 from lagcli.algebra.division import commonest_ratio
-from lagcli.algebra.entry import Field
+from lagcli.algebra.entry import HYPERBOLIC, Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.leaves import Translator, to_expression
 from lagcli.algebra.relations import Relations
@@ -84,6 +84,9 @@ def shaped(
     The tree is None where the expression has no normal form and stays as it is.
     """
     found = _shaped(expression, order, relations)
+    if expression.has(exp) and expression.has(*HYPERBOLIC):  # (sinh(x) + cosh(x)) exp(-x) = 1
+        other = _shaped(expression, order, relations, one_kind=True)
+        found = other if other[0].count_ops() < found[0].count_ops() else found
     rooted = {} if relations else _letters_under_roots(expression)
     if not rooted:
         return found
@@ -109,14 +112,18 @@ def _letters_under_roots(expression: Expr) -> dict[Symbol, Symbol]:
 
 
 def _shaped(
-    expression: Expr, order: Sequence[str], relations: Relations | None
+    expression: Expr,
+    order: Sequence[str],
+    relations: Relations | None,
+    *,
+    one_kind: bool = False,
 ) -> tuple[Expr, Expression | None]:
     if relations:
         expression = relations.substitute(expression)
     writer = Writer(order)
     if _vanishes_for_any_roots(expression):
         return S.Zero, to_expression(S.Zero, order)
-    field = Field([expression], alone=not relations)
+    field = Field([expression], alone=not relations, one_kind=one_kind)
     try:
         element = field(expression)
     except ZeroDivisionError:

@@ -442,3 +442,20 @@ def test_a_potential_in_hyperbolic_functions_is_seen_in_exponential_coordinates(
     assert sum(c.charge.diff(*v[:1], 2) == 0 for c in derivation.discovery.charges) >= linear
     assert summary(derivation.discovery).independent == 4
     assert min(digits_of(derivation).values()) > 20
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("waves", "number", "independent"),
+    [
+        ("cos(u)^2*x'^2 + cosh(u)^2*y'^2", 9, 8),  # of vacuum: Rosen's coordinates
+        ("cos(u)^2*x'^2 + y'^2", 9, 8),
+        ("exp(u)*x'^2 + cos(u)^2*y'^2", 9, 8),
+    ],
+)
+def test_a_plane_wave_has_six_isometries(waves, number, independent):
+    """Bondi, Pirani, Robinson, Proc. R. Soc. A 251 (1959) 519; with E, u in the time, a dilation."""
+    derivation = derive(f"{{coordinates: [u, v, x, y], L: u'*v' + ({waves})/2}}")
+    found = summary(derivation.discovery)
+    assert (len(derivation.discovery.point_charges), found.independent) >= (number, independent)
+    assert min(digits_of(derivation).values()) > 20

@@ -257,11 +257,11 @@ class Discovery(Setting):
                 "symmetries made of the solutions of the linear part, whose coefficients change, "
                 "were not sought: no elementary formula was found for them"
             )
-        transformations = self._transformations(search)
+        transformations = self.transformations(search)
         centre = centre_of(transformations, self.system, self.coordinate_kinds.lengths)
         if len(centre) > 1:  # rotations about it are mixed where they are counted from 0
             search, _ = self._search(replace(self.coordinate_kinds, centre=centre), allowed)
-            transformations = self._transformations(search)
+            transformations = self.transformations(search)
         if search.unsolved:
             self.stopped.append(
                 f"{more(search.unsolved, 'symmetry')} there, whose coefficients were not solved"
@@ -290,6 +290,7 @@ class Discovery(Setting):
                 self.unproved = _UNPROVED
             else:
                 self.listing.add([charge])
+        self.listing.add(self._new(self.of_partial(allowed)))
         self.stopped += [self.unproved] if self.unproved else []
         if not (constraints or self.canonical):
             self.listing.add(self._new([*point.with_integrating_factors(self.noether, allowed)]))
@@ -298,10 +299,6 @@ class Discovery(Setting):
 
     def _on_surface(self) -> None:
         self.momentum_equations = search_on_surface(self, self._of_lagrangian)
-
-    def _transformations(self, search: Search) -> list[Transformation]:
-        constants = set(self.system.parameters)
-        return [point.transformation_of(search, s, constants) for s in search.solutions()]
 
     def _hidden(self) -> None:
         if len(self.system.q) < 2 or not self.canonical:

@@ -160,8 +160,10 @@ class KillingFields:
         rows = (*self.metric.g, *self.metric.inverse)
         entries = sympy.Tuple(*(e for row in rows for e in row))
         found: dict[Expr, None] = {sympy.S.One: None}
-        arguments = {f.args[0]: f.func for f in entries.atoms(*CIRCULAR, *HYPERBOLIC, sympy.exp)}
-        for a, kind in sorted(arguments.items(), key=str):
+        kinds = (*CIRCULAR, *HYPERBOLIC, sympy.exp)
+        arguments = {(f.args[0], f.func in CIRCULAR, f.func): None for f in entries.atoms(*kinds)}
+        by_kind = {(a, circular): kind for a, circular, kind in arguments}
+        for (a, _), kind in sorted(by_kind.items(), key=str):
             if a.free_symbols & {*self.metric.q} != {x}:
                 continue
             if kind is sympy.exp:

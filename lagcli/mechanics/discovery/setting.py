@@ -14,6 +14,7 @@ from lagcli.algebra.antiderivative import antiderivative
 from lagcli.algebra.build import free_of
 from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.row_rank import rank
+from lagcli.mechanics.discovery import point
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, time_functions
 from lagcli.mechanics.discovery.cartesian import about_an_axis, cartesian
 from lagcli.mechanics.discovery.centre import centre_of
@@ -24,8 +25,9 @@ from lagcli.mechanics.discovery.limits import Allowance, TooMuchWork
 from lagcli.mechanics.discovery.listing import Listing
 from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.modular import NoPoint
+from lagcli.mechanics.discovery.search import Search
 from lagcli.mechanics.discovery.slots import SlotEquations
-from lagcli.mechanics.noether import Noether, NoetherCharge
+from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
 from lagcli.mechanics.states import Contradiction
 from lagcli.record import replace
 
@@ -50,7 +52,8 @@ class Setting:
         self.words: list[str] = []
         self.stopped: list[str] = []
         self._without_isometries = ""
-        self._isometries = 0, 0  # of T: how many there are, and formulas for them
+        #: Isometries of T where not all were found.
+        self.partial: KillingFields | None = None
 
     @cached_property
     def listing(self) -> Listing:
@@ -269,20 +272,34 @@ class Setting:
             found = KillingFields(Metric(q, self.equations.mass), allowed)
             if len(found.fields) == found.number:
                 return found
-            self._isometries = found.isometries, len(found.fields)
+            self.partial = found
         return None
+
+    def transformations(self, search: Search) -> list[Transformation]:
+        """The solutions of a search."""
+        constants = set(self.system.parameters)
+        return [point.transformation_of(search, s, constants) for s in search.solutions()]
+
+    def of_partial(self, allowed: Allowance) -> list[NoetherCharge]:
+        """Of isometries of T, where not all were found."""
+        if self.partial is None:
+            return []
+        search = self.partial.search(self.equations, self.time_functions, allowed)
+        moves = self.transformations(search)
+        found = [point.charge_of(self.noether, each, allowed) for each in moves]
+        return [charge for charge in found if charge is not None]
 
     @property
     def without_isometries(self) -> str:
         """That T has isometries that were not found, if it is so."""
-        number, found = self._isometries
         moving = (self.system.t, *self.system.qdot)
         shown = sum(c.transformation.displaces_without(moving) for c in self.point_charges)
-        if max(found, shown) >= number:
+        found = self.partial
+        if found is None or max(len(found.fields), shown) >= found.isometries:
             return self._without_isometries
         return (
-            f"the kinetic energy has {number} isometries, of which formulas were found for "
-            f"{max(found, shown)}"
+            f"the kinetic energy has {found.isometries} isometries, of which formulas were found "
+            f"for {max(len(found.fields), shown)}"
         )
 
     @property
