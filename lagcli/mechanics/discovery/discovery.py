@@ -125,7 +125,8 @@ class Discovery(Setting):
     def _run(self) -> None:
         searches: list[tuple[Callable[[], None], str]] = []
         put_in = self._of_unconstrained()
-        if not (put_in or self._of_growing()):
+        growing = not put_in and self._of_growing()
+        if not (put_in or growing):
             searches.append((self._points, "point symmetries"))
         if self.dynamics.constraints.equations:
             if not (put_in and self._suffices):
@@ -149,7 +150,7 @@ class Discovery(Setting):
                 )
         if self.without_isometries:
             self.words.append(self.without_isometries)
-        if len(self.system.q) > 1 and not self.dynamics.constraints.equations:
+        if len(self.system.q) > 1 and not (self.dynamics.constraints.equations or growing):
             what = "those" if self.degree > 1 else "other first integrals"
             what += f" of degree {self.degree + 1} or higher" if self.quadratic_mass else ""
             self.words.append(f"{what} were not sought")
