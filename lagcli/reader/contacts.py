@@ -231,7 +231,7 @@ def _gap(file: FileReader, one: Declared, what: str) -> Equation:
             left, right = right, left
         gap = Equation(left, right, span=node.span)
     elif isinstance(node, Scalar) and "=" in node.value:
-        hint = f"write {re.sub('=+', '>=', node.value.strip())}"
+        hint = f"write {re.sub('!?=+', '>=', node.value.strip())}"
         if is_sentence(node.value.partition("=")[0], file.scope.kinds):
             hint = "write {gap: y >= 0, restitution: 0.8}"
         file.error(f"{what} is an inequality", node.span, hint)

@@ -10,7 +10,7 @@ from lagcli.problem_data import Known, KnownRow, Trajectory
 from lagcli.reader.assignments import assigned
 from lagcli.reader.file_reader import FileReader
 from lagcli.reader.misshapen import entries_of
-from lagcli.reader.nodes import DocumentNode, Scalar
+from lagcli.reader.nodes import DocumentNode, Scalar, names_in
 from lagcli.reader.nodes import Mapping as Map
 from lagcli.reader.scope import ALONG, CONSTANTS, MOTION, Role
 from lagcli.reader.suggest import did_you_mean
@@ -49,8 +49,12 @@ class TrajectoryReader:
         hint = f"write {', '.join(map(': '.join, given))}"
         for key, value in self.file.entries(node, "'trajectory'", hint):
             self.spans["trajectory", key.label] = key.span
+            meant = [each for each in _KEYS if len(key.label) > 2 and each.startswith(key.label)]
             if key.label in _KEYS:
                 parts[key.label] = value
+            elif meant and key.label not in {*self.file.scope.kinds}:  # tol
+                message = f"unknown key '{key.label}' in 'trajectory'"
+                self.file.error(message, key.span, f"the key is {meant[0]}")
             else:
                 formulas.append(self._known(key, value, MOTION))
         words = ("t", "name", "what")
@@ -85,6 +89,8 @@ class TrajectoryReader:
         if given and "t" not in {key.label for key, _ in given}:  # {x: 3}
             by_time = by_time or [f"{{t: …, {entries_of(node)}}}"]
         hint, keys = f"write [{', '.join(by_time)}]" * bool(by_time), None if by_time else words
+        if section == "events" and not {*words} & {*names_in(node)}:
+            hint = "a list of rows, as in [{t: 1, what: impact}]"
         for place, item in enumerate(self.file.items(node, f"'{section}'", hint, keys)):
             self.spans["trajectory", section, str(place)] = item.span
             found: dict[str, Scalar] = {}

@@ -415,3 +415,20 @@ def test_a_point_in_a_formula_is_not_a_parameter(law):
     hints = [each.hint for each in read_problem("p.yaml", text.encode()).diagnostics]
     assert any(each.startswith("a vector, whose components are u, 0") for each in hints)
     assert not any("parameters" in each for each in hints)
+
+
+@pytest.mark.parametrize("word", ["tol", "toler"])
+def test_a_key_of_a_trajectory_cut_short_is_not_a_column(word):
+    hint = only_hint(f"expect: {{trajectory: {{x: 1, {word}: 1e-6}}}}\n")
+    assert hint == "the key is tolerance"
+
+
+def test_events_by_names_are_not_made_to_columns():
+    hint = only_hint("expect: {trajectory: {events: {zero: 1}, until: 5}}\n")
+    assert hint == "a list of rows, as in [{t: 1, what: impact}]"
+
+
+@pytest.mark.parametrize("sign", ["=", "==", "!="])
+def test_a_gap_has_another_sign(sign):
+    hint = only_hint(f"contacts: {{wall: {{gap: x {sign} k, restitution: 0.5}}}}\n")
+    assert hint == "write x >= k"

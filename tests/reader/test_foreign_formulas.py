@@ -273,3 +273,14 @@ def test_a_square_of_the_time_may_be_a_wave(argument):
     assert hint(f"m*signal.square({argument})").startswith("a function has its name alone")
     assert hint("-m*square(x')") == "write -m*x'^2"
     assert hint("-m*sq(w*t)") == "write -m*(w*t)^2"
+
+
+def test_a_real_part_is_a_cosine():
+    begin = "coordinates: [x]\nparameters: {m: 1, F: 1, w: 2}\nT: m*x'^2/2\nforces: {x: "
+
+    def hints(law):
+        found = read_problem("p.yaml", f"{begin}{law}}}\n".encode()).diagnostics
+        return [each.hint for each in found]
+
+    assert hints("F*Re(exp(i*w*t))") == ["write F*(cos(w*t))"]
+    assert not any("cos" in each for each in hints("F*Im(exp(i*w*t))"))

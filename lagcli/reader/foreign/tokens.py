@@ -124,7 +124,8 @@ def prepared(text: str, names: Vocabulary) -> str:
     text = re.sub(r"(?<=[\w)'²])\s*:\s*(?=\d)", "/", text)
     if names.related and not {"d", "dt"} & {*names.known} and re.search(r"\bd[^\W\dt]", text):
         text = re.sub(r"(?<=[\w)'])\s*\*?\s*\bdt\b|\bdt\s*\*\s*", "", text)
-    text = text if {"i", "j"} & {*names.known} else _COMPLEX.sub(r"cos(\1)", text)
+    is_other = {"i", "j"} & {*names.known} or re.search(r"\bIm\b", text)
+    text = text if is_other else _COMPLEX.sub(r"cos(\1)", text)
     for words, sign in _RELATIONS:
         text = words.sub(f" {sign} ", text)
     behind = re.search(r"\[([^\[\]]+)\]\s*$", text)
