@@ -9,6 +9,7 @@ from typing import Any
 from lagcli.diagnostics import Diagnostic, Span
 from lagcli.expression import Expression, Name, walk
 from lagcli.problem_data import BracketQuestion, CanonicalTransformation, Symmetry
+from lagcli.reader.assignments import assigned
 from lagcli.reader.file_reader import FileReader
 from lagcli.reader.misshapen import FOUND, as_flow, by_key, named_formulas, source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
@@ -161,8 +162,11 @@ def read_transformations(
         message = f"'{entries[0][0].label}' is a new variable, not the name of a transformation"
         names = _new_momenta([key.label for key, _ in entries])
         inner = (f"{names.get(key, key)}: {each}" for key, each in by_key(node).items())
-        whole = ", ".join(inner)
-        file.error(message, entries[0][0].span, f"write name: {{{whole}}}")
+        hint = f"write name: {{{', '.join(inner)}}}"
+        if parts := dict(assigned(source_of(entries[0][1]))):  # swap: Q = p_x, p_Q = -x
+            hint = f"write {entries[0][0].label}: {as_flow(parts)}"
+            message = f"the transformation '{entries[0][0].label}' is a map, not a text"
+        file.error(message, entries[0][0].span, hint)
         return ()
     return tuple(_transformation(file, key, value) for key, value in entries)
 

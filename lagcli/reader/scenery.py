@@ -8,7 +8,7 @@ from lagcli.expression import Expression
 from lagcli.problem_data import Point, Scenery
 from lagcli.reader.dynamics import read_components
 from lagcli.reader.file_reader import FileReader
-from lagcli.reader.misshapen import by_key, source_of
+from lagcli.reader.misshapen import source_of
 from lagcli.reader.nodes import DocumentNode, Mapping, Scalar, Sequence
 from lagcli.reader.scope import POSITION
 from lagcli.reader.suggest import did_you_mean
@@ -30,8 +30,10 @@ def read_scenery(file: FileReader, node: DocumentNode, points: tuple[Point, ...]
 
     trails = None
     if "trails" in given:
-        listed = file.items(given["trails"][1], "trails", "write [bob]")
-        known = [point.name for point in points]
+        known, node = [point.name for point in points], given["trails"][1]
+        are_points = isinstance(node, Scalar) and {*re.findall(r"\w+", node.value)} <= {*known}
+        hint = "write [bob]" if are_points else f"a list of points, as in [{', '.join(known)}]"
+        listed = file.items(node, "trails", hint)
         trails = tuple(n for item in listed if (n := _name(file, item, "trails", known)))
     return Scenery(places=places, rods=pairs("rods"), springs=pairs("springs"), trails=trails)
 
@@ -58,6 +60,8 @@ def _pairs(
 ) -> tuple[tuple[str, str], ...]:
     found = []
     inner = node.parts
+    if len(inner) == 1 and any(isinstance(each, Sequence) for each in inner[0].parts):
+        inner = inner[0].parts  # [[[0, 0], bob]]
     ends_alone = [each.value for each in inner if isinstance(each, Scalar)]
     joined = [re.split(r"\s*[-–—~]+>?\s*|\s+(?:to\s+)?", each) for each in ends_alone]
     are_pairs = all(len(each) == 2 for each in joined)
@@ -72,10 +76,11 @@ def _pairs(
         whole = f"picture: {{places: {{O: {place}}}, {key}: [[O, {ends_alone[0]}]]}}"
         file.error(f"{key} join points and places by their names", node.span, f"write {whole}")
         return ()
-    hint = "write [[O, bob], [bob, ball]]"
-    if isinstance(node, Mapping) and all(isinstance(v, Scalar) for _, v in node.entries):
-        pairs = ", ".join(map("[{0[0]}, {0[1]}]".format, by_key(node).items()))
-        hint = f"write [{pairs}]"
+    hint = "a list of pairs, as in [[O, bob], [bob, ball]]"
+    if isinstance(node, Mapping):
+        pairs = (source_of(v) if isinstance(v, Sequence) else f"[{k.label}, {source_of(v)}]"
+                 for k, v in node.entries)  # fmt: skip
+        hint = f"write [{', '.join(pairs)}]"
     for item in file.items(node, key, hint):
         ends = file.items(item, f"one of the {key}", "write two names: [O, bob]")
         if ends and len(ends) != 2:

@@ -432,3 +432,32 @@ def test_events_by_names_are_not_made_to_columns():
 def test_a_gap_has_another_sign(sign):
     hint = only_hint(f"contacts: {{wall: {{gap: x {sign} k, restitution: 0.5}}}}\n")
     assert hint == "write x >= k"
+
+
+@pytest.mark.parametrize(
+    ("given", "hint"),
+    [
+        ("trails: yes", "a list of points, as in [bob, ball]"),
+        ("trails: bob", "write [bob]"),
+        ("rods: {rod: [bob, ball]}", "write [[bob, ball]]"),
+        ("rods: {bob: ball}", "write [[bob, ball]]"),
+        ("springs: [[[0, 0], bob]]", "write picture: {places: {O: [0, 0]}, springs: [[O, bob]]}"),
+    ],
+)
+def test_a_picture_is_of_the_points_of_the_file(given, hint):
+    begin = "coordinates: [u, w]\nparameters: [m]\npoints:\n  bob: {position: [u, 0], mass: m}\n"
+    text = f"{begin}  ball: {{position: [w, 1], mass: m}}\nV: 0\npicture: {{{given}}}\n"
+    [found] = read_problem("p.yaml", text.encode()).diagnostics
+    assert found.hint == hint
+    if hint.startswith("write ["):
+        text = f"{text.partition('picture')[0]}picture: {{{given.partition(':')[0]}: {hint[6:]}}}\n"
+        assert read_problem("p.yaml", text.encode()).diagnostics == ()
+
+
+def test_a_transformation_in_one_text_is_a_map():
+    begin = (
+        "coordinates: [x]\nparameters: [m]\nH: p_x^2/(2*m)\ncanonical_transformations:\n  swap: "
+    )
+    [found] = read_problem("p.yaml", f"{begin}Q = p_x, p_Q = -x\n".encode()).diagnostics
+    assert found.hint == "write swap: {Q: p_x, p_Q: -x}"
+    assert read_problem("p.yaml", f"{begin}{found.hint[12:]}\n".encode()).diagnostics == ()

@@ -458,7 +458,7 @@ HABITS = [
     (text(parameters="{m: 1, k: 3*cos(t)}"), "write definitions: {k: 3*cos(t)}"),
     (text(parameters="{m: 1 [kg], k: 2}"), "write {value: 1, unit: kg}"),
     (text(parameters="{m: >0, k: 2}"), "write parameters: {m: {assume: positive}, k: 2}"),
-    (text(parameters="{m: int, k: 2}"), "write {integer: yes}"),
+    (text(parameters="{m: int, k: 2}"), "write m: {integer: yes}"),
     (text(parameters="{m: 0,5, k: 2}"), "a decimal point is written '.'"),
     (text(parameters="{m: 1, k: 2, pi: 3.14}"), "choose another name: pi_1"),
     (text(initial="x = 1, x' = 0"), "write {x: 1, x': 0}"),
