@@ -352,7 +352,7 @@ def test_the_position_of_a_point_is_cartesian(polar, cartesian, unit):
     length = f"{{{unit}}}"
     given = (
         f"coordinates: {{x: {length}, r: {length}, z: {length}, theta: {{}}, phi: {{}}}}\n"
-        f"parameters: {{m: {{}}, l: {length}, alpha: {{}}}}\nL: 0\n"
+        f"parameters: {{m: {{}}, l: {length}, alpha: {{}}}}\nL: 0*m\n"
         f"points: {{P: {{position: [{polar}], mass: m}}}}\n"
     )
     told = hints(given)
