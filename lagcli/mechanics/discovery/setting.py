@@ -294,7 +294,7 @@ class Setting:
         """That T has isometries that were not found, if it is so."""
         moving = (self.system.t, *self.system.qdot)
         shown = sum(c.transformation.displaces_without(moving) for c in self.point_charges)
-        found = self.partial
+        found = None if self._without_isometries else self.partial
         if found is None or max(len(found.fields), shown) >= found.isometries:
             return self._without_isometries
         return (

@@ -25,7 +25,7 @@ LOOKED_AT = 24
 WANTED = 5
 #: How often each is looked at with parameters of other sizes.
 _ROUNDS = 4
-#: States from which each condition is made to fail: half of them allow what the others ask.
+#: States from which each condition is made to fail: not all allow what the others ask.
 _MOVED = 6
 BITS = PRECISIONS[1]
 _NEWTON_STEPS = 30
