@@ -36,6 +36,7 @@ TIME = Symbol("t", real=True)
 
 #: The functions that return after a turn.
 CIRCULAR = (sympy.sin, sympy.cos, sympy.tan, sympy.cot, sympy.sec, sympy.csc)
+HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 
 _SYMPY_FUNCTIONS: dict[str, Callable[..., Expr]] = {
     **{name: getattr(sympy, {"abs": "Abs"}.get(name, name)) for name in FUNCTIONS},

@@ -8,13 +8,12 @@ from fractions import Fraction
 import sympy
 from sympy import Expr
 
-from lagcli.algebra.build import CIRCULAR, UNREAL, without_jumps
+from lagcli.algebra.build import CIRCULAR, HYPERBOLIC, UNREAL, without_jumps
 from lagcli.algebra.field import Element
 from lagcli.algebra.generators import ExpressionField
 from lagcli.algebra.multiples import Multiples
 from lagcli.algebra.roots import absolute, rational_power, sign
 
-HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 _MAX_EXPONENT = 200  # measured: at most 16
 
 

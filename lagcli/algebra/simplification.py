@@ -9,9 +9,10 @@ from functools import partial
 
 from sympy import Add, Dummy, Expr, Mul, Pow, S, Symbol, exp, sqrt
 
+from lagcli.algebra.build import HYPERBOLIC
 from lagcli.algebra.cancellation import cancelled
 from lagcli.algebra.division import commonest_ratio
-from lagcli.algebra.entry import HYPERBOLIC, Field
+from lagcli.algebra.entry import Field
 from lagcli.algebra.field import Element
 from lagcli.algebra.leaves import Translator, to_expression
 from lagcli.algebra.relations import Relations

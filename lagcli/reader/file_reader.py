@@ -31,6 +31,7 @@ from lagcli.reader.misshapen import (
     by_its_name,
     entries_of,
     is_found,
+    name_in,
     named_formulas,
     one_sum,
     ranged,
@@ -253,13 +254,9 @@ class FileReader:
         elif isinstance(node, Mapping) and keys is not None:
             maps = [v for k, v in node.entries if isinstance(v, Mapping) and k.label not in keys]
             whole = maps if len(maps) == len(node.entries) else [node]
-            places = {k.label for k, v in node.entries if isinstance(v, Scalar)}
-            places &= {*self.scope.coordinates}
-            if (
-                not hint
-                or maps == whole
-                or all(k.label in keys or k.label in places for k, _ in node.entries)
-            ):
+            alone = {k.label for k, v in node.entries if isinstance(v, Scalar)}
+            others = {k.label for k, _ in node.entries} - (alone & {*self.scope.coordinates})
+            if not hint or maps == whole or others <= {*keys}:
                 hint = f"write [{', '.join(map(source_of, whole))}]"
         elif isinstance(node, Mapping) and hint in {"", "write [one, another]", _FREQUENCIES}:
             rates = [state_meant(key.label, self.scope.coordinates) for key, _ in node.entries]
@@ -386,7 +383,7 @@ class FileReader:
         units = "unit" in self.text
         wrong = unit_in_formula(number, what, self.scope.kinds, role in _NUMERIC, units)
         is_varied = is_open and what.startswith(("the value of", "the initial"))
-        if is_varied and (several := ranged(what.split("'", 1)[1][:-1], node)):
+        if is_varied and (several := ranged(name_in(what), node)):
             wrong = f"{what} is one number", several
         if number != alone and not wrong:
             wrong = "a value is one number in digits", f"write {number}"

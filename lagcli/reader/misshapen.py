@@ -174,7 +174,7 @@ def one_sum(node: DocumentNode, what: str) -> str:
         whole = without_cases(" else ".join(cases)) if len(cases) == 2 else ""
         return f"write {whole}" if "sign(" in whole else CASE
     if what.startswith(("the value of", "the initial")) and written:
-        return f"write {written[0]}; {swept(what.split(chr(39), 1)[1][:-1], node)}"
+        return f"write {written[0]}; {swept(name_in(what), node)}"
     if what.startswith("the definition of") and written and {*inner} <= {"x", "y", "z"}:
         name = what.split("'")[1]
         pairs_ = zip(inner or "xyz", written, strict=False)
@@ -323,6 +323,11 @@ def values_in(text: str) -> str:
     if steps.denominator == 1 and steps > 0:
         return f"{first}:{last}:{steps + 1}"
     return f"{first}:{middle[0]}:{last}"
+
+
+def name_in(what: str) -> str:
+    """`x'` of "the initial 'x''"."""
+    return what.split("'", 1)[1][:-1]
 
 
 def swept(name: str, values: DocumentNode) -> str:

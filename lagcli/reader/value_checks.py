@@ -109,7 +109,11 @@ def _new_places(problem: Problem) -> Iterator[Diagnostic]:
 
 def _masses_beside(problem: Problem) -> Iterator[Diagnostic]:
     """A warning for points whose mass is in none of the terms of T, or of L."""
-    whole = problem.lagrangian if problem.kinetic is None else problem.kinetic
+    energy, name, whole = "T", "kinetic energy", problem.kinetic
+    if whole is None:
+        energy, name, whole = "L", "energy", problem.lagrangian
+    if whole is None:
+        return
     values = {one.name: one.value for one in problem.parameters if one.value is not None}
     meaning = {**values, **problem.definitions, **problem.named}
 
@@ -121,10 +125,10 @@ def _masses_beside(problem: Problem) -> Iterator[Diagnostic]:
             left = {node.name for node in inner} - names
         return names
 
-    energy, name = ("T", "kinetic energy") if problem.kinetic is not None else ("L", "energy")
-    for point in problem.points if whole is not None else ():
-        mass = set() if whole is None or point.mass is None else names_in(point.mass)
-        if whole and point.mass and mass and not mass & names_in(whole):
+    known = names_in(whole)
+    for point in problem.points:
+        mass = set() if point.mass is None else names_in(point.mass)
+        if point.mass is not None and mass and not mass & known:
             message = f"the mass of '{point.name}' is not in {energy}, which is all of the {name}"
             hint = f"add the {name} of '{point.name}' to {energy}, or leave out its mass"
             yield _warning(message, point.mass.span, hint)

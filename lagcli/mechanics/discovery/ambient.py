@@ -31,10 +31,10 @@ from sympy import Expr, Symbol
 
 from lagcli.algebra import dot, simplify
 from lagcli.algebra.antiderivative import antiderivative
-from lagcli.algebra.build import CIRCULAR, free_of
+from lagcli.algebra.build import CIRCULAR, HYPERBOLIC, free_of
 from lagcli.mechanics.discovery.ansatz import complexity
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.metric import HYPERBOLIC, Metric
+from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.modular import NoPoint, independent
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.spectrum import roots_of

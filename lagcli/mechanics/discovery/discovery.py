@@ -291,7 +291,8 @@ class Discovery(Setting):
                 self.unproved = _UNPROVED
             else:
                 self.listing.add([charge])
-        self.listing.add(self._new(self.of_partial(allowed)))
+        if self.partial is not None:
+            self.listing.add(self._new(self.of_partial(self.partial, allowed)))
         self.stopped += [self.unproved] if self.unproved else []
         if not (constraints or self.canonical):
             self.listing.add(self._new([*point.with_integrating_factors(self.noether, allowed)]))

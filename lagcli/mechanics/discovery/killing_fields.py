@@ -23,12 +23,12 @@ import sympy
 from sympy import Expr, Symbol
 
 from lagcli.algebra import derivative, dot, simplify
-from lagcli.algebra.build import CIRCULAR, free_of
+from lagcli.algebra.build import CIRCULAR, HYPERBOLIC, free_of
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, complexity, ordered, products_of_two
 from lagcli.mechanics.discovery.constant_curvature import ConstantCurvature, Vector
 from lagcli.mechanics.discovery.killing_jets import KillingJets
 from lagcli.mechanics.discovery.limits import Allowance
-from lagcli.mechanics.discovery.metric import HYPERBOLIC, Metric
+from lagcli.mechanics.discovery.metric import Metric
 from lagcli.mechanics.discovery.relation import Relation
 from lagcli.mechanics.discovery.search import Search, SlotUnknown
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
@@ -160,16 +160,15 @@ class KillingFields:
         rows = (*self.metric.g, *self.metric.inverse)
         entries = sympy.Tuple(*(e for row in rows for e in row))
         found: dict[Expr, None] = {sympy.S.One: None}
-        kinds = (*CIRCULAR, *HYPERBOLIC, sympy.exp)
-        arguments = {(f.args[0], f.func in CIRCULAR, f.func): None for f in entries.atoms(*kinds)}
-        by_kind = {(a, circular): kind for a, circular, kind in arguments}
-        for (a, _), kind in sorted(by_kind.items(), key=str):
+        families = (CIRCULAR, HYPERBOLIC, (sympy.exp,))
+        arguments = {(f.args[0], family) for family in families for f in entries.atoms(*family)}
+        for a, family in sorted(arguments, key=str):
             if a.free_symbols & {*self.metric.q} != {x}:
                 continue
-            if kind is sympy.exp:
+            if sympy.exp in family:
                 found |= dict.fromkeys(sympy.exp(k * a) for k in (1, -1, _HALF, -_HALF))
                 continue
-            s, c = (sympy.sin, sympy.cos) if kind in CIRCULAR else (sympy.sinh, sympy.cosh)
+            s, c = family[:2]
             found |= {s(a): None, c(a): None}
             for f, other in ((s(a), c(a)), (c(a), s(a))):
                 if any(f in sympy.fraction(e)[1].atoms(f.func) for e in entries):

@@ -25,11 +25,10 @@ from mpmath import mpf
 from sympy import Expr, Symbol
 
 from lagcli.algebra import derivative, dot, simplify, solve_linear
-from lagcli.algebra.build import CIRCULAR, free_of
+from lagcli.algebra.build import CIRCULAR, HYPERBOLIC, free_of
 from lagcli.algebra.linear import unit_vectors
 from lagcli.algebra.numeric import DIGITS, Evaluator
 
-HYPERBOLIC = (sympy.sinh, sympy.cosh, sympy.tanh, sympy.coth)
 _SMALL = mpf(10) ** -15
 _FIRST = mpf(19) / 17  # of the parameters: no exponent with which a component is 0
 _PLACES = 40  # tried for one where the metric is positive definite

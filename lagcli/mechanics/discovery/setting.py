@@ -280,11 +280,9 @@ class Setting:
         constants = set(self.system.parameters)
         return [point.transformation_of(search, s, constants) for s in search.solutions()]
 
-    def of_partial(self, allowed: Allowance) -> list[NoetherCharge]:
-        """Of isometries of T, where not all were found."""
-        if self.partial is None:
-            return []
-        search = self.partial.search(self.equations, self.time_functions, allowed)
+    def of_partial(self, partial: KillingFields, allowed: Allowance) -> list[NoetherCharge]:
+        """The charges of isometries of T, where not all were found."""
+        search = partial.search(self.equations, self.time_functions, allowed)
         moves = self.transformations(search)
         found = [point.charge_of(self.noether, each, allowed) for each in moves]
         return [charge for charge in found if charge is not None]

@@ -191,8 +191,8 @@ def _to_try(
         system.t in p.base.free_symbols and p.exp.free_symbols for p in system.L.atoms(sympy.Pow)
     ):
         discovery.words.append(_NOT_ALL)  # t^n: functions of time with other powers
-    times = searched.time_functions
-    if len(system.q) == 1 or times.suggested or times.lacking or _NOT_ALL in searched.words:
+    in_time = searched.time_functions
+    if len(system.q) == 1 or in_time.suggested or in_time.lacking or _NOT_ALL in searched.words:
         factors += system.parameters  # a term less: linear, with functions of time
     # without charges with these functions of time only those of a frame may be alike
     ratios = _RATIOS if _is_timed(searched) else (1,)
