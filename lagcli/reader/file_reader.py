@@ -256,7 +256,7 @@ class FileReader:
             whole = maps if len(maps) == len(node.entries) else [node]
             alone = {k.label for k, v in node.entries if isinstance(v, Scalar)}
             others = {k.label for k, _ in node.entries} - (alone & {*self.scope.coordinates})
-            if not hint or maps == whole or others <= {*keys}:
+            if not hint or maps == whole or all(k in keys for k in others):
                 hint = f"write [{', '.join(map(source_of, whole))}]"
         elif isinstance(node, Mapping) and hint in {"", "write [one, another]", _FREQUENCIES}:
             rates = [state_meant(key.label, self.scope.coordinates) for key, _ in node.entries]

@@ -160,7 +160,7 @@ class KillingFields:
         rows = (*self.metric.g, *self.metric.inverse)
         entries = sympy.Tuple(*(e for row in rows for e in row))
         found: dict[Expr, None] = {sympy.S.One: None}
-        families = (CIRCULAR, HYPERBOLIC, (sympy.exp,))
+        families: tuple[tuple[type[Expr], ...], ...] = (CIRCULAR, HYPERBOLIC, (sympy.exp,))
         arguments = {(f.args[0], family) for family in families for f in entries.atoms(*family)}
         for a, family in sorted(arguments, key=str):
             if a.free_symbols & {*self.metric.q} != {x}:
