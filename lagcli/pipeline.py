@@ -310,7 +310,7 @@ def explain(
         return _in_the_manner(derivation, _confirmed(derivation, explanation_of_large(large), ()))
     from lagcli.mechanics.explaining.explain import explanation
 
-    account = _ended(lambda: explanation(derivation, also))
+    account = _ended(lambda: explanation(derivation, also), 1 + bool(also))
     if named and derivation.given.definitions:
         from lagcli.mechanics.named_definitions import steps_by_names
 
@@ -364,8 +364,8 @@ def _confirmed(derivation: Derivation, account: Explanation, also: Sequence[str]
     )
 
 
-def _ended(work: Callable[[], Made]) -> Made:
-    """What the work makes, if that takes no more than it is allowed.
+def _ended(work: Callable[[], Made], times: int = 1) -> Made:
+    """What the work makes, if that takes no more than (some times) what a section is allowed.
 
     Raises
     ------
@@ -377,7 +377,7 @@ def _ended(work: Callable[[], Made]) -> Made:
     from lagcli.platform.limited import limited
 
     try:
-        return limited(work, UNITS, SECONDS)
+        return limited(work, times * UNITS, times * SECONDS)
     except OutOfWork:
         raise TimeoutError(TOO_MUCH) from None
 

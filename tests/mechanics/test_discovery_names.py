@@ -484,6 +484,9 @@ ABOUT_AN_AXIS = {
     "parabolic": (
         "u v f", "((u^2 + v^2)*(u'^2 + v'^2) + u^2*v^2*f'^2)/2",
         ("u*v*cos(f)", "u*v*sin(f)", "(u^2 - v^2)/2")),
+    "squares of parabolic": (
+        "u v f", "(u + v)*(u'^2/u + v'^2/v)/8 + u*v*f'^2/2",
+        ("sqrt(u*v)*cos(f)", "sqrt(u*v)*sin(f)", "(u - v)/2")),
     "oblate": (
         "u v f", "a^2*((sinh(u)^2 + sin(v)^2)*(u'^2 + v'^2) + cosh(u)^2*cos(v)^2*f'^2)/2",
         ("a*cosh(u)*cos(v)*cos(f)", "a*cosh(u)*cos(v)*sin(f)", "a*sinh(u)*sin(v)")),
@@ -515,6 +518,31 @@ def test_momenta_about_an_axis_are_those_of_cartesian_coordinates(name):
         at = numbers | dict.fromkeys((*system.parameters, t), sympy.Rational(6, 5))
         for key, formula in expected.items():
             assert abs((found[key] - formula).subs(at).evalf(30)) < 1e-20
+
+
+DYON = "m*(%s) + s*(u{p} - v{p})/(u{p} + v{p})*f' + 2*k/(u{p} + v{p}) - 2*s^2/(m*(u{p} + v{p})^2)"
+
+
+@pytest.mark.parametrize(("chart", "power"), [("parabolic", "^2"), ("squares of parabolic", "")])
+def test_a_dyon_in_parabolic_coordinates_has_its_runge_lenz_vector(chart, power):
+    """A = m v x J - m k r/|r|, with the conserved J (McIntosh, Cisneros, J. Math. Phys. 11, 896)."""
+    parameters = f"{{m: {POS}, k: {POS}, s: {POS}}}"
+    L = DYON.format(p=power) % ABOUT_AN_AXIS[chart][1]
+    derivation = derive(f'{{coordinates: [u, v, f], parameters: {parameters}, L: "{L}"}}')
+    system = derivation.system
+    X = [system.build(parse_text(each)) for each in ABOUT_AN_AXIS[chart][2]]
+    V = [system.total_derivative(f) for f in X]
+    m, k = (next(p for p in system.parameters if p.name == name) for name in "mk")
+    found = {c.name: c.charge for c in derivation.discovery.charges}
+    J = [found[name] for name in ("L_x", "L_y", "p_f")]
+    r = sympy.sqrt(sympy.Add(*(x**2 for x in X)))
+    sizes = map(sympy.Rational, "19/8 3/7 4/5 1/3 2/7 5/9".split())
+    at = dict(zip((*system.q, *system.qdot), sizes, strict=True))
+    at |= dict.fromkeys(system.parameters, sympy.Rational(6, 5))
+    for i, j, n in ((0, 1, 2), (1, 2, 0), (2, 0, 1)):
+        expected = m * (V[j] * J[n] - V[n] * J[j]) - m * k * X[i] / r
+        name = f"runge_lenz_{'xyz'[i]}"
+        assert abs((found[name] - expected).subs(at).evalf(30)) < 1e-20
 
 
 @pytest.mark.parametrize("sign", ["+", "-"])

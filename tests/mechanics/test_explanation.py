@@ -17,7 +17,9 @@ from lagcli.algebra.build import Builder
 from lagcli.document import Bracket, Equations, Heading, Items, Label, Paragraph
 from lagcli.expression import Diff, Expression, Name, Number, Power, Rate, walk
 from lagcli.formatters.grammar import to_grammar
+from lagcli.mechanics.explaining import further
 from lagcli.pipeline import derive, explain
+from lagcli.platform.effort import OutOfWork
 from lagcli.rewriting import parts_in, rebuilt
 from lagcli.statements.registry import explained_in_order
 
@@ -378,6 +380,22 @@ def test_a_question_is_told_with_what_is_put_in():
     assert normal(shown[Name("N")]) == formula("m*v0^2/R + m*g*(3*cos(theta) - 2)")
     assert "For which v0 is N ≥ … at all times?" in words(explanation, "Questions")
     assert explanation.complete
+
+
+def test_a_further_step_that_takes_too_much_is_left_out_alone(monkeypatch):
+    blocks = further._blocks
+
+    def limited(explainer, statements, name, explained):
+        if name == "discovered":
+            raise OutOfWork
+        return blocks(explainer, statements, name, explained)
+
+    monkeypatch.setattr(further, "_blocks", limited)
+    account = explain(derive(load("hoop")), ("discovered", "equilibria"))
+    assert [step.title for step in account.steps][-2:] == ["Discovered symmetries", "Equilibria"]
+    assert not account.complete
+    assert any("'discovered' was not explained: it takes more work" in w for w in account.warnings)
+    assert len(account.steps[-1].blocks) > 2
 
 
 def test_what_is_not_found_makes_the_account_incomplete():

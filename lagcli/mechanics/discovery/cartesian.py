@@ -69,6 +69,9 @@ def about_an_axis(
         squares = sympy.Mul(*(b ** (e // 2) for b, e in powers if e.is_Integer))
         scales = [squares * sympy.sqrt(simplify(inertia[k] / m)) for k in places]
         functions = [scale * X[k] for scale, k in zip(scales, places, strict=True)]
+        first = next((x for x in q if x in functions[2].free_symbols), q[0])
+        if functions[2].diff(first).could_extract_minus_sign():
+            functions[2] *= -1  # z = (xi - eta)/2
         real = not any(scale.has(sympy.I) for scale in scales)  # z is no time
         if real and all(scale.is_rational_function(*scale.free_symbols) for scale in scales):
             return Cartesian(tuple(q), ("x", "y", "z"), tuple(functions), m / squares**2)

@@ -478,7 +478,7 @@ class Discovery(Setting):
 
     def _keep(self, found: Iterable[tuple[Slots, NoetherCharge]]) -> None:
         """Add what is found, with names."""
-        naming = HiddenNames(self.system, self.equations, self.centred_kinds)
+        naming = HiddenNames(self.system, self.equations, self.axes(self.centred_kinds))
         named = self._with_energies_of_modes(
             [(*naming.of(functions, charge), charge) for functions, charge in found]
         )

@@ -34,7 +34,7 @@ from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.modular import independent
 from lagcli.mechanics.discovery.products import integral_of, products_of
 from lagcli.mechanics.discovery.relation import with_gradient
-from lagcli.mechanics.discovery.scaling import bare_terms, scaled
+from lagcli.mechanics.discovery.scaling import bare_sums, bare_terms, scaled
 from lagcli.mechanics.discovery.search import Search, SlotSolution
 from lagcli.mechanics.discovery.slots import (
     Slot,
@@ -170,15 +170,17 @@ class QuadraticIntegrals:
         field = [[f.diff(x).xreplace(self._still) for x in v] for f in self.equations.forcing]
         if units:
             field = [[dot(E, [dot(row, F) for row in field]) for F in units] for E in units]
-        terms = dict.fromkeys(
-            t for row in field for s in row for t in bare_terms(simplify(s), self.equations.q)
-        )
+        entries = [simplify(s) for row in field for s in row]
         pairs = products_of_two(self.X)
-        monomials = [] if self.curved else [*self.X, *pairs]
-        if [*terms] == [sympy.S.One] and monomials:  # K^ab A_b of a uniform field, A = B x/2
-            monomials += dict.fromkeys(x * pair for x in self.X for pair in pairs)
-        made = dict.fromkeys(t * m for t in terms for m in (sympy.S.One, *monomials))
-        return list(made) if len(made) <= _MOST_OF_FIELD else []
+        for parts in (bare_terms, bare_sums):  # in curvilinear coordinates x_k is a sum
+            terms = dict.fromkeys(t for s in entries for t in parts(s, self.equations.q))
+            monomials = [] if self.curved else [*self.X, *pairs]
+            if [*terms] == [sympy.S.One] and monomials:  # K^ab A_b of a uniform field, A = B x/2
+                monomials += dict.fromkeys(x * pair for x in self.X for pair in pairs)
+            made = dict.fromkeys(t * m for t in terms for m in (sympy.S.One, *monomials))
+            if len(made) <= _MOST_OF_FIELD:
+                return list(made)
+        return []
 
     # -- the charge -------------------------------------------------------------------------
 
@@ -250,7 +252,9 @@ class QuadraticIntegrals:
             for f in inside
         } - {sympy.S.One}
         made += [a * b * x for b in terms for a in monomials[: 1 + len(q)] for x in turns]
-        return sorted({m for m in made if not free_of(m, q)}, key=_length)
+        axes = {a * x for a in terms for x in self.own or ()}  # x/r, before a shorter x/r + 1
+        moving = {m for m in made if not free_of(m, q)}
+        return sorted(moving, key=lambda m: (m not in axes, _length(m)))
 
 
 def potential(

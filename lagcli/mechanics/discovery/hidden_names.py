@@ -23,8 +23,7 @@ from sympy import Expr
 
 from lagcli.algebra import dot, is_zero, simplify
 from lagcli.algebra.build import free_of
-from lagcli.mechanics.discovery.cartesian import cartesian
-from lagcli.mechanics.discovery.kinds import Kinds
+from lagcli.mechanics.discovery.cartesian import Cartesian
 from lagcli.mechanics.discovery.names import AXES
 from lagcli.mechanics.discovery.slots import Slot, SlotEquations
 from lagcli.mechanics.noether import NoetherCharge
@@ -34,7 +33,7 @@ from lagcli.mechanics.system import System
 class HiddenNames:
     """Names by the shape of the Killing tensor and of the part without velocities."""
 
-    def __init__(self, system: System, equations: SlotEquations, kinds: Kinds) -> None:
+    def __init__(self, system: System, equations: SlotEquations, axes: Cartesian | None) -> None:
         self.t = equations.t
         self.q = equations.q
         self.v = equations.v
@@ -42,8 +41,8 @@ class HiddenNames:
         rest = dict.fromkeys(equations.v, sympy.S.Zero)
         self._rest = rest
         _, self.V = (-system.L.xreplace(rest)).as_independent(*self.q, as_Add=True)
-        self._cartesian = cartesian(kinds, equations)
-        self.axes = self._axes(kinds)
+        self._cartesian = axes
+        self.axes = self._axes()
         self._tensors = list(self._known_tensors())
 
     def of(self, functions: Sequence[tuple[Slot, Expr]], charge: NoetherCharge) -> tuple[str, Expr]:
@@ -181,7 +180,7 @@ class HiddenNames:
         ratio = simplify(above / below)
         return None if ratio.free_symbols & set(state) or ratio == 0 else ratio
 
-    def _axes(self, kinds: Kinds) -> Sequence[tuple[str, Expr]]:
+    def _axes(self) -> Sequence[tuple[str, Expr]]:
         """Cartesian coordinates, with their names, where V is a function of r alone.
 
         In a curved space x, y and z of the file are as good.
@@ -194,11 +193,7 @@ class HiddenNames:
             return ()
         if len(X) < 2 or is_zero(V) is True:
             return ()
-        if kinds.angles:
-            central = V.free_symbols.isdisjoint(kinds.angles)
-        else:
-            turned = combinations(zip(own, X, strict=True), 2)
-            central = all(
-                is_zero(V.diff(q) * x - V.diff(p) * y) is True for (p, x), (q, y) in turned
-            )
+        square = sympy.Add(*(x**2 for x in X))
+        slopes = [(V.diff(q), square.diff(q)) for q in own]
+        central = all(is_zero(a * d - b * c) is True for (a, b), (c, d) in combinations(slopes, 2))
         return list(zip(names, X, strict=True)) if central else ()

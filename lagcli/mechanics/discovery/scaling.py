@@ -92,3 +92,17 @@ def bare_terms(expression: Expr, q: Sequence[Symbol]) -> list[Expr]:
     terms = sympy.Add.make_args(sympy.expand(expression))
     parts = (term.as_independent(*q, as_Add=False)[1] for term in terms if term != 0)
     return list(dict.fromkeys(parts))
+
+
+def bare_sums(fraction: Expr, q: Sequence[Symbol]) -> list[Expr]:
+    """The sums of its terms with the same constants, each once without these and its number."""
+    top, bottom = sympy.fraction(fraction)
+    sums: dict[Expr, list[Expr]] = {}
+    for term in sympy.Add.make_args(sympy.expand(top)):
+        number, rest = term.as_coeff_Mul()
+        constants, part = rest.as_independent(*q, as_Add=False)
+        sums.setdefault(constants, []).append(number * part)
+    primitive = [sympy.Add(*parts).primitive()[1] for parts in sums.values()]
+    over = bottom.as_independent(*q, as_Add=False)[1]
+    made = (-x / over if x.could_extract_minus_sign() else x / over for x in primitive if x != 0)
+    return list(dict.fromkeys(made))

@@ -16,7 +16,7 @@ from lagcli.algebra.numeric import DIGITS, Evaluator
 from lagcli.algebra.row_rank import rank
 from lagcli.mechanics.discovery import point
 from lagcli.mechanics.discovery.ansatz import TimeFunctions, time_functions
-from lagcli.mechanics.discovery.cartesian import about_an_axis, cartesian
+from lagcli.mechanics.discovery.cartesian import Cartesian, about_an_axis, cartesian
 from lagcli.mechanics.discovery.centre import centre_of
 from lagcli.mechanics.discovery.isometries import Isometries, are_beyond
 from lagcli.mechanics.discovery.killing_fields import KillingFields
@@ -60,10 +60,14 @@ class Setting:
         """The charges that were found, with their names."""
         kinds = self.coordinate_kinds
         constraints = self.dynamics.constraints.equations
-        axes = cartesian(kinds, self.equations)
-        if axes is None and self.flat is not None and self.flat.inertia:
-            axes = about_an_axis(self.flat.functions, self.flat.inertia, self.system.q)
-        return Listing(self.system, constraints, kinds, axes)
+        return Listing(self.system, constraints, kinds, self.axes(kinds))
+
+    def axes(self, kinds: Kinds) -> Cartesian | None:
+        """Cartesian coordinates, those of a flat T about an axis where no others are known."""
+        found = cartesian(kinds, self.equations)
+        if found is None and self.flat is not None and self.flat.inertia:
+            return about_an_axis(self.flat.functions, self.flat.inertia, self.system.q)
+        return found
 
     @property
     def point_charges(self) -> tuple[NoetherCharge, ...]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, cast
 
 from sympy import S
@@ -24,7 +25,10 @@ from lagcli.mechanics.explaining.words import (
 from lagcli.mechanics.reduction.effective_potential import without_momenta
 from lagcli.mechanics.reduction.routh import ALL_CYCLIC, NONE_LEFT
 from lagcli.mechanics.statements import Statements
+from lagcli.mechanics.stating import TOO_MUCH
 from lagcli.mechanics.system import System
+from lagcli.platform.effort import OutOfWork
+from lagcli.platform.limited import limited_to
 from lagcli.statements.answers import EquilibriaSection, Section
 from lagcli.statements.explanation import ExplanationStep
 from lagcli.statements.plus_minus import once, unlike
@@ -43,23 +47,40 @@ if TYPE_CHECKING:
     from lagcli.mechanics.rest.equilibria import RestPoints
 
 _ABSENT = "This was not found: see the warnings."
+_SHARE = 0.9  # of the work that is left: what one step takes too much of is left out alone
 
 
 def further(explainer: Explainer, also: Sequence[str]) -> tuple[list[ExplanationStep], list[str]]:
     """The steps of these sections, and what was not found on the way."""
     statements = Statements(explainer.derivation)
-    steps = []
+    steps: list[ExplanationStep] = []
+    missing: list[str] = []
     for name in also:
         explained = find_section(name).explained
         if explained is None:
             raise LookupError(f"the section '{name}' has no step in an explanation")
-        section = statements.answers([name]).sections.get(name)
-        blocks = [says(_ABSENT)] if section is None else explained.blocks(explainer, section)
-        steps.append(ExplanationStep(explained.title, tuple(blocks)))
-        if section is not None:
-            explainer.stated[name] = section
-    missing = [each for each in statements.warnings if not each.endswith((ALL_CYCLIC, NONE_LEFT))]
+        work = partial(_blocks, explainer, statements, name, explained.blocks)
+        try:
+            blocks = limited_to(_SHARE, work)
+        except OutOfWork:
+            blocks = (says(_ABSENT),)
+            missing.append(f"the section '{name}' was not explained: {TOO_MUCH}")
+        steps.append(ExplanationStep(explained.title, blocks))
+    missing += (w for w in statements.warnings if not w.endswith((ALL_CYCLIC, NONE_LEFT)))
     return steps, list(dict.fromkeys(missing))
+
+
+def _blocks(
+    explainer: Explainer,
+    statements: Statements,
+    name: str,
+    explained: Callable[[Explainer, Section], Iterable[Block]],
+) -> tuple[Block, ...]:
+    section = statements.answers([name]).sections.get(name)
+    if section is None:
+        return (says(_ABSENT),)
+    explainer.stated[name] = section
+    return tuple(explained(explainer, section))
 
 
 # -- equilibria ------------------------------------------------------------------------------------
