@@ -51,12 +51,15 @@ from lagcli.mechanics.discovery.slots import point_slots
 from lagcli.mechanics.discovery.special import new_charges
 from lagcli.mechanics.discovery.timed import TimedIntegrals
 from lagcli.mechanics.noether import Noether, NoetherCharge, Transformation
+from lagcli.platform.effort import OutOfWork
+from lagcli.platform.limited import limited_to
 from lagcli.problem_data import Problem
 from lagcli.record import replace
 from lagcli.statements.wording import PRESCRIBED
 
 _UNPROVED = "a symmetry whose charge was not proved is left out"
 _SECOND = "first integrals of second degree in the velocities"
+_SHARE = 0.9  # of the work that is left: the rest is for what was found
 _MOST_FOR_TENSORS = 6  # measured: at most 4
 
 Named = tuple[str, Expr, NoetherCharge]
@@ -138,8 +141,8 @@ class Discovery(Setting):
             ]
         for search, what in searches:
             try:
-                search()
-            except TooMuchWork:
+                limited_to(_SHARE, search)
+            except (TooMuchWork, OutOfWork):
                 stopped = f"stopped before all {what} were found: too much work"
                 (self.words if self._is_integrable() else self.stopped).append(stopped)
             except NoPoint:

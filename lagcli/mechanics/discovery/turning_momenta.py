@@ -14,6 +14,7 @@ Arnold, *Ordinary Differential Equations*, section 14 (the exponential of a matr
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations_with_replacement
 
 import sympy
 from sympy import Expr, Matrix, Symbol
@@ -81,15 +82,28 @@ def with_factors(
         w, rate = _on_surface(dynamics, form), _on_surface(dynamics, rate)
         if w == 0 or not (w.is_polynomial(*v) and rate.is_polynomial(*v)):
             continue
-        quotient, rest = sympy.div(sympy.Poly(rate, *v), sympy.Poly(w, *v))
-        if quotient == 0 or quotient.total_degree() > 1 or rest.total_degree() > 1:
-            continue
-        g = boundary_term(simplify(quotient.as_expr()), system)
-        if g is not None:
+        divided = _divided(rate, w, v)
+        g = None if divided is None else boundary_term(divided[0], system)
+        if divided is not None and g is not None:
             factor = simplify(sympy.exp(-g))
-            S = boundary_term(simplify(factor * rest.as_expr()), system)
+            S = boundary_term(simplify(factor * divided[1]), system)
             if S is not None:
                 yield factor, form, S
+
+
+def _divided(rate: Expr, w: Expr, v: Sequence[Symbol]) -> tuple[Expr, Expr] | None:
+    """q and r of first degree, q != 0, with rate = q w + r; w is linear and homogeneous."""
+    still = dict.fromkeys(v, sympy.S.Zero)
+    slopes = [simplify(w.diff(x)) for x in v]
+    a = next(k for k, c in enumerate(slopes) if c != 0)
+    along = rate.diff(v[a])
+    q = simplify(along.xreplace(still) / slopes[a])
+    second = simplify(along.diff(v[a]) / (2 * slopes[a]))
+    for x, c in zip(v, slopes, strict=True):
+        q += x * simplify((along.diff(x) - second * c) / slopes[a])
+    rest = rate - q * w
+    flat = all(is_zero(rest.diff(x, y)) is True for x, y in combinations_with_replacement(v, 2))
+    return (q, simplify(rest)) if flat and q != 0 else None
 
 
 def _on_surface(dynamics: Dynamics, formula: Expr) -> Expr:
