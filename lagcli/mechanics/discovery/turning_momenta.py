@@ -50,7 +50,7 @@ def turning(dynamics: Dynamics, forms: Sequence[Expr], allowed: Allowance) -> It
         allowed.check()
         w = list(first)
         for form in w:  # what a rate is made of is one of them
-            more = _linear(rates[form] / speed, system.qdot) if len(w) < 2 * _MOST else None
+            more = _over(rates[form], speed, system.qdot) if len(w) < 2 * _MOST else None
             if more is None:
                 continue
             if len(independent_on_surface([*w, more], dynamics, allowed)) > len(w):
@@ -119,13 +119,20 @@ def _rate(dynamics: Dynamics, form: Expr) -> Expr:
     return system.total_derivative(form).xreplace(solved)
 
 
-def _linear(formula: Expr, v: Sequence[Symbol]) -> Expr | None:
-    """The formula where it is homogeneous of first degree in the velocities."""
-    formula = sympy.cancel(formula) if formula.is_rational_function(*v) else formula
-    slopes = [simplify(formula.diff(x)) for x in v]
-    if not any(slopes) or not all(free_of(c, v) for c in slopes):
+def _over(rate: Expr, speed: Expr, v: Sequence[Symbol]) -> Expr | None:
+    """rate/speed where it is linear in the velocities; without what has none of them."""
+    if not rate.is_polynomial(*v):
         return None
-    return sympy.Add(*(c * x for c, x in zip(slopes, v, strict=True)))
+    if speed == 1:
+        slopes = [rate.diff(x) for x in v]
+    elif is_zero(rate.xreplace({speed: sympy.S.Zero})) is True:
+        slopes = [rate.diff(x, speed) / (2 if x == speed else 1) for x in v]
+    else:
+        return None
+    if any(is_zero(c.diff(x)) is not True for c in slopes for x in v):
+        return None
+    form = sympy.Add(*(simplify(c) * x for c, x in zip(slopes, v, strict=True)))
+    return form if form != 0 else None
 
 
 def _closed(
