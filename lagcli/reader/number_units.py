@@ -50,6 +50,8 @@ _ERROR = regex(
     r"^\(?([-+]?\d+\.?\d*(?:[eE][-+]?\d+)?)\s*(?:±|\+/?[-−])\s*[\d.]+(?:[eE]-?\d+)?\s?%?\)?(?=\s|$)"
     r"|^([-+]?\d+\.\d+)\(\d{1,3}\)(?=\s|$)"
 )
+#: The comma of `2,5 m`, not that of `1,500 m`.
+_COMMA = regex(r"^([-+]?\d+),(\d{1,2}|\d{4,})(?=\s*[^\W\d])")
 #: `10k` and `4.7M`.
 _WITH_PREFIX = regex(r"([-+]?\d+\.?\d*)\s?([kMG])")
 
@@ -58,10 +60,11 @@ def in_digits(text: str, names: Container[str] = ()) -> str:
     """`12` for `twelve`, `3/2` for `one and a half`, `0.25 m` for `a quarter of a m`.
 
     Also `9.81` for `≈ 9,81`, `12.5` for `12½`, and `10000` for `10k` where k is none of the names,
-    and `0.5` for `0.5 ± 0.01` and `0.50(1)`.
+    `0.5` for `0.5 ± 0.01` and `0.50(1)`, and `2.5 m` for `2,5 m`.
     """
     if (exact := _ABOUT.sub("", text, count=1) if _ABOUT.match(text) else text) != text:
         text = re.sub(r"^([-+]?\d+),(?=\d)(?!\d{3}$)", r"\1.", exact)
+    text = point if unit_behind(point := _COMMA.sub(r"\1.\2", text)) else text
     text = _ERROR.sub(r"\1\2", with_mixed_numbers(text))
     if (short := _WITH_PREFIX.fullmatch(text)) and short[2] not in names:
         return f"{Fraction(short[1]) * 1000 ** (1 + 'kMG'.index(short[2]))}"

@@ -100,6 +100,8 @@ def unknown_key(
         meant, hint = _meant_of_problem(key, value, around, meant, hint, scope)
     elif not hint or hint.startswith("did you mean"):
         answer = _answer_meant(word, written, scope) if what == "expect" else ""
+        if what == "simulation" and written and (state := state_meant(word, scope.coordinates)):
+            answer = f"where it begins is said in initial: write initial: {{{state}: {written}}}"
         hint = answer or _outer(key, value, names) or hint
     given = {each.label for each, _ in around.entries}
     bound = spellings("bounds").get(letters(word))

@@ -12,7 +12,7 @@ from contextlib import suppress
 from fractions import Fraction
 from functools import partial
 
-from lagcli.diagnostics import Diagnostic
+from lagcli.diagnostics import NOWHERE, Diagnostic
 from lagcli.expression import (
     ONE,
     ZERO,
@@ -43,6 +43,7 @@ from lagcli.reader.momenta_meant import has_velocity
 from lagcli.reader.names import derivative_order
 from lagcli.reader.plain_sign import plain_sign
 from lagcli.reader.text import SourceText
+from lagcli.rewriting import expressions_in
 
 _ODD = frozenset("sin tan sinh tanh asin atan asinh atanh sign".split())
 _EVEN = frozenset("abs cos cosh sec".split())
@@ -70,6 +71,7 @@ def slips(problem: Problem) -> list[Diagnostic]:
         hint = f"it drives the motion: write {whole}" if whole else FRICTION
         found.append(_warning("the dissipation is negative", lost.span, hint))
     found += _new_places(problem)
+    found += _one_sided_sums(problem)
     found += _masses_beside(problem)
     for term in terms_of(problem.potential or ZERO):
         known = all(node.primes or node.name in signs for node in name_nodes(term))
@@ -105,6 +107,19 @@ def _new_places(problem: Problem) -> Iterator[Diagnostic]:
                 message = f"'{one.name}' changes {x} by {text.written(change.span)}"
                 hint = f"write {step}: a symmetry has the change, not the new {x}"
                 yield _warning(message, change.span, hint)
+
+
+def _one_sided_sums(problem: Problem) -> Iterator[Diagnostic]:
+    """A warning for a constraint x + y without '=', beside a length that is in no formula."""
+    used = {node.name for node in name_nodes(*expressions_in(problem))}
+    idle = [x.name for x in problem.parameters if x.name not in {*used, *problem.named}]
+    places = {x.name for x in problem.coordinates}
+    for one in problem.constraints if len(idle) == 1 and idle[0][0] in "lLdDrR" else ():
+        left, is_zero = one.equation.left, one.equation.right.span == NOWHERE
+        if is_zero and left.span != NOWHERE and {x.name for x in name_nodes(left)} <= places:
+            written = SourceText.of(problem.source).written(left.span)
+            message = f"the constraint '{one.name}' is {written} = 0, {idle[0]} is in no formula"
+            yield _warning(message, left.span, f"did you mean {written} = {idle[0]}?")
 
 
 def _masses_beside(problem: Problem) -> Iterator[Diagnostic]:

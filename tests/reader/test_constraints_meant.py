@@ -283,3 +283,23 @@ def test_an_inequality_of_a_multiplier_is_the_condition_of_its_constraint(law):
     whole = f"{{equation: {rod}, holds_while: {law}}}"
     assert told.hint == f"leave it out, and in line 4 write c: {whole}"
     assert read_problem("p.yaml", FILE.format(whole).encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize(
+    ("left", "parameter", "warned"),
+    [
+        ("x + y", "L", "did you mean x + y = L?"),
+        ("2*x + y", "d", "did you mean 2*x + y = d?"),
+        ("x + y = 0", "L", None),
+        ("x - a*y", "L", None),
+        ("x + y", "g", None),
+    ],
+)
+def test_a_rope_without_its_length_is_warned_of(left, parameter, warned):
+    file = (
+        f"coordinates: [x, y]\nparameters: [m, a, {parameter}]\nT: m*(x'^2 + y'^2)/2\nV: a*x\n"
+        f"constraints: {{rope: {left}}}\n"
+    )
+    found = read_problem("p.yaml", file.encode()).diagnostics
+    assert [each.hint for each in found] == ([warned] if warned else [])
+    assert all(each.severity == "warning" for each in found)

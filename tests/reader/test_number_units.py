@@ -69,6 +69,8 @@ def test_symbols_strung_together_are_a_product(written, unit):
     ("written", "meant"),
     [("500*N", "write {value: 500, unit: N}"), ("9.81*m/s^2", "write {value: 9.81, unit: m/s^2}"),
      ("0.50(1)", "write 0.50"), ("2.31(12) J", "write {value: 2.31, unit: J}"),
+     ('"2,5 kg"', "write {value: 2.5, unit: kg}"),
+     ('"9,81 m/s^2"', "write {value: 9.81, unit: m/s^2}"), ('"2,5 k"', "write 2.5*k"),
      ("2*k", ""), ("2.5*(1 + k)", "")],
 )  # fmt: skip
 def test_a_value_with_its_unit_or_its_uncertainty(written, meant):

@@ -115,3 +115,13 @@ def test_the_end_of_a_run_is_shown_in_numbers(until, meant):
     assert told.hint == (f"write {meant}" if meant else told.hint)
     assert "write" not in told.hint or meant
     assert not meant or read_problem("p.yaml", (text % meant).encode()).diagnostics == ()
+
+
+@pytest.mark.parametrize(
+    ("key", "state"),
+    [("x", "x"), ("x0", "x"), ("x(0)", "x"), ("v0", "x'"), ("x'(0)", "x'"), ("x_dot", "x'")],
+)
+def test_a_state_among_the_settings_of_a_run_stands_under_initial(key, state):
+    text = f'coordinates: [x]\nparameters: [m]\nT: m*x\'^2/2\nsimulation: {{"{key}": 0.1}}\n'
+    [only] = read_problem("p.yaml", text.encode()).diagnostics
+    assert only.hint.endswith(f"write initial: {{{state}: 0.1}}")
