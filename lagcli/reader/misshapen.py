@@ -443,7 +443,7 @@ def as_flow(parts: dict[str, str]) -> str:
 
 def with_entries(given: str, added: str) -> str:
     """`{m, k: 2}` for the section `[m]` and the entry `k: 2`; nothing for a long one or none."""
-    inner = " ".join(given[1:-1].split())
+    inner = " ".join(given[1:-1].split()).rstrip(", ")
     entries = pieces(f"{inner}, {added}" if inner else added, ",")
     parts = {each.partition(":")[0].strip(): each.strip() for each in entries}
     begin, end = "{}" if given[:1] == "{" or ":" in added else "[]"

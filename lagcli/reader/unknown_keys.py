@@ -422,7 +422,9 @@ def _advice(word: str, value: str, what: str, known: tuple[str, ...]) -> str:
     section = what.removeprefix("the ").partition(" ")[0]
     if word in ASSUMPTIONS and word != "real" and "assume" in known:
         return "leave it out" if value.casefold() in _NOT else f"write assume: {word}"
-    if advice := spellings("advice", section).get(letters(word)):
+    of_run = word == "method" and meanings("methods").get(value.casefold(), "")
+    advice = spellings("advice", section).get(letters(word))
+    if advice and not of_run:
         name = value if value.isidentifier() else "N"
         return _counted(advice.replace("{word}", word).replace("{name}", name), word, value)
     return _advice_in_problem(word, value.strip()) if section == "problem" else ""

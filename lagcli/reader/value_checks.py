@@ -63,6 +63,7 @@ def slips(problem: Problem) -> list[Diagnostic]:
         hint = "a kinetic energy is positive, as in m*x'^2/2"
         found.append(_warning("T is negative", kinetic.span, hint))
     found += [] if kinetic is None else _turned_terms(kinetic)
+    found += _terms_in_both(problem)
     if lost is not None and not problem.definitions and _parity(lost, {}) != -1:
         names = {x.name for x in problem.coordinates}
         found += _without_square("the dissipation", lost, names, "c*{0}'^2/2")
@@ -147,6 +148,24 @@ def _masses_beside(problem: Problem) -> Iterator[Diagnostic]:
             message = f"the mass of '{point.name}' is not in {energy}, which is all of the {name}"
             hint = f"add the {name} of '{point.name}' to {energy}, or leave out its mass"
             yield _warning(message, point.mass.span, hint)
+
+
+def _terms_in_both(problem: Problem) -> Iterator[Diagnostic]:
+    """A warning for a term of positions in T that V has as well, with either sign."""
+    moving = {x.name for x in problem.coordinates}
+    potential = terms_of(problem.potential or ZERO)
+    for term in terms_of(problem.kinetic or ZERO):
+        names = [*name_nodes(term)]
+        if not {x.name for x in names} & moving or any(x.primes for x in names):
+            continue
+        negative = term.operand if isinstance(term, Negative) else Negative(term)
+        if term in potential:
+            message = "V has this term of T as well, so that L = T - V has none of it"
+        elif negative in potential:
+            message = "V has this term of T as well, so that L = T - V has it twice"
+        else:
+            continue
+        yield _warning(message, term.span, "leave it out of T: it is an energy of positions")
 
 
 def _turned_terms(kinetic: Expression) -> Iterator[Diagnostic]:

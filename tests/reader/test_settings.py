@@ -125,3 +125,10 @@ def test_a_state_among_the_settings_of_a_run_stands_under_initial(key, state):
     text = f'coordinates: [x]\nparameters: [m]\nT: m*x\'^2/2\nsimulation: {{"{key}": 0.1}}\n'
     [only] = read_problem("p.yaml", text.encode()).diagnostics
     assert only.hint.endswith(f"write initial: {{{state}: 0.1}}")
+
+
+@pytest.mark.parametrize(("word", "method"), [("RK4", "dop853"), ("radau", "radau5")])
+def test_a_method_alone_stands_under_simulation(word, method):
+    text = f"coordinates: [x]\nparameters: [m]\nT: m*x'^2/2\nmethod: {word}\n"
+    [only] = read_problem("p.yaml", text.encode()).diagnostics
+    assert only.hint == f"write simulation: {{method: {method}}}"

@@ -7,6 +7,7 @@ import random
 
 import pytest
 
+from lagcli.reader import read_problem
 from lagcli.reader.sign_meant import sign_meant
 from tests.reader.test_habits import messages, text
 
@@ -224,3 +225,19 @@ def test_an_integer_is_no_description(form, said, sign):
     given = {"coordinates": "[x]", "T": "x'^2/2", "V": "x^2*cos(2*pi*n)"}
     [found] = messages(text(**given, parameters=f"\n  {form.format(said)}"))
     assert "integer: yes" + f", assume: {sign}" * bool(sign) in found
+
+
+@pytest.mark.parametrize(
+    ("T", "V", "rest"),
+    [
+        ("m*x'^2/2 - m*g*x", "-m*g*x", "none of it"),
+        ("m*x'^2/2 - m*g*x", "m*g*x", "it twice"),
+        ("m*x'^2/2 + m*g*x", "k*x^2/2 + m*g*x", "none of it"),
+        ("m*x'^2/2 + k*x^2/2", "m*g*x", None),
+        ("m*x'^2/2 + m*g*x'", "-m*g*x", None),
+    ],
+)
+def test_a_potential_in_t_and_in_v_is_warned_of(T, V, rest):
+    file = f"coordinates: [x]\nparameters: [m, g, k]\nT: {T}\nV: {V}\n"
+    found = [d.message for d in read_problem("p.yaml", file.encode()).diagnostics]
+    assert [m.partition("L = T - V has ")[2] for m in found] == ([rest] if rest else [])
