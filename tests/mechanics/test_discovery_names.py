@@ -601,3 +601,29 @@ def test_a_screw_is_no_rotation(axis, number):
     found = {c.name for c in derivation.discovery.charges}
     assert found == {"energy", f"p_{u}", f"p_{w}", "charge_1"}
     assert f"with sines and cosines of {axis}, polynomial" in derivation.discovery.ansatz
+
+
+ON_A_SPHERE = "(theta{k}'^2 + sin(theta{k})^2*phi{k}'^2)/2"
+
+
+@pytest.mark.parametrize("number", [1, 2])
+def test_rotations_of_bodies_on_spheres_are_their_total_angular_momentum(number):
+    """L = sum m (X x X') of X = (sin(theta) cos(phi), sin(theta) sin(phi), cos(theta))."""
+    ks = range(1, number + 1)
+    T = " + ".join(f"{k + 1}*{ON_A_SPHERE.format(k=k)}" for k in ks)
+    near = "cos(theta1)*cos(theta2) + sin(theta1)*sin(theta2)*cos(phi1 - phi2)"
+    V = near if number == 2 else "0"
+    derivation = derive(
+        f'{{coordinates: [{", ".join(f"theta{k}, phi{k}" for k in ks)}], T: "{T}", V: {V}}}'
+    )
+    system = derivation.system
+    found = {c.name: c.charge for c in derivation.discovery.charges}
+    for name, i, j in (("L_x", 1, 2), ("L_y", 2, 0)):
+        expected = sympy.S.Zero
+        for k in ks:
+            theta, phi = system.q[2 * k - 2 : 2 * k]
+            axis = sympy.sin(theta)
+            X = [axis * sympy.cos(phi), axis * sympy.sin(phi), sympy.cos(theta)]
+            V_ = [system.total_derivative(x) for x in X]
+            expected += (k + 1) * (X[i] * V_[j] - X[j] * V_[i])
+        assert sympy.simplify(found[name] - expected) == 0

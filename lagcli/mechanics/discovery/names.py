@@ -251,7 +251,7 @@ class Naming:
         return f"energy_{'_'.join(moved)}" if alone else "energy_mode"
 
     def _rotation_of_sphere(self, moved: Mapping[Symbol, Expr]) -> str:
-        """L_x: dtheta = -sin phi; L_y: dtheta = cos phi, for latitude and longitude.
+        """L_x: dtheta = -sin phi; L_y: dtheta = cos phi, for latitudes and longitudes.
 
         For Euler's angles phi counts to the line of nodes: dtheta = cos phi and sin phi.
         About the body's own axes it is cos psi and -sin psi: L_1, L_2.
@@ -261,20 +261,20 @@ class Naming:
             if self._is_of_body(tilt, moved):
                 return "L_1" if about_x else "L_2"
             return "L_x" if about_x else "L_y"
-        if not (sphere := self._sphere(moved)):
-            return ""
-        theta, phi = sphere
-        if moved[theta] in (sympy.sin(phi), -sympy.sin(phi)):
-            return "L_x"
-        return "L_y" if moved[theta] in (sympy.cos(phi), -sympy.cos(phi)) else ""
+        phi = Symbol("#phi", real=True)
+        tilts = {moved[theta].xreplace({x: phi}) for theta, x in self._spheres(moved)}
+        for name, f in (("L_x", sympy.sin(phi)), ("L_y", sympy.cos(phi))):
+            if tilts in ({f}, {-f}):
+                return name
+        return ""
 
-    def _sphere(self, moved: Mapping[Symbol, Expr]) -> tuple[Symbol, ...]:
-        """Latitude and longitude, where these are what moves."""
-        angles = sorted(moved, key=lambda y: y not in self.kinds.latitudes)
-        if len(angles) != 2 or not set(angles) <= set(self.kinds.angles):
-            return ()
-        alone = angles[0] in self.kinds.latitudes and angles[1] not in self.kinds.latitudes
-        return tuple(angles) if alone else ()
+    def _spheres(self, moved: Mapping[Symbol, Expr]) -> list[tuple[Symbol, Symbol]]:
+        """Each latitude with its longitude, where these are what moves."""
+        latitudes = [x for x in moved if x in self.kinds.latitudes]
+        others = [x for x in moved if x not in latitudes]
+        pairs = [(x, y) for x in latitudes for y in others if moved[x].free_symbols == {y}]
+        whole = {x for pair in pairs for x in pair} == {*moved} <= {*self.kinds.angles}
+        return pairs if whole and len(pairs) == len(latitudes) == len(others) else []
 
     def _tilt(self, moved: Mapping[Symbol, Expr]) -> Expr | None:
         """dtheta of a rotation of a body about a horizontal axis through its fixed point.
@@ -330,9 +330,9 @@ class Naming:
             return 1 / turned[1]
         if tilt := self._tilt(moved):
             right = bool(tilt.could_extract_minus_sign()) == (name == "L_2")
-        elif sphere := self._sphere(moved):
-            at = dict.fromkeys(sphere, sympy.pi / 4)  # -cot(theta), or -tan of a latitude
-            right = bool(moved[sphere[1]].xreplace(at).is_negative)
+        elif spheres := self._spheres(moved):
+            at = dict.fromkeys(moved, sympy.pi / 4)  # -cot(theta), or -tan of a latitude
+            right = bool(moved[spheres[0][1]].xreplace(at).is_negative)
         else:
             one, other = {"L_x": ("y", "z"), "L_y": ("z", "x"), "L_z": ("x", "y")}[name]
             slopes = (
