@@ -52,8 +52,8 @@ def search_on_surface(
         )
     if turning:
         setting.words.append(
-            "and linear functions of the velocities that turn into each other, by the time or "
-            "by a coordinate, or have an integrating factor"
+            "and linear functions of the velocities that turn into each other at constant rates, "
+            "by the time or by a coordinate, or have an integrating factor"
         )
     known = all_are_known(setting)
     if known:
