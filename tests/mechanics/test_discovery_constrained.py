@@ -15,10 +15,12 @@ from lagcli import load
 from lagcli.algebra import is_zero
 from lagcli.mechanics.derivation import Derivation
 from lagcli.mechanics.discovery.constrained import rank_on_surface
+from lagcli.mechanics.discovery.discovery import Discovery
 from lagcli.mechanics.discovery.limits import Allowance
 from lagcli.mechanics.discovery.summary import summary
 from lagcli.mechanics.discovery.surface import independent_on_surface
 from lagcli.pipeline import explain
+from lagcli.platform.effort import OutOfWork
 from lagcli.reader import parse_text, read_problem
 from tests.solved import solve
 
@@ -586,3 +588,18 @@ def test_products_whose_time_cancels_are_not_listed_on_constraints(pull):
     discovery = derive(text).discovery
     assert discovery.hidden_charges == ()
     assert summary(discovery).independent >= 5
+
+
+def test_what_was_found_is_kept_where_a_later_search_takes_too_much(monkeypatch):
+    def endless(_):
+        raise OutOfWork
+
+    monkeypatch.setattr(Discovery, "_on_surface", endless)
+    text = (
+        "{coordinates: [x, y, theta], parameters: {m: {assume: positive}, J: {assume: positive}}, "
+        "T: \"m*(x'^2 + y'^2)/2 + J*theta'^2/2\", "
+        "constraints: {edge: \"x'*sin(theta) - y'*cos(theta) = 0\"}}"
+    )
+    found = derive(text).discovery
+    assert "energy" in {charge.name for charge in found.charges}
+    assert any("too much work" in each for each in found.stopped)
