@@ -545,6 +545,26 @@ def test_a_dyon_in_parabolic_coordinates_has_its_runge_lenz_vector(chart, power)
         assert abs((found[name] - expected).subs(at).evalf(30)) < 1e-20
 
 
+@pytest.mark.parametrize("F", [0, 3])
+@pytest.mark.parametrize(("chart", "power"), [("parabolic", "^2"), ("squares of parabolic", "")])
+def test_keplers_problem_in_parabolic_coordinates_keeps_the_textbooks_vector(chart, power, F):
+    """A_z = m (v x L)_z - m k z/r, with m F (x^2 + y^2)/2 in a field with V = -F z (Redmond)."""
+    z = f"(u{power} - v{power})/2"
+    L = f"m*({ABOUT_AN_AXIS[chart][1]}) + 2*k/(u{power} + v{power}) + {F}*{z}"
+    derivation = derive(f'{{coordinates: [u, v, f], parameters: {{m: {POS}, k: {POS}}}, L: "{L}"}}')
+    system = derivation.system
+    x, y, z_ = (system.build(parse_text(each)) for each in ABOUT_AN_AXIS[chart][2])
+    X, Y, Z = map(system.total_derivative, (x, y, z_))
+    m, k = system.parameters
+    expected = m**2 * (X * (z_ * X - x * Z) - Y * (y * Z - z_ * Y))
+    expected += m * F * (x**2 + y**2) / 2 - m * k * z_ / sympy.sqrt(x**2 + y**2 + z_**2)
+    sizes = map(sympy.Rational, "19/8 3/7 4/5 1/3 2/7 5/9".split())
+    at = dict(zip((*system.q, *system.qdot), sizes, strict=True))
+    at |= dict.fromkeys(system.parameters, sympy.Rational(6, 5))
+    found = {c.name: c.charge for c in derivation.discovery.charges}
+    assert abs((found["runge_lenz_z"] - expected).subs(at).evalf(30)) < 1e-20
+
+
 @pytest.mark.parametrize("sign", ["+", "-"])
 def test_keplers_problem_on_a_curved_plane_names_its_runge_lenz_vector(sign):
     """Of curvature ±4 in stereographic coordinates, V = -k cot(chi)/2 or -k coth(chi)/2."""

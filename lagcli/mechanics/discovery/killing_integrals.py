@@ -252,7 +252,9 @@ class KillingIntegrals:
         made += [sympy.fraction(a)[0] for a in bare_terms(f, q)]  # Liouville's f(u) + g(v)
         made += [m / root for root in roots_in(f, q) for m in monomials]
         terms = {term for each in (*made, *monomials) for term in bare_terms(each, q)}
-        return sorted((m for m in terms if m != 1), key=sympy.default_sort_key)
+        sums = [x for x in self.frame.X if x.is_Add]  # z/r of xi - eta, before z/r + 1
+        axes = [a * x for a in bare_terms(f, q) if a != 1 for x in sums]
+        return axes + sorted((m for m in terms if m != 1), key=sympy.default_sort_key)
 
     def _collected(self, whole: Expr) -> Expr:
         """One of second degree by the products of the velocities."""
